@@ -1,0 +1,56 @@
+#pragma once
+/// Why a plan was chosen: carried with every plan, logged, shown.
+
+#include <cstdint>
+
+#include "algo/core/bounded.hpp"
+#include "algo/core/status.hpp"
+#include "algo/safety/trajectory_check.hpp"
+#include "algo/trajectory/candidates.hpp"
+
+namespace s4tp {
+
+/// Terms of one candidate's score; the score is the sum, lower is better.
+struct CostBreakdown {
+  float progress = 0.0F;  ///< negative: a reward
+  float speed = 0.0F;
+  float jerk = 0.0F;
+  float lateral = 0.0F;
+  float lane = 0.0F;  ///< offset, distance from the route's lane, lane change
+  float risk = 0.0F;
+  [[nodiscard]] float total() const;
+};
+
+/// The stages of a cycle, in the order the data flows.
+enum class Stage : std::uint8_t {
+  kScene = 0,
+  kCandidates,
+  kPredict,
+  kRank,
+  kExactRisk,
+  kOptimize,
+  kCheck,
+  kExplain,
+  kCount
+};
+inline constexpr int kStageCount = static_cast<int>(Stage::kCount);
+
+struct Explanation {
+  Status status = Status::kOk;
+  std::uint8_t candidate_count = 0;
+  std::uint8_t left_out = 0;
+  Candidate chosen;
+  Candidate runner_up;
+  CostBreakdown chosen_cost;
+  CostBreakdown runner_up_cost;
+  Rejection rejections[kMaxCandidates] = {};
+  std::uint8_t decisions = 0;           ///< how many were predicted with our plan
+  std::uint8_t dominating_track = 255;  ///< track id of the vehicle whose risk is largest; 255: nobody
+  std::uint8_t dominating_step = 0;
+  CheckReport check;
+  bool rss_clipped = false;
+  std::uint16_t work[kStageCount] = {};  ///< units used per stage
+  std::uint32_t parameters_crc = 0;
+};
+
+}  // namespace s4tp

@@ -1,0 +1,75 @@
+#pragma once
+/// One planning cycle: scene -> predict -> risk -> optimize -> check (METHOD section 4).
+/// No heap, no globals, no recursion; every loop bounded; all state in this object.
+
+#include <cstdint>
+
+#include "algo/core/parameters.hpp"
+#include "algo/core/status.hpp"
+#include "algo/core/trajectory.hpp"
+#include "algo/core/world_state.hpp"
+#include "algo/planner/explanation.hpp"
+#include "algo/planner/probe.hpp"
+#include "algo/satp/predictor.hpp"
+#include "algo/scene/scene.hpp"
+
+namespace s4tp {
+
+/// A snapshot of the world at a planning boundary. Pointers are valid during the call only.
+struct PlannerInput {
+  std::uint32_t now_ms = 0;    ///< vehicle time of `ego`
+  std::uint32_t start_ms = 0;  ///< when the plan will take effect; now_ms <= start_ms <= now_ms + 200
+  EgoState ego;
+  TrackList tracks;
+  std::uint32_t tracks_ms = 0;    ///< vehicle time of the track list
+  const LaneMap* map = nullptr;   ///< null: no whole map known
+  const Plan* running = nullptr;  ///< the plan in force, or null
+  std::uint8_t degraded = 0;      ///< 0: all sources well; else drive carefully (lower speed, no lane change)
+};
+
+/// What each stage may spend, in its own work units. The same cut on every target.
+struct WorkAllowance {
+  int candidates = kMaxCandidates;  ///< candidates ranked
+  int decisions = kMaxDecisions;    ///< conditioned predictions
+  int exact_risks = kMaxExactRisk;  ///< exact risk profiles
+  int optimizer_iterations = 16;
+};
+
+class Planner {
+ public:
+  /// Checks the arithmetic and the parameters; forgets all history. \return kOk, kArithmetic,
+  /// kInvalidParameter
+  [[nodiscard]] Status init(const Parameters& parameters);
+
+  /// Plans from the state predicted for input.start_ms. Always writes a plan that can be driven: on kNoLane
+  /// and kNoSafePlan the minimum-risk manoeuvre. \return kOk, kNoLane, kNoSafePlan, kInvalidInput (plan =
+  /// minimum-risk), kNotInitialized (plan untouched)
+  [[nodiscard]] Status plan(const PlannerInput& input, Plan& plan, Explanation& explanation);
+
+  WorkAllowance allowance;
+  Probe* probe = nullptr;  ///< optional; not owned
+
+ private:
+  struct Scored {
+    CostBreakdown cost;
+    Rejection rejection = Rejection::kNone;
+  };
+
+  bool initialized_ = false;
+  Parameters parameters_;
+  std::uint32_t parameters_crc_ = 0;
+  SceneBuilder scene_builder_;
+  Scene scene_;
+  Predictor predictor_;
+  PredictionSet unconditioned_;
+  PredictionSet conditioned_;
+  KinematicSet keep_going_;
+  CandidateList candidates_;
+  Scored scored_[kMaxCandidates];
+  Trajectory scratch_;
+  RiskProfile risk_;
+};
+
+static_assert(sizeof(Planner) <= kPlannerBudgetBytes, "the planner object has outgrown its budget");
+
+}  // namespace s4tp

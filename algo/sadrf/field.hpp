@@ -1,0 +1,47 @@
+#pragma once
+/// Driving risk field of one driver: how strongly each point ahead is felt as "where I am about to be".
+///
+/// \code
+///          . - outer sigma_2 - .
+///   car ==>------ path -------->   a(s) falls from p (v t_la)^2 at the car to 0 at the look-ahead distance
+///          ' - inner sigma_1 - '
+/// \endcode
+/// Source: METHOD section 3 (Kolekar et al. 2020, eq. 1 to 4; the exponent is squared).
+
+#include "algo/core/geometry.hpp"
+#include "algo/core/parameters.hpp"
+
+namespace s4tp {
+
+struct FieldParams {
+  float steepness;       ///< p, 1/m^2 per (unit risk); > 0
+  float look_ahead_s;    ///< t_la; 0.5 .. 8
+  float widening;        ///< m, growth of sigma per metre driven straight; 0 .. 0.2
+  float widening_inner;  ///< k1, extra growth per rad of steering inside the turn
+  float widening_outer;  ///< k2, the same outside
+  float base_width_m;    ///< c, sigma at the car = vehicle width / 4
+};
+
+/// A driver: rear-axle pose, speed >= 0, road-wheel angle, wheelbase > 0.
+struct DriverState {
+  Pose rear_axle;
+  float speed_mps;
+  float steering_rad;
+  float wheelbase_m;
+};
+
+/// Presets of METHOD section 3; c = width / 4.
+[[nodiscard]] FieldParams paper_preset(float vehicle_width_m);
+[[nodiscard]] FieldParams kolekar2020_preset(float vehicle_width_m);
+/// The field of Parameters::risk.
+[[nodiscard]] FieldParams field_params(const Parameters& parameters, float vehicle_width_m);
+
+/// t_la' at `t_s` into the horizon: max(t_la - t, 1 s), or t_la when `shrinks` is false.
+[[nodiscard]] float look_ahead_at(float look_ahead_s, bool shrinks, float t_s);
+
+/// Risk density at a point.
+/// \return >= 0; exactly 0 behind the car, beyond the look-ahead distance, and for speed 0 beyond 1 m
+/// \note no failure; bounded work: one sqrt, one atan2, one exp
+[[nodiscard]] float field_at(const FieldParams& params, const DriverState& driver, Point point_m);
+
+}  // namespace s4tp

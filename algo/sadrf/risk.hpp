@@ -1,0 +1,36 @@
+#pragma once
+/// Risk of a trajectory: the field of a driver times the cost of what is there, per instant (METHOD section
+/// 3).
+
+#include <cstdint>
+
+#include "algo/core/parameters.hpp"
+#include "algo/core/trajectory.hpp"
+#include "algo/satp/prediction.hpp"
+#include "algo/scene/scene.hpp"
+
+namespace s4tp {
+
+/// Risk per future step, parts kept apart; index i is step i + 1 of the trajectory.
+struct RiskProfile {
+  float obstacle[kHorizonSteps];  ///< R_ego, vehicles: our field on their boxes
+  float road[kHorizonSteps];      ///< R_ego, road: our field off the drivable area and on opposite lanes
+  float social[kHorizonSteps];    ///< R_soc: their fields on our box, unweighted
+  std::uint8_t dominating_agent = 255;  ///< whose share of any one step is largest; 255: nobody
+  std::uint8_t dominating_step = 0;
+};
+
+/// dt * sum_t [R(t) + w_x max(0, R_obs(t) - C_t)], R = R_ego + w_soc R_soc (METHOD 4.4).
+[[nodiscard]] float risk_integral(const RiskProfile& profile, const Parameters& parameters);
+
+/// All modes and steps, both sides. `others` covers agents beyond the predicted ones.
+/// Work: at most kHorizonSteps * (kMaxAgents * kMaxModes + kMaxTracks) boxes.
+void exact_risk(const Scene& scene, const PredictionSet& prediction, const KinematicSet& others,
+                const Trajectory& trajectory, const Parameters& parameters, RiskProfile& profile);
+
+/// Cheap approximation of risk_integral for ranking: expected mode, every third step, closed form across
+/// (difference of erf) and two points along, culled by distance.
+[[nodiscard]] float rank_risk(const Scene& scene, const PredictionSet& prediction, const KinematicSet& others,
+                              const Trajectory& trajectory, const Parameters& parameters);
+
+}  // namespace s4tp

@@ -1,0 +1,39 @@
+#pragma once
+/// Responsibility-sensitive safety as a response (METHOD 4.6): from tracks and map alone, never predictions.
+/// Source: Shalev-Shwartz et al. 2017, definitions 1, 6 and the proper response.
+///
+/// \code
+///   rear --v_r-->  [   d_long   ]  front --v_f-->     safe: gap >= d_long(v_r, v_f)
+/// \endcode
+
+#include <cstdint>
+
+#include "algo/core/parameters.hpp"
+#include "algo/core/trajectory.hpp"
+#include "algo/scene/scene.hpp"
+
+namespace s4tp {
+
+/// What we may do while a situation is unsafe. No restriction: the vehicle's own limits.
+struct RssEnvelope {
+  float acceleration_max_mps2;  ///< upper bound; negative: a braking that is due
+  float lateral_left_max_mps;   ///< largest lateral speed to the left (relative to our lane); 0: none
+  float lateral_right_max_mps;
+  bool active = false;       ///< any restriction
+  std::uint8_t agent = 255;  ///< who caused the strictest one
+};
+
+/// Smallest safe longitudinal distance of a follower behind a leader, same direction [m] (definition 1).
+[[nodiscard]] float safe_distance_m(float rear_speed_mps, float front_speed_mps,
+                                    const Parameters& parameters);
+
+/// Smallest safe lateral distance, speeds positive towards each other [m].
+[[nodiscard]] float safe_lateral_m(float speed_a_mps, float speed_b_mps, const Parameters& parameters);
+
+/// The proper response to every unsafe pair now.
+[[nodiscard]] RssEnvelope rss_envelope(const Scene& scene, const Parameters& parameters);
+
+/// Clips the trajectory to the envelope, keeping its path. \return whether anything changed
+bool clip_to_envelope(const RssEnvelope& envelope, const Parameters& parameters, Trajectory& trajectory);
+
+}  // namespace s4tp

@@ -1,0 +1,39 @@
+#pragma once
+/// Last look at a trajectory before it becomes the plan (METHOD 4.6).
+
+#include <cstdint>
+
+#include "algo/core/parameters.hpp"
+#include "algo/core/trajectory.hpp"
+#include "algo/satp/prediction.hpp"
+#include "algo/scene/scene.hpp"
+
+namespace s4tp {
+
+enum class CheckResult : std::uint8_t {
+  kPassed = 0,      ///< CHECK-001
+  kNotFinite = 1,   ///< CHECK-002 a value is NaN or infinite
+  kInfeasible = 2,  ///< CHECK-003 beyond the vehicle's limits
+  kCollision = 3,   ///< CHECK-004 overlaps a predicted vehicle
+  kTerminal = 4,    ///< CHECK-005 the end is not safe for ever
+};
+
+struct CheckReport {
+  CheckResult result = CheckResult::kPassed;
+  std::uint8_t agent = 255;  ///< whom it would hit
+  std::uint8_t step = 0;     ///< and when
+};
+
+/// Finite, feasible, no collision with the modes without plan, the conditioned modes, and "keeps doing what
+/// it does" over the first 1.5 s. A yielding mode counts only for a vehicle without right of way, or one
+/// already braking for us. `ego_path` as in terminal_safe.
+[[nodiscard]] CheckReport check_trajectory(const Scene& scene, int ego_path, const Trajectory& trajectory,
+                                           const PredictionSet& unconditioned,
+                                           const PredictionSet& conditioned, const KinematicSet& keep_going,
+                                           const Parameters& parameters);
+
+/// First collision of `trajectory` with one future of one agent, or -1.
+[[nodiscard]] int first_collision(const Trajectory& trajectory, const Mode& mode, const Track& track,
+                                  int steps, float margin_m, const Parameters& parameters);
+
+}  // namespace s4tp

@@ -1,0 +1,36 @@
+#pragma once
+/// What others will do: the result every predictor gives.
+
+#include <cstdint>
+
+#include "algo/core/bounded.hpp"
+#include "algo/core/config.hpp"
+#include "algo/core/geometry.hpp"
+
+namespace s4tp {
+
+/// One future of one vehicle; steps[i] is its box centre at (i + 1) * kStepS after the scene's plan start.
+struct Mode {
+  float probability = 0.0F;
+  bool yields = false;  ///< this future brakes for us
+  Pose steps[kHorizonSteps];
+};
+
+/// The futures of one vehicle. Probabilities of the modes add up to 1.
+struct AgentPrediction {
+  std::uint8_t agent = 0;  ///< index into Scene::agents
+  BoundedVector<Mode, kMaxModes> modes;
+};
+
+/// Futures of the watched vehicles, in the order of Scene::agents.
+struct PredictionSet {
+  bool conditioned = false;  ///< on our plan
+  BoundedVector<AgentPrediction, kMaxAgents> agents;
+};
+
+/// The single kinematic future of every vehicle ("keeps doing what it does": lane, speed), for the check.
+struct KinematicSet {
+  BoundedVector<Mode, kMaxTracks> agents;  ///< in the order of Scene::agents
+};
+
+}  // namespace s4tp

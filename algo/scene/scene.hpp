@@ -1,0 +1,101 @@
+#pragma once
+/// The world as the planner sees it: who is there, where they may go, and where ways cross.
+/// Written by SceneBuilder once a cycle, read by every later stage.
+
+#include <cstdint>
+
+#include "algo/core/parameters.hpp"
+#include "algo/core/world_state.hpp"
+#include "algo/scene/lane_path.hpp"
+
+namespace s4tp {
+
+/// The past of one vehicle on the dt grid, oldest first; `valid` is the mask (METHOD 2: never x == 0).
+struct History {
+  struct Sample {
+    Pose pose;  ///< rear axle for us, box centre for others
+    float speed_mps = 0.0F;
+  };
+  Sample samples[kHistorySamples];
+  std::uint16_t valid = 0;  ///< bit i: samples[i] was seen
+};
+
+/// A vehicle as of the scene's time (tracks are brought forward from the list's time).
+struct Agent {
+  Track track;
+  std::uint16_t age_ms = 0;  ///< since it was last in a list; coasted meanwhile
+  LaneIndex lane = kNoLaneIndex;
+  BoundedVector<LanePath, kPathsPerAgent> paths;  ///< ways it may go; the first is the likeliest
+  Frenet frenet[kPathsPerAgent];                  ///< of its centre along each path
+  History history;
+};
+
+/// Where our path and another lane share ground.
+struct ConflictZone {
+  float entry_s_m = 0.0F;  ///< on our path, of our box centre
+  float exit_s_m = 0.0F;
+  float stop_s_m = 0.0F;  ///< where our front bumper must stand to wait for it
+  LaneIndex other_lane = kNoLaneIndex;
+  float other_entry_m = 0.0F;  ///< on the other lane
+  float other_exit_m = 0.0F;
+  Priority priority = Priority::kFirstCome;  ///< seen from us: kFirstYields = we yield
+};
+
+/// How the ego may use a lane beside or under it.
+enum class Manoeuvre : std::uint8_t { kKeep = 0, kLeft = 1, kRight = 2 };
+
+/// One way we may go: along our lane or a neighbour, then along the route.
+struct EgoPath {
+  Manoeuvre manoeuvre = Manoeuvre::kKeep;
+  LanePath path;
+  Frenet frenet;                   ///< of our rear axle
+  std::int8_t changes_needed = 0;  ///< from that lane to the route's
+  float route_end_s_m = 0.0F;      ///< where a lane change must be finished, or the path's end
+  float goal_s_m = 0.0F;           ///< where the goal lies along it
+  BoundedVector<ConflictZone, kMaxPathZones> zones;
+};
+
+/// Everything one planning cycle knows of the world.
+struct Scene {
+  std::uint32_t time_ms = 0;  ///< the instant all poses are given for
+  EgoState ego;
+  History ego_history;
+  BoundedVector<EgoPath, 3> ego_paths;      ///< keep first; none when no lane is under us
+  BoundedVector<Agent, kMaxTracks> agents;  ///< the first `watched` are the relevant ones
+  int watched = 0;                          ///< <= kMaxAgents, predicted with interaction
+  const LaneMap* map = nullptr;             ///< valid during the cycle only
+};
+
+/// Which vehicles SATP watches (METHOD 4.0).
+enum class Relevance : std::uint8_t { kInteraction = 0, kNearest = 1 };
+
+/// Builds scenes; its only state is the tracks' past.
+class SceneBuilder {
+ public:
+  /// Forgets every track.
+  void reset();
+
+  /// \param list_time_ms  vehicle time of `tracks`; tracks older than 500 ms are coasted, then dropped
+  /// (CORE-030) \param map           may be null or empty: the scene then has no ego paths and the status
+  /// says so \return kOk, or kNoLane (the scene is still usable for a minimum-risk manoeuvre)
+  [[nodiscard]] Status build(std::uint32_t time_ms, const EgoState& ego, const TrackList& tracks,
+                             std::uint32_t list_time_ms, const LaneMap* map, const Parameters& parameters,
+                             Scene& scene);
+
+  Relevance relevance = Relevance::kInteraction;
+
+ private:
+  struct Past {
+    Track track;
+    std::uint32_t seen_ms = 0;
+    std::uint32_t updated_ms = 0;
+    LaneIndex lane = kNoLaneIndex;
+    History history;
+  };
+  BoundedVector<Past, kMaxTracks> past_;
+  History ego_history_;
+  std::uint32_t last_ms_ = 0;
+  LaneIndex ego_lane_ = kNoLaneIndex;
+};
+
+}  // namespace s4tp

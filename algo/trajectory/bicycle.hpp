@@ -1,0 +1,25 @@
+#pragma once
+/// Kinematic bicycle: the motion model of plans, predictions of ourselves and the minimum-risk manoeuvre.
+
+#include "algo/core/parameters.hpp"
+#include "algo/core/trajectory.hpp"
+
+namespace s4tp {
+
+/// One midpoint step of `duration_s` at constant acceleration and curvature rate; speed stops at 0.
+[[nodiscard]] TrajectoryPoint bicycle_step(const TrajectoryPoint& state, float acceleration_mps2,
+                                           float curvature_rate_1pms, float duration_s);
+
+/// Road-wheel angle for a path curvature and back.
+[[nodiscard]] float steering_for(float curvature_1pm, float wheelbase_m);
+[[nodiscard]] float curvature_for(float steering_rad, float wheelbase_m);
+
+/// Our box when the rear axle stands at `rear_axle`.
+[[nodiscard]] Box ego_box(const Pose& rear_axle, const Parameters& parameters);
+/// Distance from the rear axle to the box centre [m].
+[[nodiscard]] float rear_axle_to_centre_m(const Parameters& parameters);
+
+/// Curvature, lateral acceleration, steering angle and rate, acceleration within the vehicle's limits.
+[[nodiscard]] bool feasible(const Trajectory& trajectory, const Parameters& parameters);
+
+}  // namespace s4tp

@@ -1,0 +1,69 @@
+#pragma once
+/// The track list on the wire: a header (TrackList) and two members a track (TrackPose, TrackMotion), all of
+/// one generation. WIRE-020 A list counts only when whole; until then the previous one stands and ages.
+
+#include <cstdint>
+
+#include "firmware/wire/e2e.hpp"
+#include "firmware/wire/frame.hpp"
+
+namespace s4tp::wire {
+
+inline constexpr int kMaxTracks = 16;
+
+struct Track {
+  std::uint8_t id = 0;
+  float x_m = 0.0F;  ///< box centre
+  float y_m = 0.0F;
+  float heading_rad = 0.0F;
+  float speed_mps = 0.0F;
+  float acceleration_mps2 = 0.0F;
+  float yaw_rate_radps = 0.0F;
+  float length_m = 0.0F;
+  float width_m = 0.0F;
+};
+
+struct Tracks {
+  std::uint16_t vehicle_time_ms = 0;
+  std::uint8_t count = 0;
+  std::uint8_t left_out = 0;
+  Track items[kMaxTracks];
+};
+
+/// Sends lists: call start() with a new one, then next() until it answers false.
+class TrackListSender {
+ public:
+  void start(const Tracks& tracks);
+  [[nodiscard]] bool next(Frame& frame);
+
+ private:
+  Tracks tracks_;
+  E2eSender header_;
+  std::uint8_t generation_ = 0;
+  int sent_ = 0;
+  int total_ = 0;
+};
+
+/// Puts lists together.
+class TrackListReceiver {
+ public:
+  /// Takes a frame of one of the three messages. \return whether a list has just become whole
+  [[nodiscard]] bool accept(const Frame& frame);
+  /// The newest whole list; meaningful once accept() has answered true.
+  [[nodiscard]] const Tracks& tracks() const { return whole_; }
+  [[nodiscard]] std::uint16_t broken_lists() const { return broken_; }  ///< replaced before they were whole
+  [[nodiscard]] std::uint16_t rejected_frames() const { return rejected_; }
+
+ private:
+  Tracks whole_;
+  Tracks assembling_;
+  E2eReceiver header_;
+  std::uint8_t generation_ = 0xFF;
+  bool header_seen_ = false;
+  std::uint16_t poses_ = 0;  ///< bit i: TrackPose i arrived
+  std::uint16_t motions_ = 0;
+  std::uint16_t broken_ = 0;
+  std::uint16_t rejected_ = 0;
+};
+
+}  // namespace s4tp::wire
