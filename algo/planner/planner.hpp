@@ -8,8 +8,10 @@
 #include "algo/core/status.hpp"
 #include "algo/core/trajectory.hpp"
 #include "algo/core/world_state.hpp"
+#include "algo/planner/decision.hpp"
 #include "algo/planner/explanation.hpp"
 #include "algo/planner/probe.hpp"
+#include "algo/sadrf/risk.hpp"
 #include "algo/satp/predictor.hpp"
 #include "algo/scene/scene.hpp"
 
@@ -50,24 +52,39 @@ class Planner {
   Probe* probe = nullptr;  ///< optional; not owned
 
  private:
-  struct Scored {
-    CostBreakdown cost;
-    Rejection rejection = Rejection::kNone;
-  };
+  void forget_scene();
+  void predict(Explanation& explanation);
+  /// Scores every candidate against the predictions without plan and shortlists the decisions.
+  void rank(bool careful, Explanation& explanation);
+  /// Evaluates the shortlisted decisions with the predictions they bring about; leaves the best in chosen_.
+  [[nodiscard]] Status choose(Explanation& explanation);
+  /// Rolls candidate `index` out into chosen_, predicts for it, checks it and computes its exact risk.
+  [[nodiscard]] bool evaluate(int index, Explanation& explanation);
+  [[nodiscard]] Rejection judge(int path, const PredictionSet& conditioned, CheckReport& report) const;
+  void refine(int path, Explanation& explanation);
 
   bool initialized_ = false;
   Parameters parameters_;
   std::uint32_t parameters_crc_ = 0;
   SceneBuilder scene_builder_;
-  Scene scene_;
   Predictor predictor_;
+
+  // One cycle's data, in the order it flows.
+  std::uint32_t start_ms_ = 0;
+  Plan running_;
+  Scene scene_;
+  TrajectoryPoint start_;
   PredictionSet unconditioned_;
-  PredictionSet conditioned_;
   KinematicSet keep_going_;
   CandidateList candidates_;
-  Scored scored_[kMaxCandidates];
-  Trajectory scratch_;
+  CostBreakdown costs_[kMaxCandidates];
+  DecisionList decisions_;
+  bool keeps_plan_ = false;  ///< the running plan is among the candidates, as decision plan_key_
+  DecisionKey plan_key_ = 0;
+  PredictionSet conditioned_;
   RiskProfile risk_;
+  Trajectory chosen_;
+  Trajectory refined_;
 };
 
 static_assert(sizeof(Planner) <= kPlannerBudgetBytes, "the planner object has outgrown its budget");

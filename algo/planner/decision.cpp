@@ -1,0 +1,61 @@
+#include "algo/planner/decision.hpp"
+
+namespace s4tp {
+namespace {
+
+constexpr int kZoneBit = 2;  // two bits of path
+constexpr int kVehicleBit = kZoneBit + kMaxPathZones;
+static_assert(kVehicleBit + kMaxAgents <= 32, "a decision key is 32 bits");
+
+}  // namespace
+
+DecisionKey decision_key(const Scene& scene, int path_index, const Trajectory& trajectory,
+                         const PredictionSet& unconditioned) {
+  const EgoPath& path = scene.ego_paths[path_index];
+  const Pose& end = trajectory.points[kHorizonSteps].rear_axle;
+  float reached_m = path.frenet.s_m;
+  for (int i = 1; i < kTrajectoryPoints; ++i) {
+    reached_m = reached_m + kStepS * trajectory.points[i].speed_mps;
+  }
+
+  DecisionKey key = static_cast<DecisionKey>(path_index);
+  for (int i = 0; i < path.zones.size(); ++i) {
+    if (reached_m > path.zones[i].entry_s_m) key |= DecisionKey{1} << (kZoneBit + i);
+  }
+  for (int i = 0; i < unconditioned.agents.size(); ++i) {
+    const AgentPrediction& agent = unconditioned.agents[i];
+    if (agent.modes.empty()) continue;
+    const Point there = position(agent.modes[0].steps[kHorizonSteps - 1]);
+    if (to_local(end, there).x_m < 0.0F) key |= DecisionKey{1} << (kVehicleBit + i);
+  }
+  return key;
+}
+
+void DecisionList::offer(DecisionKey key, int candidate, float score) {
+  const Decision offered{key, static_cast<std::uint8_t>(candidate), score};
+  for (Decision& decision : decisions_) {
+    if (decision.key != key) continue;
+    if (score < decision.score) decision = offered;
+    return;
+  }
+  const bool kept = decisions_.push(offered);
+  S4TP_ASSERT(kept);  // there are no more decisions than candidates
+}
+
+void DecisionList::shortlist(int count, bool has_must_keep, DecisionKey must_keep) {
+  for (int i = 1; i < decisions_.size(); ++i) {  // insertion sort: at most 24 entries
+    const Decision moving = decisions_[i];
+    int j = i;
+    for (; j > 0 && moving.score < decisions_[j - 1].score; --j) decisions_[j] = decisions_[j - 1];
+    decisions_[j] = moving;
+  }
+  if (decisions_.size() <= count || count <= 0) return;
+  if (has_must_keep) {
+    for (int i = count; i < decisions_.size(); ++i) {
+      if (decisions_[i].key == must_keep) decisions_[count - 1] = decisions_[i];
+    }
+  }
+  decisions_.truncate(count);
+}
+
+}  // namespace s4tp

@@ -1,0 +1,43 @@
+#pragma once
+/// Decisions: which candidates are worth a prediction conditioned on them (METHOD 4.3). A decision is a
+/// target lane and an order of passing; candidates that share both differ in comfort only.
+
+#include <cstdint>
+
+#include "algo/core/bounded.hpp"
+#include "algo/core/trajectory.hpp"
+#include "algo/satp/prediction.hpp"
+#include "algo/scene/scene.hpp"
+
+namespace s4tp {
+
+/// Target path in the low bits, then one bit a conflict zone (we enter it within the horizon), then one bit a
+/// watched vehicle (we end ahead of it).
+using DecisionKey = std::uint32_t;
+
+[[nodiscard]] DecisionKey decision_key(const Scene& scene, int path, const Trajectory& trajectory,
+                                       const PredictionSet& unconditioned);
+
+/// A candidate that stands for its decision.
+struct Decision {
+  DecisionKey key = 0;
+  std::uint8_t candidate = 0;
+  float score = 0.0F;
+};
+
+/// The best candidate of each decision, cheapest decisions first.
+class DecisionList {
+ public:
+  /// Offers a candidate; kept when it is the best of its decision so far.
+  void offer(DecisionKey key, int candidate, float score);
+  /// Keeps at most `count`, cheapest first, but never drops `must_keep` when it is there.
+  void shortlist(int count, bool has_must_keep, DecisionKey must_keep);
+  [[nodiscard]] int size() const { return decisions_.size(); }
+  [[nodiscard]] const Decision& operator[](int index) const { return decisions_[index]; }
+  void clear() { decisions_.clear(); }
+
+ private:
+  BoundedVector<Decision, kMaxCandidates> decisions_;
+};
+
+}  // namespace s4tp

@@ -1,0 +1,9 @@
+#include "algo/planner/explanation.hpp"
+
+namespace s4tp {
+
+float CostBreakdown::total() const {
+  return progress + speed + jerk + lateral + lane + risk;
+}
+
+}  // namespace s4tp

@@ -1,0 +1,271 @@
+#include "algo/planner/planner.hpp"
+
+#include "algo/core/math.hpp"
+#include "algo/core/self_test.hpp"
+#include "algo/planner/scoring.hpp"
+#include "algo/safety/minimum_risk.hpp"
+#include "algo/safety/rss.hpp"
+#include "algo/safety/terminal.hpp"
+#include "algo/trajectory/bicycle.hpp"
+#include "algo/trajectory/optimizer.hpp"
+
+namespace s4tp {
+namespace {
+
+constexpr std::uint32_t kMaxLeadMs = 200;  // plan start after the snapshot
+constexpr std::uint8_t kNobody = 255;
+
+/// Tells the probe about one stage, from construction to the end of the scope.
+class StageScope {
+ public:
+  StageScope(Probe* probe, Stage stage) : probe_(probe), stage_(stage) {
+    if (probe_ != nullptr) probe_->stage_begin(stage_);
+  }
+  ~StageScope() {
+    if (probe_ != nullptr) probe_->stage_end(stage_);
+  }
+  StageScope(const StageScope&) = delete;
+  StageScope& operator=(const StageScope&) = delete;
+
+ private:
+  Probe* probe_;
+  Stage stage_;
+};
+
+bool within(float x, float low, float high) {
+  return is_finite(x) && x >= low && x <= high;
+}
+
+bool valid(const Pose& pose) {
+  return is_finite(pose.x_m) && is_finite(pose.y_m) && within(pose.heading_rad, -kPi, kPi);
+}
+
+bool valid(const EgoState& ego) {
+  return valid(ego.rear_axle) && within(ego.speed_mps, 0.0F, 60.0F) &&
+         within(ego.acceleration_mps2, -12.0F, 12.0F) && within(ego.yaw_rate_radps, -2.1F, 2.1F) &&
+         within(ego.steering_rad, -0.8F, 0.8F);
+}
+
+bool valid(const Track& track) {
+  return valid(track.centre) && within(track.speed_mps, 0.0F, 61.0F) &&
+         within(track.acceleration_mps2, -13.0F, 13.0F) && within(track.yaw_rate_radps, -1.3F, 1.3F) &&
+         within(track.length_m, 0.5F, 26.0F) && within(track.width_m, 0.3F, 3.2F);
+}
+
+bool valid(const PlannerInput& input) {
+  if (!valid(input.ego) || input.start_ms - input.now_ms > kMaxLeadMs) return false;
+  for (const Track& track : input.tracks) {
+    if (!valid(track)) return false;
+  }
+  return true;
+}
+
+void count(Explanation& explanation, Stage stage, int work) {
+  std::uint16_t& total = explanation.work[static_cast<int>(stage)];
+  total = static_cast<std::uint16_t>(total + work);
+}
+
+}  // namespace
+
+Status Planner::init(const Parameters& parameters) {
+  initialized_ = false;
+  int first_bad = 0;
+  Status status = arithmetic_self_test();
+  if (status == Status::kOk) status = validate(parameters, first_bad);
+  if (status != Status::kOk) return status;
+  parameters_ = parameters;
+  parameters_crc_ = s4tp::parameters_crc(parameters);
+  scene_builder_.reset();
+  initialized_ = true;
+  return Status::kOk;
+}
+
+Status Planner::plan(const PlannerInput& input, Plan& plan, Explanation& explanation) {
+  if (!initialized_) return Status::kNotInitialized;
+  explanation = Explanation{};
+  explanation.parameters_crc = parameters_crc_;
+  running_ = input.running != nullptr ? *input.running : Plan{};
+  start_ms_ = input.start_ms;
+
+  conditioned_.agents.clear();
+  risk_ = RiskProfile{};
+
+  Status status = Status::kInvalidInput;
+  if (valid(input)) {
+    {
+      const StageScope scope(probe, Stage::kScene);
+      status = scene_builder_.build(input.now_ms, input.ego, input.tracks, input.tracks_ms, input.map,
+                                    parameters_, scene_);
+      count(explanation, Stage::kScene, scene_.agents.size());
+    }
+    start_ = plan_start(input.ego, input.now_ms, running_, start_ms_, parameters_);
+    if (status == Status::kOk) {
+      predict(explanation);
+      rank(input.degraded != 0, explanation);
+      status = choose(explanation);
+    }
+  } else {
+    forget_scene();  // nothing of a broken input may be used
+    start_ = sample(running_, start_ms_);
+  }
+  if (status != Status::kOk) {
+    minimum_risk(scene_, start_, running_, start_ms_, parameters_, chosen_);
+  } else {
+    const RssEnvelope envelope = rss_envelope(scene_, parameters_);
+    explanation.rss_clipped = clip_to_envelope(envelope, parameters_, chosen_);
+  }
+
+  plan.kind = status == Status::kOk ? PlanKind::kDrive : PlanKind::kMinimumRisk;
+  plan.start_ms = start_ms_;
+  plan.trajectory = chosen_;
+  explanation.status = status;
+  if (probe != nullptr) probe->cycle_done(scene_, conditioned_, risk_);
+  return status;
+}
+
+void Planner::forget_scene() {
+  scene_.ego_paths.clear();
+  scene_.agents.clear();
+  scene_.watched = 0;
+  scene_.map = nullptr;
+}
+
+void Planner::predict(Explanation& explanation) {
+  const StageScope scope(probe, Stage::kPredict);
+  predictor_.encode(scene_, parameters_, start_ms_);
+  predictor_.decode(nullptr, unconditioned_);
+  predictor_.keep_going(keep_going_);
+  count(explanation, Stage::kPredict, predictor_.work());
+}
+
+void Planner::rank(bool careful, Explanation& explanation) {
+  int left_out = 0;
+  {
+    const StageScope scope(probe, Stage::kCandidates);
+    generate_candidates(scene_, start_, running_, start_ms_, parameters_, candidates_, left_out);
+    if (candidates_.size() > allowance.candidates) {
+      left_out = left_out + candidates_.size() - allowance.candidates;
+      candidates_.truncate(allowance.candidates);
+    }
+    explanation.left_out = static_cast<std::uint8_t>(to_int(static_cast<float>(left_out), 0, 255));
+    explanation.candidate_count = static_cast<std::uint8_t>(candidates_.size());
+    count(explanation, Stage::kCandidates, candidates_.size());
+  }
+
+  const StageScope scope(probe, Stage::kRank);
+  decisions_.clear();
+  keeps_plan_ = false;
+  for (int i = 0; i < candidates_.size(); ++i) {
+    const Candidate& candidate = candidates_[i];
+    const bool leaves_lane = scene_.ego_paths[candidate.path].manoeuvre != Manoeuvre::kKeep;
+    const bool previous = candidate.intent == Intent::kPrevious;
+    if (careful && leaves_lane && !previous) {
+      explanation.rejections[i] = Rejection::kLeftOut;
+      continue;
+    }
+    roll_out(scene_, candidate, start_, running_, start_ms_, parameters_, chosen_);
+    explanation.rejections[i] = judge(candidate.path, conditioned_, explanation.check);
+    if (explanation.rejections[i] != Rejection::kNone) continue;
+    costs_[i] = score_motion(scene_, candidate.path, chosen_, previous, careful, parameters_);
+    costs_[i].risk =
+        parameters_.scoring.risk * rank_risk(scene_, unconditioned_, keep_going_, chosen_, parameters_);
+    const DecisionKey key = decision_key(scene_, candidate.path, chosen_, unconditioned_);
+    if (previous) {
+      keeps_plan_ = true;
+      plan_key_ = key;
+    }
+    decisions_.offer(key, i, costs_[i].total());
+    count(explanation, Stage::kRank, 1);
+  }
+  decisions_.shortlist(allowance.decisions, keeps_plan_, plan_key_);
+}
+
+Rejection Planner::judge(int path, const PredictionSet& conditioned, CheckReport& report) const {
+  report = check_trajectory(scene_, path, chosen_, unconditioned_, conditioned, keep_going_, parameters_);
+  switch (report.result) {
+    case CheckResult::kPassed:
+      return Rejection::kNone;
+    case CheckResult::kCollision:
+      return Rejection::kCollision;
+    case CheckResult::kTerminal:
+      return Rejection::kTerminal;
+    case CheckResult::kNotFinite:
+    case CheckResult::kInfeasible:
+      break;
+  }
+  return Rejection::kInfeasible;
+}
+
+Status Planner::choose(Explanation& explanation) {
+  int best = -1;
+  int second = -1;
+  for (int i = 0; i < decisions_.size(); ++i) {
+    const int index = decisions_[i].candidate;
+    if (!evaluate(index, explanation)) continue;
+    ++explanation.decisions;
+    if (best < 0 || costs_[index].total() < costs_[best].total()) {
+      second = best;
+      best = index;
+    } else if (second < 0 || costs_[index].total() < costs_[second].total()) {
+      second = index;
+    }
+  }
+  if (best < 0) return Status::kNoSafePlan;
+
+  // The last one evaluated is what the buffers hold; the best one goes through again before it is refined.
+  if (!evaluate(best, explanation)) return Status::kNoSafePlan;
+  refine(candidates_[best].path, explanation);
+
+  const StageScope scope(probe, Stage::kExplain);
+  explanation.chosen = candidates_[best];
+  explanation.chosen_cost = costs_[best];
+  if (second >= 0) {
+    explanation.runner_up = candidates_[second];
+    explanation.runner_up_cost = costs_[second];
+  }
+  if (risk_.dominating_agent != kNobody && risk_.dominating_agent < scene_.agents.size()) {
+    explanation.dominating_track = scene_.agents[risk_.dominating_agent].track.id;
+    explanation.dominating_step = risk_.dominating_step;
+  }
+  return Status::kOk;
+}
+
+bool Planner::evaluate(int index, Explanation& explanation) {
+  const Candidate& candidate = candidates_[index];
+  roll_out(scene_, candidate, start_, running_, start_ms_, parameters_, chosen_);
+  {
+    const StageScope scope(probe, Stage::kPredict);
+    const int before = predictor_.work();
+    predictor_.decode(&chosen_, conditioned_);
+    count(explanation, Stage::kPredict, predictor_.work() - before);
+  }
+  {
+    const StageScope scope(probe, Stage::kCheck);
+    explanation.rejections[index] = judge(candidate.path, conditioned_, explanation.check);
+    count(explanation, Stage::kCheck, 1);
+    if (explanation.rejections[index] != Rejection::kNone) return false;
+  }
+  const StageScope scope(probe, Stage::kExactRisk);
+  exact_risk(scene_, conditioned_, keep_going_, chosen_, parameters_, risk_);
+  costs_[index].risk = parameters_.scoring.risk * risk_integral(risk_, parameters_);
+  count(explanation, Stage::kExactRisk, 1);
+  return true;
+}
+
+void Planner::refine(int path, Explanation& explanation) {
+  refined_ = chosen_;
+  {
+    const StageScope scope(probe, Stage::kOptimize);
+    const OptimizerResult result =
+        optimize(scene_, conditioned_, parameters_, allowance.optimizer_iterations, refined_);
+    count(explanation, Stage::kOptimize, result.iterations);
+  }
+  const StageScope scope(probe, Stage::kCheck);
+  count(explanation, Stage::kCheck, 1);
+  // A refinement that does not pass is dropped: what it started from has passed.
+  const CheckReport report =
+      check_trajectory(scene_, path, refined_, unconditioned_, conditioned_, keep_going_, parameters_);
+  if (report.result == CheckResult::kPassed) chosen_ = refined_;
+}
+
+}  // namespace s4tp
