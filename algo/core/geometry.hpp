@@ -37,8 +37,8 @@ struct Box {
 /// `point` seen from `frame`: x ahead, y left.
 [[nodiscard]] Point to_local(const Pose& frame, Point point);
 
-/// Separating-axis test of two oriented boxes, each side grown by `margin_m` in all. \return true when they
-/// touch
+/// Separating-axis test of two oriented boxes. \return true when no axis shows a gap larger than `margin_m`,
+/// as if one of them were grown by it on every side
 [[nodiscard]] bool overlap(const Box& a, const Box& b, float margin_m);
 /// Lower bound of the distance between two boxes, by their separating axes [m]; <= 0 when they overlap.
 [[nodiscard]] float separation(const Box& a, const Box& b);

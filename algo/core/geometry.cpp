@@ -1,0 +1,74 @@
+#include "algo/core/geometry.hpp"
+
+#include "algo/core/math.hpp"
+
+namespace s4tp {
+
+Point operator+(Point a, Point b) {
+  return {a.x_m + b.x_m, a.y_m + b.y_m};
+}
+Point operator-(Point a, Point b) {
+  return {a.x_m - b.x_m, a.y_m - b.y_m};
+}
+Point operator*(float k, Point a) {
+  return {k * a.x_m, k * a.y_m};
+}
+float dot(Point a, Point b) {
+  return a.x_m * b.x_m + a.y_m * b.y_m;
+}
+float cross(Point a, Point b) {
+  return a.x_m * b.y_m - a.y_m * b.x_m;
+}
+float norm(Point a) {
+  return sqrt(dot(a, a));
+}
+float distance(Point a, Point b) {
+  return norm(a - b);
+}
+Point position(const Pose& pose) {
+  return {pose.x_m, pose.y_m};
+}
+Point direction(float heading_rad) {
+  return {cos(heading_rad), sin(heading_rad)};
+}
+
+Point offset_point(const Pose& pose, float ahead_m, float left_m) {
+  const Point ahead = direction(pose.heading_rad);
+  return {pose.x_m + (ahead_m * ahead.x_m - left_m * ahead.y_m),
+          pose.y_m + (ahead_m * ahead.y_m + left_m * ahead.x_m)};
+}
+
+Pose shift_ahead(const Pose& pose, float ahead_m) {
+  const Point shifted = offset_point(pose, ahead_m, 0.0F);
+  return {shifted.x_m, shifted.y_m, pose.heading_rad};
+}
+
+Point to_local(const Pose& frame, Point point) {
+  const Point ahead = direction(frame.heading_rad);
+  const Point offset = point - position(frame);
+  return {dot(ahead, offset), cross(ahead, offset)};
+}
+
+bool overlap(const Box& a, const Box& b, float margin_m) {
+  return separation(a, b) <= margin_m;
+}
+
+float separation(const Box& a, const Box& b) {
+  const Point offset = position(b.centre) - position(a.centre);
+  const Point axis_a = direction(a.centre.heading_rad);
+  const Point axis_b = direction(b.centre.heading_rad);
+  // |cos| and |sin| of the angle between the boxes turn the extents of one into the frame of the other.
+  const float along = abs(dot(axis_a, axis_b));
+  const float across = abs(cross(axis_a, axis_b));
+  const float la = 0.5F * a.length_m;
+  const float wa = 0.5F * a.width_m;
+  const float lb = 0.5F * b.length_m;
+  const float wb = 0.5F * b.width_m;
+  const float gap_a_length = abs(dot(axis_a, offset)) - (la + (lb * along + wb * across));
+  const float gap_a_width = abs(cross(axis_a, offset)) - (wa + (lb * across + wb * along));
+  const float gap_b_length = abs(dot(axis_b, offset)) - (lb + (la * along + wa * across));
+  const float gap_b_width = abs(cross(axis_b, offset)) - (wb + (la * across + wa * along));
+  return max(max(gap_a_length, gap_a_width), max(gap_b_length, gap_b_width));
+}
+
+}  // namespace s4tp

@@ -1,0 +1,218 @@
+#include "algo/core/math.hpp"
+
+#include <cstring>
+
+namespace s4tp {
+namespace {
+
+// Polynomials interpolate the function at the Chebyshev nodes of the reduced range; the remainder of each is
+// below 1e-8 relative, so that rounding sets the error. Split constants have so few bits in their leading
+// parts that the product with the (small) integer is exact.
+
+std::uint32_t bits_of(float x) {
+  std::uint32_t bits = 0;
+  std::memcpy(&bits, &x, sizeof(bits));
+  return bits;
+}
+
+float from_bits(std::uint32_t bits) {
+  float x = 0.0F;
+  std::memcpy(&x, &bits, sizeof(x));
+  return x;
+}
+
+/// Polynomial in x, highest power first.
+template <typename... Coefficients>
+float horner(float x, float highest, Coefficients... rest) {
+  float value = highest;
+  ((value = value * x + rest), ...);
+  return value;
+}
+
+/// To the nearest integer, ties to even: adding 2^23 leaves no room for a fraction.
+float round_to_even(float x) {
+  constexpr float kNoFraction = 8388608.0F;
+  const float magnitude = abs(x);
+  if (magnitude >= kNoFraction) return x;
+  const float rounded = (magnitude + kNoFraction) - kNoFraction;
+  return x < 0.0F ? -rounded : rounded;
+}
+
+/// An angle as quarter turns and a rest within +-pi/4.
+struct Reduced {
+  std::int32_t quarter;
+  float rest_rad;
+};
+
+Reduced reduce(float angle_rad) {
+  constexpr float kQuarterHigh = 1.5703125F;
+  constexpr float kQuarterMiddle = 0.0004837512969970703125F;
+  constexpr float kQuarterLow = 7.549790126404332e-08F;
+  const float n = round_to_even(angle_rad * 0.636619772F);
+  const float rest = ((angle_rad - n * kQuarterHigh) - n * kQuarterMiddle) - n * kQuarterLow;
+  return {static_cast<std::int32_t>(clamp(n, -1e9F, 1e9F)), rest};
+}
+
+float sin_of_rest(float r) {
+  const float z = r * r;
+  const float p = horner(z, 2.724378191e-06F, -1.984003902e-04F, 8.333331905e-03F, -0.1666666716F);
+  return r + r * (z * p);
+}
+
+float cos_of_rest(float r) {
+  const float z = r * r;
+  const float p = horner(z, 2.454287096e-05F, -1.388827921e-03F, 4.166666418e-02F);
+  return (1.0F - 0.5F * z) + (z * z) * p;
+}
+
+/// sin of the angle `quarter` quarter turns later.
+float sin_of(Reduced angle, std::int32_t quarter) {
+  const std::uint32_t q = static_cast<std::uint32_t>(angle.quarter + quarter) & 3U;
+  const float value = (q & 1U) != 0U ? cos_of_rest(angle.rest_rad) : sin_of_rest(angle.rest_rad);
+  return (q & 2U) != 0U ? -value : value;
+}
+
+}  // namespace
+
+float sqrt(float x) {
+  return x > 0.0F ? __builtin_sqrtf(x) : 0.0F;
+}
+
+float exp(float x) {
+  if (x < -87.3F) return 0.0F;
+  if (x > 88.7F) return 3.402823466e+38F;
+  constexpr float kLn2High = 0.693145751953125F;
+  constexpr float kLn2Low = 1.428606765e-06F;
+  const float n = round_to_even(x * 1.442695041F);
+  const float r = (x - n * kLn2High) - n * kLn2Low;
+  const float p = horner(r, 1.392692677e-03F, 8.363774046e-03F, 4.166654870e-02F, 0.1666657329F, 0.5F);
+  const float value = 1.0F + (r + (r * r) * p);
+  const std::int32_t exponent = static_cast<std::int32_t>(n);
+  // 2^128 is no float: the last doubling is done apart.
+  if (exponent > 127) return (value * from_bits(254U << 23)) * 2.0F;
+  return value * from_bits(static_cast<std::uint32_t>(exponent + 127) << 23);
+}
+
+float erf(float x) {
+  const float t = abs(x);
+  if (t < 0.92F) {
+    const float z = x * x;
+    const float p = horner(z, -6.003722082e-04F, 4.995951429e-03F, -2.676871046e-02F, 0.1128188074F,
+                           -0.3761250079F, 0.1283791512F);
+    return x + x * p;
+  }
+  float value = 1.0F;
+  if (t < 4.0F) {
+    // -ln(erfc(t)) is smooth and bends little.
+    const float p = horner(t, -1.643569703e-06F, 4.617791274e-05F, -5.977434922e-04F, 4.763575271e-03F,
+                           -2.643101849e-02F, 0.1100944802F, 0.6318145395F, 1.130237579F, -3.204415261e-04F);
+    value = 1.0F - exp(-p);
+  }
+  return x < 0.0F ? -value : value;
+}
+
+float sin(float angle_rad) {
+  return sin_of(reduce(angle_rad), 0);
+}
+
+float cos(float angle_rad) {
+  return sin_of(reduce(angle_rad), 1);
+}
+
+float tan(float angle_rad) {
+  const Reduced angle = reduce(angle_rad);
+  return sin_of(angle, 0) / sin_of(angle, 1);
+}
+
+float atan(float x) {
+  constexpr float kTanEighth = 0.414213562F;        // tan(pi / 8)
+  constexpr float kTanThreeEighths = 2.414213562F;  // tan(3 pi / 8)
+  const float t = abs(x);
+  float offset = 0.0F;
+  float r = t;
+  if (t > kTanThreeEighths) {
+    offset = 0.5F * kPi;
+    r = -1.0F / t;
+  } else if (t > kTanEighth) {
+    offset = 0.25F * kPi;
+    r = (t - 1.0F) / (t + 1.0F);
+  }
+  const float z = r * r;
+  const float p = horner(z, -6.431038678e-02F, 0.1073739678F, -0.1426336617F, 0.1999952346F, -0.3333333135F);
+  const float value = offset + (r + r * (z * p));
+  return x < 0.0F ? -value : value;
+}
+
+float atan2(float y, float x) {
+  const float ax = abs(x);
+  const float ay = abs(y);
+  if (ax == 0.0F && ay == 0.0F) return 0.0F;
+  float value = ax >= ay ? atan(ay / ax) : 0.5F * kPi - atan(ax / ay);
+  if (x < 0.0F) value = kPi - value;
+  return y < 0.0F ? -value : value;
+}
+
+float tanh(float x) {
+  const float t = abs(x);
+  if (t < 0.625F) {
+    const float z = x * x;
+    const float p =
+        horner(z, -6.096714176e-03F, 2.099717967e-02F, -5.385090783e-02F, 0.1333276927F, -0.3333332837F);
+    return x + x * (z * p);
+  }
+  const float value = t < 10.0F ? 1.0F - 2.0F / (exp(2.0F * t) + 1.0F) : 1.0F;
+  return x < 0.0F ? -value : value;
+}
+
+float floor(float x) {
+  if (abs(x) >= 8388608.0F) return x;
+  const float truncated = static_cast<float>(static_cast<std::int32_t>(x));
+  return truncated > x ? truncated - 1.0F : truncated;
+}
+
+float abs(float x) {
+  return from_bits(bits_of(x) & 0x7FFFFFFFU);
+}
+float min(float a, float b) {
+  return b < a ? b : a;
+}
+float max(float a, float b) {
+  return a < b ? b : a;
+}
+float clamp(float x, float low, float high) {
+  return x < low ? low : (x > high ? high : x);
+}
+float square(float x) {
+  return x * x;
+}
+float lerp(float a, float b, float t) {
+  return a + (b - a) * t;
+}
+
+float wrap_angle(float angle_rad) {
+  constexpr float kTurnHigh = 6.28125F;
+  constexpr float kTurnMiddle = 0.00193500518798828125F;
+  constexpr float kTurnLow = 3.019916050561733e-07F;
+  const float n = round_to_even(angle_rad * 0.159154943F);
+  const float rest = ((angle_rad - n * kTurnHigh) - n * kTurnMiddle) - n * kTurnLow;
+  if (rest >= kPi) return rest - kTwoPi;
+  return rest < -kPi ? rest + kTwoPi : rest;
+}
+
+float lerp_angle(float a_rad, float b_rad, float t) {
+  return wrap_angle(a_rad + wrap_angle(b_rad - a_rad) * t);
+}
+
+bool is_finite(float x) {
+  return (bits_of(x) & 0x7F800000U) != 0x7F800000U;
+}
+
+std::int32_t to_int(float x, std::int32_t low, std::int32_t high) {
+  constexpr float kBeyond = 2147483648.0F;
+  if (!(x > -kBeyond)) return low;  // not a number as well
+  if (x >= kBeyond) return high;
+  const std::int32_t value = static_cast<std::int32_t>(round_to_even(x));
+  return value < low ? low : (value > high ? high : value);
+}
+
+}  // namespace s4tp
