@@ -29,8 +29,7 @@ Point position(const Pose& pose) {
   return {pose.x_m, pose.y_m};
 }
 Point direction(float heading_rad) {
-  const SinCos both = sin_cos(heading_rad);
-  return {both.cos, both.sin};
+  return {cos(heading_rad), sin(heading_rad)};
 }
 
 Point offset_point(const Pose& pose, float ahead_m, float left_m) {

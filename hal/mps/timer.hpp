@@ -1,0 +1,34 @@
+#pragma once
+/// SysTick as the 100 Hz control tick, the local clock and the cycle counter. The image calls on_interrupt()
+/// from its systick_handler().
+
+#include "hal/clock.hpp"
+#include "hal/cycle_counter.hpp"
+#include "hal/tick.hpp"
+
+namespace s4tp::hal::mps {
+
+class Timer final : public Tick, public Clock, public CycleCounter {
+ public:
+  void start();
+  void on_interrupt();
+
+  /// MPS-010 One tick each 10 ms; ticks not taken in time are lost, not queued.
+  [[nodiscard]] bool take() override;
+  /// MPS-011 Lengthens or shortens the next period by at most 500 us.
+  void adjust(std::int32_t phase_us) override;
+  /// MPS-012 Never runs backwards.
+  [[nodiscard]] std::uint64_t now_us() const override;
+  /// Core clock cycles since start().
+  [[nodiscard]] std::uint32_t now() const override;
+
+ private:
+  [[nodiscard]] std::uint64_t cycles() const;
+
+  volatile std::uint64_t elapsed_cycles_ = 0;  ///< of the periods that have ended
+  volatile std::uint32_t period_cycles_ = 0;   ///< of the period running now
+  volatile std::int32_t phase_us_ = 0;
+  volatile bool due_ = false;
+};
+
+}  // namespace s4tp::hal::mps
