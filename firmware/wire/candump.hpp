@@ -1,6 +1,7 @@
 #pragma once
 /// candump's log format, one frame a line: "(1700000000.010000) can0 010#0102030405060708".
-/// Read and written without heap, so that an image can replay a log too.
+/// Read and written without heap, so that an image can replay a log too. Classic data frames with 11-bit ids
+/// only; a direction (" R" or " T") at the end is read over.
 
 #include <cstdint>
 
@@ -24,6 +25,7 @@ enum class CandumpResult : std::uint8_t {
 [[nodiscard]] CandumpResult parse_candump(const char* line, int size, LoggedFrame& logged);
 
 inline constexpr int kCandumpLineSize = 80;
+/// An empty interface name is written as can0. \pre logged.frame.id < 0x800, logged.frame.length <= 8
 /// \return length of the line written (no line end, zero terminated)
 int format_candump(const LoggedFrame& logged, char (&line)[kCandumpLineSize]);
 

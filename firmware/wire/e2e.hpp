@@ -6,7 +6,10 @@
 ///   NONEWDATA  nothing arrived since the last look        INITIAL    first valid frame
 ///   WRONGCRC   a frame arrived damaged                    REPEATED   counter as before
 ///   SYNC       counter plausible again, not yet trusted   OK         counter one further
-///   OKSOMELOST counter 2 .. max_delta further             WRONGSEQUENCE  counter jumped
+///   OKSOMELOST counter 2 .. kE2eMaxDelta further          WRONGSEQUENCE  counter jumped
+///
+///   WRONGSEQUENCE and more than kE2eMaxLost periods without a new frame cost the trust: the next
+///   kE2eSyncFrames plausible frames are SYNC. A period without one widens the step allowed by 1.
 
 #include <cstdint>
 
@@ -24,6 +27,10 @@ enum class E2eState : std::uint8_t {
   kOkSomeLost = 6,     ///< WIRE-016 trusted
   kWrongSequence = 7,  ///< WIRE-017 dropped; resynchronises
 };
+
+inline constexpr std::uint8_t kE2eMaxDelta = 3;    ///< largest counter step that is still trusted
+inline constexpr std::uint8_t kE2eMaxLost = 10;    ///< periods without a new frame before trust is lost
+inline constexpr std::uint8_t kE2eSyncFrames = 2;  ///< valid frames before trust returns
 
 /// CRC-8 (0x1D, initial 0xFF, final XOR 0xFF) over data id (low byte, high byte) and bytes 1 .. length - 1.
 [[nodiscard]] std::uint8_t e2e_crc(const Frame& frame);
@@ -55,14 +62,14 @@ class E2eReceiver {
   }
 
  private:
+  [[nodiscard]] E2eState judge(const Frame& frame);
+  void lose_one();
+
   E2eState state_ = E2eState::kNoNewData;
   bool seen_ = false;
   std::uint8_t last_counter_ = 0;
-  std::uint8_t lost_ = 0;     ///< periods without a frame: widens the delta allowed
+  std::uint8_t lost_ = 0;     ///< looks without a new intact frame: each widens the delta allowed
   std::uint8_t to_sync_ = 0;  ///< valid frames still needed before trust returns
 };
-
-inline constexpr std::uint8_t kE2eMaxDelta = 3;    ///< largest counter step that is still trusted
-inline constexpr std::uint8_t kE2eSyncFrames = 2;  ///< valid frames before trust returns
 
 }  // namespace s4tp::wire

@@ -33,6 +33,7 @@ struct Tracks {
 /// Sends lists: call start() with a new one, then next() until it answers false.
 class TrackListSender {
  public:
+  /// WIRE-021 A track with a value the wire cannot carry is left out and counted as such.
   void start(const Tracks& tracks);
   [[nodiscard]] bool next(Frame& frame);
 
@@ -44,22 +45,33 @@ class TrackListSender {
   int total_ = 0;
 };
 
-/// Puts lists together.
+/// Puts lists together. Members count from their header on and until the next one; a repeated member changes
+/// nothing. The generation tells 16 lists apart, so a frame would have to be 1.6 s late to be mistaken.
 class TrackListReceiver {
  public:
   /// Takes a frame of one of the three messages. \return whether a list has just become whole
   [[nodiscard]] bool accept(const Frame& frame);
+  /// WIRE-022 To be called when a period (100 ms) ended without a header: the list begun is given up.
+  void nothing_arrived();
   /// The newest whole list; meaningful once accept() has answered true.
   [[nodiscard]] const Tracks& tracks() const { return whole_; }
   [[nodiscard]] std::uint16_t broken_lists() const { return broken_; }  ///< replaced before they were whole
   [[nodiscard]] std::uint16_t rejected_frames() const { return rejected_; }
 
  private:
+  [[nodiscard]] bool accept_header(const Frame& frame);
+  [[nodiscard]] bool accept_pose(const Frame& frame);
+  [[nodiscard]] bool accept_motion(const Frame& frame);
+  [[nodiscard]] bool awaits(std::uint8_t generation, std::uint8_t index);
+  [[nodiscard]] bool finish_if_whole();
+  void give_up();
+  void reject();
+
   Tracks whole_;
   Tracks assembling_;
   E2eReceiver header_;
-  std::uint8_t generation_ = 0xFF;
-  bool header_seen_ = false;
+  bool begun_ = false;
+  std::uint8_t generation_ = 0;
   std::uint16_t poses_ = 0;  ///< bit i: TrackPose i arrived
   std::uint16_t motions_ = 0;
   std::uint16_t broken_ = 0;
