@@ -29,7 +29,8 @@ Point position(const Pose& pose) {
   return {pose.x_m, pose.y_m};
 }
 Point direction(float heading_rad) {
-  return {cos(heading_rad), sin(heading_rad)};
+  const SinCos both = sin_cos(heading_rad);
+  return {both.cos, both.sin};
 }
 
 Point offset_point(const Pose& pose, float ahead_m, float left_m) {

@@ -65,13 +65,6 @@ float cos_of_rest(float r) {
   return (1.0F - 0.5F * z) + (z * z) * p;
 }
 
-/// sin of the angle `quarter` quarter turns later.
-float sin_of(Reduced angle, std::int32_t quarter) {
-  const std::uint32_t q = static_cast<std::uint32_t>(angle.quarter + quarter) & 3U;
-  const float value = (q & 1U) != 0U ? cos_of_rest(angle.rest_rad) : sin_of_rest(angle.rest_rad);
-  return (q & 2U) != 0U ? -value : value;
-}
-
 }  // namespace
 
 float sqrt(float x) {
@@ -111,17 +104,33 @@ float erf(float x) {
   return x < 0.0F ? -value : value;
 }
 
+SinCos sin_cos(float angle_rad) {
+  const Reduced angle = reduce(angle_rad);
+  const float sine = sin_of_rest(angle.rest_rad);
+  const float cosine = cos_of_rest(angle.rest_rad);
+  switch (static_cast<std::uint32_t>(angle.quarter) & 3U) {
+    case 0U:
+      return {sine, cosine};
+    case 1U:
+      return {cosine, -sine};
+    case 2U:
+      return {-sine, -cosine};
+    default:
+      return {-cosine, sine};
+  }
+}
+
 float sin(float angle_rad) {
-  return sin_of(reduce(angle_rad), 0);
+  return sin_cos(angle_rad).sin;
 }
 
 float cos(float angle_rad) {
-  return sin_of(reduce(angle_rad), 1);
+  return sin_cos(angle_rad).cos;
 }
 
 float tan(float angle_rad) {
-  const Reduced angle = reduce(angle_rad);
-  return sin_of(angle, 0) / sin_of(angle, 1);
+  const SinCos both = sin_cos(angle_rad);
+  return both.sin / both.cos;
 }
 
 float atan(float x) {

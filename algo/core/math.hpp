@@ -10,16 +10,22 @@ namespace s4tp {
 inline constexpr float kPi = 3.14159265358979F;
 inline constexpr float kTwoPi = 6.28318530717959F;
 
-[[nodiscard]] float sqrt(float x);            ///< correctly rounded; x < 0 gives 0
-[[nodiscard]] float exp(float x);             ///< any finite x; 0 below -87.3, largest float above 88.7
-[[nodiscard]] float erf(float x);             ///< any finite x
-[[nodiscard]] float sin(float angle_rad);     ///< |angle| <= 1e4
-[[nodiscard]] float cos(float angle_rad);     ///< |angle| <= 1e4
-[[nodiscard]] float tan(float angle_rad);     ///< |angle| <= 1.5
-[[nodiscard]] float atan(float x);            ///< any finite x
-[[nodiscard]] float atan2(float y, float x);  ///< any finite pair; (0, 0) gives 0
-[[nodiscard]] float tanh(float x);            ///< any finite x
-[[nodiscard]] float floor(float x);           ///< |x| < 2^31
+struct SinCos {
+  float sin;
+  float cos;
+};
+
+[[nodiscard]] float sqrt(float x);              ///< correctly rounded; x < 0 gives 0
+[[nodiscard]] float exp(float x);               ///< any finite x; 0 below -87.3, largest float above 88.7
+[[nodiscard]] float erf(float x);               ///< any finite x
+[[nodiscard]] float sin(float angle_rad);       ///< |angle| <= 1e4
+[[nodiscard]] float cos(float angle_rad);       ///< |angle| <= 1e4
+[[nodiscard]] SinCos sin_cos(float angle_rad);  ///< both, for little more than the price of one
+[[nodiscard]] float tan(float angle_rad);       ///< |angle| <= 1.5
+[[nodiscard]] float atan(float x);              ///< any finite x
+[[nodiscard]] float atan2(float y, float x);    ///< any finite pair; (0, 0) gives 0
+[[nodiscard]] float tanh(float x);              ///< any finite x
+[[nodiscard]] float floor(float x);             ///< |x| < 2^31
 [[nodiscard]] float abs(float x);
 [[nodiscard]] float min(float a, float b);
 [[nodiscard]] float max(float a, float b);

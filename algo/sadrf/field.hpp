@@ -30,6 +30,22 @@ struct DriverState {
   float wheelbase_m;
 };
 
+/// A field made ready for many points: everything that depends on the driver alone.
+struct Field {
+  Point origin;           ///< rear axle
+  Point ahead;            ///< unit vector of the heading
+  float curvature_1pm;    ///< kappa, of the path
+  float look_ahead_m;     ///< d_la
+  float steepness;        ///< p
+  float widening_left;    ///< growth of sigma per metre to the left of the path
+  float widening_right;   ///< and to the right
+  float base_width_m;     ///< c
+  float lateral_reach_m;  ///< no point of the field beyond kFieldReach sigma has a larger |y|
+};
+
+/// Beyond this many sigma the field counts as nothing when boxes are integrated: exp(-8) = 0.0003.
+inline constexpr float kFieldReach = 4.0F;
+
 /// Presets of METHOD section 3; c = width / 4.
 [[nodiscard]] FieldParams paper_preset(float vehicle_width_m);
 [[nodiscard]] FieldParams kolekar2020_preset(float vehicle_width_m);
@@ -39,9 +55,12 @@ struct DriverState {
 /// t_la' at `t_s` into the horizon: max(t_la - t, 1 s), or t_la when `shrinks` is false.
 [[nodiscard]] float look_ahead_at(float look_ahead_s, bool shrinks, float t_s);
 
+[[nodiscard]] Field prepare_field(const FieldParams& params, const DriverState& driver);
+
 /// Risk density at a point.
 /// \return >= 0; exactly 0 behind the car, beyond the look-ahead distance, and for speed 0 beyond 1 m
 /// \note no failure; bounded work: one sqrt, one atan2, one exp
 [[nodiscard]] float field_at(const FieldParams& params, const DriverState& driver, Point point_m);
+[[nodiscard]] float field_at(const Field& field, Point point_m);
 
 }  // namespace s4tp

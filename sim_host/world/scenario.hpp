@@ -54,7 +54,7 @@ struct Mission {
   double start_speed_mps = 8.0;
   std::vector<std::string> edges;  ///< route, start_edge first
   int goal_lane = 0;               ///< on the last edge
-  double goal_s_m = 0.0;           ///< < 0: from the lane's end backwards
+  double goal_s_m = 0.0;           ///< along the goal lane; the loader has resolved "from the end"
   double entry_time_s = 4.0;       ///< the ECU takes over
   double time_limit_s = 80.0;      ///< after entry
 };

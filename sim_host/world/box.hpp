@@ -1,0 +1,35 @@
+#pragma once
+/// Oriented boxes in the plane: cars as collisions, occlusion and metrics see them.
+
+#include <array>
+
+#include "sim_host/world/polyline.hpp"
+#include "sim_host/world/recording.hpp"
+
+namespace s4tp::world {
+
+struct Box {
+  Vec2 centre;
+  double heading_rad = 0.0;
+  double length_m = 0.0;
+  double width_m = 0.0;
+};
+
+[[nodiscard]] Box box_of(const CarState& car);
+/// The competition's size for the same car: 3.68 x 1.47 m.
+[[nodiscard]] Box competition_box_of(const CarState& car);
+
+[[nodiscard]] std::array<Vec2, 4> corners(const Box& box);
+[[nodiscard]] bool overlap(const Box& a, const Box& b);
+/// Shortest distance between the two outlines; 0 when they overlap.
+[[nodiscard]] double distance_m(const Box& a, const Box& b);
+/// Whether the straight line between two points meets the box.
+[[nodiscard]] bool crosses(const Box& box, Vec2 from, Vec2 to);
+/// Time until two boxes touch when both keep velocity and heading: separating axes with a relative speed.
+/// \return infinity: never
+[[nodiscard]] double time_to_contact_s(const Box& a, Vec2 velocity_a, const Box& b, Vec2 velocity_b);
+
+/// To [-pi, pi).
+[[nodiscard]] double wrap_angle(double angle_rad);
+
+}  // namespace s4tp::world

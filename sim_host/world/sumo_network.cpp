@@ -1,0 +1,299 @@
+/// Reads SUMO's network format: https://sumo.dlr.de/docs/Networks/SUMO_Road_Networks.html
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <pugixml.hpp>
+#include <set>
+#include <sstream>
+#include <stdexcept>
+
+#include "sim_host/world/junction_links.hpp"
+
+namespace s4tp::world {
+namespace {
+
+constexpr double kDefaultWidth_m = 3.2;      // SUMO's own
+constexpr double kDefaultSpeed_mps = 13.89;  // SUMO's own
+
+class Reader {
+ public:
+  explicit Reader(const std::filesystem::path& file) : file_(file) {}
+
+  Network read() {
+    pugi::xml_document document;
+    const pugi::xml_parse_result result = document.load_file(file_.c_str());
+    if (!result) {
+      fail("the file", std::string(result.description()) + " at byte " + std::to_string(result.offset));
+    }
+    const pugi::xml_node net = document.child("net");
+    if (!net) {
+      fail("the root element", "expected <net>, as netconvert writes it");
+    }
+    for (const pugi::xml_node edge : net.children("edge")) {
+      read_edge(edge);
+    }
+    if (network_.lanes.empty()) {
+      fail("<net>", "expected at least one <lane> that passenger cars may use");
+    }
+    for (const pugi::xml_node connection : net.children("connection")) {
+      read_connection(connection);
+    }
+    for (const auto& [lane, ways] : ways_) {
+      for (const Way& way : ways) {
+        link_lanes(lane, first_usable(way));
+      }
+    }
+    network_.conflicts = find_conflicts(network_.lanes, read_junctions(net));
+    return std::move(network_);
+  }
+
+ private:
+  /// A <connection>: lane names, `via` empty where it goes straight on to `to`.
+  struct Way {
+    std::string via;
+    std::string to;
+  };
+
+  [[noreturn]] void fail(const std::string& where, const std::string& what) const {
+    throw std::runtime_error(file_.string() + ": " + where + ": " + what);
+  }
+
+  double number(const pugi::xml_node& node, const char* name, double missing,
+                const std::string& where) const {
+    const pugi::xml_attribute attribute = node.attribute(name);
+    if (!attribute) {
+      return missing;
+    }
+    std::istringstream text(attribute.value());
+    double value = 0.0;
+    if (!(text >> value) || !(text >> std::ws).eof()) {
+      fail(where, std::string(name) + "=\"" + attribute.value() + "\": expected a number");
+    }
+    return value;
+  }
+
+  static std::set<std::string> words(const pugi::xml_attribute& attribute) {
+    std::istringstream text(attribute.value());
+    std::set<std::string> found;
+    for (std::string word; text >> word;) {
+      found.insert(word);
+    }
+    return found;
+  }
+
+  /// Whether a list of vehicle classes means our cars.
+  static bool names_cars(const pugi::xml_attribute& classes) {
+    const std::set<std::string> found = words(classes);
+    return found.count("passenger") != 0 || found.count("all") != 0;
+  }
+
+  static bool open_to_cars(const pugi::xml_node& lane) {
+    if (const pugi::xml_attribute allow = lane.attribute("allow")) {
+      return names_cars(allow);
+    }
+    return !names_cars(lane.attribute("disallow"));
+  }
+
+  std::vector<Vec2> shape_of(const pugi::xml_node& lane, const std::string& where) const {
+    std::istringstream text(lane.attribute("shape").value());
+    std::vector<Vec2> points;
+    for (std::string word; text >> word;) {
+      std::istringstream pair(word);
+      Vec2 point;
+      char comma = 0;
+      if (!(pair >> point.x >> comma >> point.y) || comma != ',') {
+        fail(where, "shape holds \"" + word + "\": expected x,y or x,y,z");
+      }
+      points.push_back(point);
+    }
+    if (points.size() < 2) {
+      fail(where, "shape: expected at least two points x,y");
+    }
+    return points;
+  }
+
+  void read_edge(const pugi::xml_node& edge) {
+    const std::string id = edge.attribute("id").value();
+    const std::string function = edge.attribute("function").as_string("normal");
+    if (id.empty()) {
+      fail("<edge> at byte " + std::to_string(edge.offset_debug()), "expected an id");
+    }
+    const bool walked = function == "walkingarea" || function == "crossing";
+    std::map<int, LaneId> by_index;
+    std::map<int, bool> may_go_left;
+    std::map<int, bool> may_go_right;
+    for (const pugi::xml_node node : edge.children("lane")) {
+      const std::string name = node.attribute("id").value();
+      const std::string where = "lane \"" + name + "\" of edge \"" + id + "\"";
+      if (name.empty() || !node.attribute("index")) {
+        fail(where, "expected an id and an index");
+      }
+      known_.insert(name);
+      if (walked || !open_to_cars(node)) {
+        continue;
+      }
+      NetworkLane lane;
+      lane.name = name;
+      lane.edge = id;
+      lane.index = node.attribute("index").as_int();
+      lane.in_junction = function == "internal";
+      lane.width_m = number(node, "width", kDefaultWidth_m, where);
+      lane.speed_limit_mps = number(node, "speed", kDefaultSpeed_mps, where);
+      if (lane.width_m <= 0.0 || lane.speed_limit_mps <= 0.0) {
+        fail(where, "expected width and speed above 0");
+      }
+      const std::vector<Vec2> shape = shape_of(node, where);
+      try {
+        lane.centre = Polyline(shape);
+      } catch (const std::invalid_argument&) {
+        if (lane.in_junction) {
+          continue;  // no longer than a point, as at a node that only ends one edge: passed over
+        }
+        fail(where, "shape: all points are the same");
+      }
+      const LaneId number = static_cast<LaneId>(network_.lanes.size());
+      by_index[lane.index] = number;
+      may_go_left[lane.index] = !node.attribute("changeLeft") || names_cars(node.attribute("changeLeft"));
+      may_go_right[lane.index] = !node.attribute("changeRight") || names_cars(node.attribute("changeRight"));
+      lane_of_[name] = number;
+      network_.lanes.push_back(std::move(lane));
+    }
+    for (const auto& [index, number] : by_index) {
+      const auto left = by_index.find(index + 1);
+      if (left == by_index.end() || network_.lanes[static_cast<std::size_t>(number)].in_junction) {
+        continue;
+      }
+      if (may_go_left[index]) {
+        network_.lanes[static_cast<std::size_t>(number)].left = left->second;
+      }
+      if (may_go_right[index + 1]) {
+        network_.lanes[static_cast<std::size_t>(left->second)].right = number;
+      }
+    }
+  }
+
+  void read_connection(const pugi::xml_node& node) {
+    const std::string from = node.attribute("from").value();
+    const std::string to = node.attribute("to").value();
+    const std::string where = "connection from \"" + from + "\" to \"" + to + "\"";
+    for (const char* name : {"from", "to", "fromLane", "toLane"}) {
+      if (!node.attribute(name)) {
+        fail(where, std::string("expected the attribute ") + name);
+      }
+    }
+    const std::string from_lane = from + "_" + node.attribute("fromLane").value();
+    const std::string to_lane = to + "_" + node.attribute("toLane").value();
+    const std::string via = node.attribute("via").value();
+    for (const std::string& name : {from_lane, to_lane, via}) {
+      if (!name.empty() && known_.count(name) == 0) {
+        fail(where, "names the lane \"" + name + "\", which no <edge> has");
+      }
+    }
+    if (lane_of_.count(from_lane) != 0 && lane_of_.count(to_lane) != 0 && open_to_cars(node)) {
+      ways_[from_lane].push_back({via, to_lane});
+    } else if (known_.count(from_lane) != 0 && from_lane.front() == ':') {
+      passed_over_[from_lane] = {via, to_lane};
+    }
+  }
+
+  /// Where a way leads first: its junction lane, or what comes after it if that was passed over.
+  std::string first_usable(const Way& way) const {
+    Way at = way;
+    for (std::size_t hops = 0; !at.via.empty() && hops <= known_.size(); ++hops) {
+      if (lane_of_.count(at.via) != 0) {
+        return at.via;
+      }
+      const auto next = passed_over_.find(at.via);
+      if (next == passed_over_.end()) {
+        break;
+      }
+      at = next->second;
+    }
+    return at.to;
+  }
+
+  void link_lanes(const std::string& from, const std::string& to) {
+    const auto target = lane_of_.find(to);
+    if (target == lane_of_.end()) {
+      return;
+    }
+    const LaneId from_id = lane_of_.at(from);
+    std::vector<LaneId>& successors = network_.lanes[static_cast<std::size_t>(from_id)].successors;
+    if (std::find(successors.begin(), successors.end(), target->second) == successors.end()) {
+      successors.push_back(target->second);
+      network_.lanes[static_cast<std::size_t>(target->second)].predecessors.push_back(from_id);
+    }
+  }
+
+  /// The link that a lane inside a junction belongs to, and its index among the junction's requests: intLanes
+  /// lists the lanes in their order, of a link in two parts the second one.
+  std::vector<Junction> read_junctions(const pugi::xml_node& net) const {
+    std::vector<Junction> junctions;
+    for (const pugi::xml_node node : net.children("junction")) {
+      if (std::string(node.attribute("type").value()) == "internal") {
+        continue;
+      }
+      Junction junction;
+      std::istringstream names(node.attribute("intLanes").value());
+      for (std::string name; names >> name;) {
+        const auto lane = lane_of_.find(name);
+        junction.links.push_back(lane == lane_of_.end() ? Link{} : link_through(lane->second));
+      }
+      for (const pugi::xml_node request : node.children("request")) {
+        const std::string where = "junction \"" + std::string(node.attribute("id").value()) + "\"";
+        const std::size_t index = request.attribute("index").as_uint(~0U);
+        const std::string response = request.attribute("response").value();
+        if (index >= junction.links.size() || response.find_first_not_of("01") != std::string::npos) {
+          fail(where, "request index=\"" + std::string(request.attribute("index").value()) +
+                          "\": expected an index below the number of intLanes and a response of 0s and 1s");
+        }
+        // The string's last character is link 0.
+        junction.links[index].yields_to.resize(response.size());
+        for (std::size_t i = 0; i < response.size(); ++i) {
+          junction.links[index].yields_to[i] = response[response.size() - 1 - i] == '1';
+        }
+      }
+      junctions.push_back(std::move(junction));
+    }
+    return junctions;
+  }
+
+  const NetworkLane& lane(LaneId id) const { return network_.lanes[static_cast<std::size_t>(id)]; }
+
+  Link link_through(LaneId inside) const {
+    Link link;
+    link.inside = {inside};
+    while (!lane(link.inside.front()).predecessors.empty() &&
+           lane(lane(link.inside.front()).predecessors.front()).in_junction &&
+           link.inside.size() < network_.lanes.size()) {
+      link.inside.insert(link.inside.begin(), lane(link.inside.front()).predecessors.front());
+    }
+    while (!lane(link.inside.back()).successors.empty() &&
+           lane(lane(link.inside.back()).successors.front()).in_junction &&
+           link.inside.size() < network_.lanes.size()) {
+      link.inside.push_back(lane(link.inside.back()).successors.front());
+    }
+    if (lane(link.inside.front()).predecessors.empty() || lane(link.inside.back()).successors.empty()) {
+      return {};  // no car can come here or get away
+    }
+    link.from = lane(link.inside.front()).predecessors.front();
+    link.to = lane(link.inside.back()).successors.front();
+    return link;
+  }
+
+  std::filesystem::path file_;
+  Network network_;
+  std::set<std::string> known_;  ///< every lane's name, those cars may not use too
+  std::map<std::string, LaneId> lane_of_;
+  std::map<std::string, std::vector<Way>> ways_;
+  std::map<std::string, Way> passed_over_;
+};
+
+}  // namespace
+
+Network load_network(const std::filesystem::path& file) {
+  return Reader(file).read();
+}
+
+}  // namespace s4tp::world
