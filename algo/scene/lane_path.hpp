@@ -41,17 +41,68 @@ struct Frenet {
   float heading_rad = 0.0F;  ///< of the centre line there
 };
 
+/// One stretch of a lane's centre line between two vertices, smoothed: the heading passes from one vertex
+/// heading to the other, and a short stretch bulges as the arc both headings agree on.
+struct LaneSegment {
+  Point start;
+  float heading_rad = 0.0F;          ///< of the chord
+  float length_m = 0.0F;             ///< of the chord; arc length counts along chords
+  float start_deviation_rad = 0.0F;  ///< heading at the first vertex minus heading_rad
+  float end_deviation_rad = 0.0F;
+  float blend_m = 0.0F;  ///< within this distance of a vertex the heading changes
+  float bulge = 0.0F;    ///< lateral offset of the arc = bulge * x * (length - x) / length
+};
+
+/// Stretch `index` of `lane`. \pre 0 <= index < lane.point_count - 1
+[[nodiscard]] LaneSegment lane_segment(const Lane& lane, int index);
+
+/// Walks along a path: the same answers as path_point, cheaper while s stays within one segment.
+/// Map and path must outlive it. \pre the path has at least one lane
+class PathCursor {
+ public:
+  PathCursor(const LaneMap& map, const LanePath& path);
+  [[nodiscard]] PathPoint at(float s_m);
+
+ private:
+  void seek(float s_m);
+
+  const LaneMap& map_;
+  const LanePath& path_;
+  LaneSegment segment_;
+  int lane_ = 0;           ///< index into path_.lanes
+  float from_s_m_ = 0.0F;  ///< the loaded segment answers for [from, to)
+  float to_s_m_ = -1.0F;
+  float start_s_m_ = 0.0F;  ///< where it begins
+};
+
 /// The centre line at `s_m`; before the start and beyond the end it goes on straight (the lane is then the
 /// first or last one). Heading and curvature are those of the smoothed polyline: vertex headings
 /// interpolated. \pre the path has at least one lane
 [[nodiscard]] PathPoint path_point(const LaneMap& map, const LanePath& path, float s_m);
 
-/// Nearest point of the centre line within |s - guess_s_m| <= reach_m (whole path when reach_m < 0).
+/// Nearest point of the centre line within |s - guess_s_m| <= reach_m (whole path when reach_m < 0). The
+/// straight goings-on before the start and beyond the end count as well, so s may be < 0 or > length.
+/// Bounded: one pass over the segments in reach and three corrections. \pre as path_point
 [[nodiscard]] Frenet project(const LaneMap& map, const LanePath& path, Point point, float guess_s_m,
                              float reach_m);
 
+/// Sum of the chords of a centre line [m].
+[[nodiscard]] float centre_line_length(const Lane& lane);
+
+/// Whether a lane can be driven along in thought: present, 2 or more vertices, all finite, some length.
+[[nodiscard]] bool usable(const Lane& lane);
+
+/// Nearest point of one lane's centre line, ends included. \pre usable(lane)
+struct LaneFix {
+  float s_m = 0.0F;
+  float distance_m = 0.0F;   ///< to the point itself: beyond an end it is not the lateral one
+  float heading_rad = 0.0F;  ///< of the chord there
+};
+[[nodiscard]] LaneFix nearest_on_lane(const Lane& lane, Point point);
+
 /// Lane of `map` that a pose most plausibly drives on: nearest centre line within `lateral_limit_m` whose
-/// heading agrees within 60 degrees. \return kNoLaneIndex when there is none
+/// heading agrees within 60 degrees; among lanes equally near the one of nearest heading.
+/// \return kNoLaneIndex when there is none
 [[nodiscard]] LaneIndex locate(const LaneMap& map, const Pose& pose, float lateral_limit_m);
 
 }  // namespace s4tp
