@@ -1,8 +1,12 @@
 #pragma once
 /// The map on the wire: lane and conflict records in numbered slots, each sent when it changes and again
 /// every 5 s, and a header saying what a whole map consists of. WIRE-030 A map counts only when every slot in
-/// use is there in the revision the header's digest was made of; until then the previous whole one stands and
-/// ages.
+/// use holds the record the header's digest was made of; until then the previous whole one stands and ages.
+///
+/// Lane slots in use are listed in two bit fields. Conflict slots are in use from 0 up to the last one
+/// present; a hole among them travels as a record of lane 0 with itself. The digest is a CRC-16 over slot and
+/// content of every record in use, lanes first (map_record.hpp): a record left over from 16 revisions ago has
+/// the right revision, but not the right content.
 
 #include <cstdint>
 
@@ -15,6 +19,8 @@ inline constexpr int kMaxLanes = 64;
 inline constexpr int kMaxLanePoints = 12;
 inline constexpr int kMaxConflicts = 128;
 inline constexpr std::uint8_t kNoLane = 127;
+inline constexpr int kMaxLaneParts = 3 + kMaxLanePoints;  ///< frames: header, route, links, points
+inline constexpr int kConflictParts = 2;
 
 struct Lane {
   bool present = false;
@@ -55,10 +61,16 @@ struct Map {
 };
 
 /// Sends a map as changes.
+///
+/// WIRE-031 At 8 frames every 10 ms a map of 64 lanes and 128 conflicts is whole at the other end within 1.5
+/// s. WIRE-032 Every record goes out again within 5 s, spread evenly.
 class MapSender {
  public:
   /// Takes the map to be shown from now on. Slots whose encoded frames changed get a new revision and go
   /// first; a lane must keep its slot while it stays within the horizon.
+  /// WIRE-033 What the receiver would refuse is not sent: a lane with a value the wire cannot carry or with
+  /// fewer than two points is left out and counted, links to absent lanes become kNoLane, conflicts of absent
+  /// lanes or with entry behind exit become absent.
   void update(const Map& map);
 
   /// Next frame in order of need: header and slots in use (10 Hz), changed records, then the 5 s repetition.
@@ -67,19 +79,42 @@ class MapSender {
   [[nodiscard]] bool next(std::uint32_t now_ms, Frame& frame);
 
  private:
-  static constexpr int kRecords = kMaxLanes + kMaxConflicts;
+  static constexpr int kRecords = kMaxLanes + kMaxConflicts;  ///< lanes first
+
+  /// How far a record got.
+  struct Progress {
+    std::uint8_t revision = 0;
+    bool seen = false;     ///< a frame of this revision went out
+    bool changed = false;  ///< and not all of them yet
+    std::uint16_t check = 0;
+    std::uint32_t sent_ms = 0;
+  };
+
+  [[nodiscard]] bool in_use(int record) const;
+  [[nodiscard]] int frame_count(int record) const;
+  [[nodiscard]] bool encode_part(int record, int part, Frame& frame) const;
+  [[nodiscard]] bool take_lanes(const Map& map);
+  [[nodiscard]] bool take_conflicts(const Map& map);
+  void revise(int record);
+  void make_digest();
+  [[nodiscard]] bool header_frame(std::uint32_t now_ms, Frame& frame);
+  [[nodiscard]] int choose_record(std::uint32_t now_ms);
+
   Map map_;
-  std::uint8_t revision_[kRecords] = {};
-  bool dirty_[kRecords] = {};
-  std::uint32_t sent_ms_[kRecords] = {};
-  bool ever_sent_[kRecords] = {};
+  bool started_ = false;
+  Progress progress_[kRecords];
+  std::uint32_t lanes_in_use_[2] = {};
+  int lane_count_ = 0;
+  int conflict_count_ = 0;
+  std::uint16_t digest_ = 0;
   E2eSender header_;
   std::uint8_t generation_ = 0;
   std::uint32_t header_ms_ = 0;
-  bool header_ever_ = false;
+  bool header_sent_ = false;
   int header_part_ = 0;  ///< of the header and its two slot frames, the next one
   int record_ = -1;      ///< record being sent, -1: none
-  int record_frame_ = 0;
+  int record_part_ = 0;
+  std::uint32_t repeat_ms_ = 0;  ///< when the next repetition is due
 };
 
 /// Puts the map together.
@@ -87,6 +122,8 @@ class MapReceiver {
  public:
   /// Takes a frame of one of the map messages. \return whether a new whole map has just become available
   [[nodiscard]] bool accept(const Frame& frame);
+  /// WIRE-034 To be called when a period (100 ms) ended without a header: the map is no longer confirmed.
+  void nothing_arrived();
   /// The newest whole map; meaningful once accept() has answered true.
   [[nodiscard]] const Map& map() const { return whole_; }
   /// Whether the newest header matches the whole map (it is confirmed about ten times a second).
@@ -94,27 +131,54 @@ class MapReceiver {
   [[nodiscard]] std::uint16_t rejected_frames() const { return rejected_; }
 
  private:
-  struct LaneProgress {
+  template <int Parts>
+  struct Progress {
     std::uint8_t revision = 0xFF;
-    std::uint16_t parts = 0;  ///< bit 0 header, 1 route, 2 links, 3 + i point i
+    std::uint16_t parts = 0;  ///< bit i: part i arrived
+    std::uint16_t checks[Parts] = {};
+
+    [[nodiscard]] bool has(int count) const;
+    [[nodiscard]] std::uint16_t check(int count) const;
+    /// Clears parts and record when the revision is another one. \return whether it is
+    template <typename Record>
+    [[nodiscard]] bool open(std::uint8_t new_revision, Record& record);
+    void note(int part, const Frame& frame);
   };
-  struct ConflictProgress {
-    std::uint8_t revision = 0xFF;
-    std::uint8_t parts = 0;  ///< bit 0 first, bit 1 second
+
+  /// What a header says a whole map is.
+  struct Announced {
+    std::uint8_t lane_count = 0;
+    std::uint8_t conflict_count = 0;
+    std::uint8_t lanes_left_out = 0;
+    std::uint16_t digest = 0;
+    [[nodiscard]] bool same(const Announced& other) const;
   };
+
+  [[nodiscard]] bool accept_header(const Frame& frame);
+  [[nodiscard]] bool accept_slots(const Frame& frame);
+  template <typename Message>
+  [[nodiscard]] bool accept_lane_part(const Frame& frame);
+  template <typename Message>
+  [[nodiscard]] bool accept_conflict_part(const Frame& frame);
+  [[nodiscard]] bool complete() const;
+  [[nodiscard]] bool plausible() const;
+  [[nodiscard]] bool finish_if_whole();
+  void reject();
+
   Map whole_;
   Map assembling_;
-  LaneProgress lane_progress_[kMaxLanes];
-  ConflictProgress conflict_progress_[kMaxConflicts];
+  Progress<kMaxLaneParts> lane_progress_[kMaxLanes];
+  Progress<kConflictParts> conflict_progress_[kMaxConflicts];
   E2eReceiver header_;
+  Announced announced_;
+  Announced whole_announced_;
   bool header_seen_ = false;
+  bool have_whole_ = false;
   bool confirmed_ = false;
+  bool revised_ = false;  ///< a record took another revision since whole_ was made
   std::uint8_t generation_ = 0;
-  std::uint8_t lane_count_ = 0;
-  std::uint8_t conflict_count_ = 0;
-  std::uint16_t digest_ = 0;
   std::uint32_t in_use_[2] = {};
-  std::uint8_t halves_ = 0;
+  std::uint8_t halves_ = 0;  ///< bit i: in_use_[i] belongs to the newest header
   std::uint16_t rejected_ = 0;
 };
 

@@ -103,6 +103,7 @@ bool TrackListReceiver::accept_header(const Frame& frame) {
   }
   // Whatever this one is worth, the list before it is over.
   give_up();
+  if (state == E2eState::kInitial) return false;
   TrackList list;
   if (!E2eReceiver::trusted(state) || !decode(frame, list)) {
     reject();

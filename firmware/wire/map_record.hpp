@@ -1,0 +1,41 @@
+#pragma once
+/// A lane or a conflict as frames: what sender and receiver of the map share. The parts of a lane are its
+/// header, route, links, then its points; those of a conflict its first and its second lane.
+
+#include <cstdint>
+
+#include "firmware/wire/frame.hpp"
+#include "firmware/wire/lane_map.hpp"
+
+namespace s4tp::wire {
+
+inline constexpr int kLaneHeaderPart = 0;
+inline constexpr int kLaneRoutePart = 1;
+inline constexpr int kLaneLinksPart = 2;
+inline constexpr int kFirstPointPart = 3;
+inline constexpr std::uint8_t kRevisions = 16;
+
+/// Lane slots in use, 32 a word.
+using LaneSet = std::uint32_t[2];
+[[nodiscard]] bool contains(const LaneSet& lanes, int lane);
+
+[[nodiscard]] int part_count(const Lane& lane);
+[[nodiscard]] int part_count(const Conflict& conflict);
+
+/// Sealed frame of a part. \return false when a value does not fit the wire
+[[nodiscard]] bool encode_part(const Lane& lane, int slot, std::uint8_t revision, int part, Frame& frame);
+[[nodiscard]] bool encode_part(const Conflict& conflict, int slot, std::uint8_t revision, int part,
+                               Frame& frame);
+
+/// Whether a present lane's links name only lanes that exist, or none.
+[[nodiscard]] bool links_exist(const Lane& lane, const LaneSet& lanes);
+/// Whether a present conflict is one of two lanes that exist, entered before they are left.
+[[nodiscard]] bool conflict_holds(const Conflict& conflict, const LaneSet& lanes);
+
+/// CRC-16 (0x1021, initial 0xFFFF) over a frame. The check of a record is the sum of those of its parts.
+[[nodiscard]] std::uint16_t frame_check(const Frame& frame);
+inline constexpr std::uint16_t kDigestStart = 0xFFFF;
+/// Adds a record to the digest of a map. \param record  lane slot, or kMaxLanes + conflict slot
+[[nodiscard]] std::uint16_t add_to_digest(std::uint16_t digest, int record, std::uint16_t check);
+
+}  // namespace s4tp::wire
