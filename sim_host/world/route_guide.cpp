@@ -94,7 +94,8 @@ class Builder {
     RouteGuide::Advice after = advice_of(way.to);
     LaneId next = way.to;
     for (auto inside = way.inside.rbegin(); inside != way.inside.rend(); ++inside) {
-      after = {true, 0, length(*inside) + after.remaining_m, length(*inside) + after.goal_distance_m, next};
+      after = {true, after.changes_needed, length(*inside) + after.remaining_m,
+               length(*inside) + after.goal_distance_m, next};
       advice_of(*inside) = after;
       next = *inside;
     }

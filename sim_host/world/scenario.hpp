@@ -68,7 +68,7 @@ struct Scenario {
 };
 
 /// Reads FOLDER/scenario.toml and the network it names.
-/// \throws std::runtime_error naming file, key, what was wrong and what is accepted
+/// SCN-001 \throws std::runtime_error naming file, key, what was wrong and what is accepted
 [[nodiscard]] Scenario load_scenario(const std::filesystem::path& folder);
 
 }  // namespace s4tp::world

@@ -45,6 +45,7 @@ class Reader {
       }
     }
     network_.conflicts = find_conflicts(network_.lanes, read_junctions(net));
+    join_seams();
     return std::move(network_);
   }
 
@@ -257,6 +258,25 @@ class Reader {
       junctions.push_back(std::move(junction));
     }
     return junctions;
+  }
+
+  /// Where nobody crosses or merges (a node that only adds or ends a lane) a junction is a mere seam: its
+  /// lanes are neighbours like those before and after it.
+  void join_seams() {
+    std::set<std::string> crossed;
+    for (const NetworkConflict& conflict : network_.conflicts) {
+      crossed.insert(lane(conflict.first).edge);
+      crossed.insert(lane(conflict.second).edge);
+    }
+    for (std::size_t i = 0; i + 1 < network_.lanes.size(); ++i) {  // lanes of an edge stand together
+      NetworkLane& right = network_.lanes[i];
+      NetworkLane& left = network_.lanes[i + 1];
+      if (right.in_junction && right.edge == left.edge && left.index == right.index + 1 &&
+          crossed.count(right.edge) == 0) {
+        right.left = static_cast<LaneId>(i) + 1;
+        left.right = static_cast<LaneId>(i);
+      }
+    }
   }
 
   const NetworkLane& lane(LaneId id) const { return network_.lanes[static_cast<std::size_t>(id)]; }
