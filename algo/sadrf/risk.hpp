@@ -6,6 +6,7 @@
 
 #include "algo/core/parameters.hpp"
 #include "algo/core/trajectory.hpp"
+#include "algo/sadrf/drivable.hpp"
 #include "algo/satp/prediction.hpp"
 #include "algo/scene/scene.hpp"
 
@@ -23,14 +24,18 @@ struct RiskProfile {
 /// dt * sum_t [R(t) + w_x max(0, R_obs(t) - C_t)], R = R_ego + w_soc R_soc (METHOD 4.4).
 [[nodiscard]] float risk_integral(const RiskProfile& profile, const Parameters& parameters);
 
-/// All modes and steps, both sides. `others` covers agents beyond the predicted ones.
-/// Work: at most kHorizonSteps * (kMaxAgents * kMaxModes + kMaxTracks) boxes.
-void exact_risk(const Scene& scene, const PredictionSet& prediction, const KinematicSet& others,
-                const Trajectory& trajectory, const Parameters& parameters, RiskProfile& profile);
+/// CORE-062 All modes and steps, both sides. Modes of one vehicle add by probability; where boxes of several
+/// vehicles overlap, the dearest covers the others. `others` covers agents beyond the predicted ones.
+/// \param area  of scene.map, built once a cycle
+/// Work: at most kHorizonSteps * (kMaxAgents * kMaxModes + kMaxTracks) boxes, on each side.
+void exact_risk(const Scene& scene, const DrivableArea& area, const PredictionSet& prediction,
+                const KinematicSet& others, const Trajectory& trajectory, const Parameters& parameters,
+                RiskProfile& profile);
 
-/// Cheap approximation of risk_integral for ranking: expected mode, every third step, closed form across
-/// (difference of erf) and two points along, culled by distance.
-[[nodiscard]] float rank_risk(const Scene& scene, const PredictionSet& prediction, const KinematicSet& others,
-                              const Trajectory& trajectory, const Parameters& parameters);
+/// CORE-063 Cheap approximation of risk_integral for ranking: likeliest mode, every third step, closed form
+/// across (difference of erf) and two points along, culled by distance; overlaps of vehicles count twice.
+[[nodiscard]] float rank_risk(const Scene& scene, const DrivableArea& area, const PredictionSet& prediction,
+                              const KinematicSet& others, const Trajectory& trajectory,
+                              const Parameters& parameters);
 
 }  // namespace s4tp

@@ -1,0 +1,23 @@
+#pragma once
+/// How another driver moves along a predicted future: what his own field needs.
+
+#include "algo/sadrf/field.hpp"
+#include "algo/satp/prediction.hpp"
+
+namespace s4tp {
+
+/// Speed and path curvature over the 0.3 s up to a step (the first three steps: over the first 0.3 s).
+struct Motion {
+  Point moved;  ///< over 0.3 s
+  float speed_mps = 0.0F;
+  float curvature_1pm = 0.0F;  ///< |kappa| <= 0.2
+};
+
+/// \param step  index into mode.steps
+[[nodiscard]] Motion motion_at(const Mode& mode, int step);
+
+/// The driver of a vehicle of `length_m`: wheelbase 0.6 x length, rear axle 0.3 x length behind the box
+/// centre (METHOD section 3).
+[[nodiscard]] DriverState driver_of(const Pose& centre, const Motion& motion, float length_m);
+
+}  // namespace s4tp

@@ -1,0 +1,251 @@
+#include "algo/sadrf/risk.hpp"
+
+#include "algo/core/math.hpp"
+#include "algo/sadrf/box_integral.hpp"
+#include "algo/sadrf/field.hpp"
+#include "algo/sadrf/others_motion.hpp"
+#include "algo/sadrf/road_risk.hpp"
+
+namespace s4tp {
+namespace {
+
+constexpr int kMaxFutures = kMaxAgents * kMaxModes + kMaxTracks;
+
+/// One future of one vehicle, whoever predicted it.
+struct Future {
+  const Mode* mode = nullptr;
+  float probability = 0.0F;
+  int agent = 0;
+};
+
+/// In the order of agents, the modes of one side by side.
+using Futures = BoundedVector<Future, kMaxFutures>;
+
+/// A vehicle's box where our field is felt, with what it costs.
+struct Felt {
+  Box box;
+  float probability = 0.0F;
+  float risk = 0.0F;  ///< of the whole box, as if it were alone
+  int agent = 0;
+};
+
+using FeltBoxes = BoundedVector<Felt, kMaxFutures>;
+
+/// Risk of one step.
+struct StepRisk {
+  float obstacle = 0.0F;
+  float social = 0.0F;
+  float share[kMaxTracks] = {};  ///< per agent, both sides weighted as in the sum
+};
+
+float radius(const Track& track) {
+  return 0.5F * (track.length_m + track.width_m);
+}
+
+Futures all_modes(const Scene& scene, const PredictionSet& prediction, const KinematicSet& others) {
+  Futures futures;
+  bool room = true;
+  for (int agent = 0; agent < scene.agents.size(); ++agent) {
+    bool predicted = false;
+    for (const AgentPrediction& of : prediction.agents) {
+      if (of.agent != agent) continue;
+      predicted = true;
+      for (const Mode& mode : of.modes) room = room && futures.push({&mode, mode.probability, agent});
+    }
+    if (predicted || agent >= others.agents.size()) continue;
+    room = room && futures.push({&others.agents[agent], 1.0F, agent});
+  }
+  S4TP_ASSERT(room);
+  return futures;
+}
+
+/// The likeliest mode of each vehicle, as if it were certain.
+Futures likeliest(const Futures& modes) {
+  Futures futures;
+  for (const Future& future : modes) {
+    const int last = futures.size() - 1;
+    if (last < 0 || futures[last].agent != future.agent) {
+      if (!futures.push(future)) break;
+    } else if (future.probability > futures[last].probability) {
+      futures[last] = future;
+    }
+  }
+  for (Future& future : futures) future.probability = 1.0F;
+  return futures;
+}
+
+bool inside(const Box& box, Point point) {
+  const Point local = to_local(box.centre, point);
+  return abs(local.x_m) <= 0.5F * box.length_m && abs(local.y_m) <= 0.5F * box.width_m;
+}
+
+/// Sum over the modes of one vehicle that stand at `point`.
+float presence(const FeltBoxes& felt, int agent, Point point) {
+  float sum = 0.0F;
+  for (const Felt& other : felt) {
+    if (other.agent == agent && inside(other.box, point)) sum += other.probability;
+  }
+  return sum;
+}
+
+/// What part of a box's risk is its own: M is the largest presence of any vehicle, so that a vehicle pays
+/// only for what it adds to those before it. 4 x 4 sub-samples, weighted by the field.
+float own_part(const Field& field, const FeltBoxes& felt, int index) {
+  const Felt& one = felt[index];
+  const float reach_m = 0.5F * (one.box.length_m + one.box.width_m);
+  bool alone = true;
+  for (int i = 0; i < index && alone; ++i) {
+    const Felt& other = felt[i];
+    if (other.agent == one.agent) continue;
+    const float both_m = reach_m + 0.5F * (other.box.length_m + other.box.width_m);
+    const Point offset = position(other.box.centre) - position(one.box.centre);
+    alone = dot(offset, offset) > square(both_m) || separation(one.box, other.box) > 0.0F;
+  }
+  if (alone) return 1.0F;
+  constexpr int kSamples = 4;
+  float own = 0.0F;
+  float whole = 0.0F;
+  for (int i = 0; i < kSamples * kSamples; ++i) {
+    const float ahead = (static_cast<float>(i % kSamples) + 0.5F) / static_cast<float>(kSamples) - 0.5F;
+    const float left = (static_cast<float>(i / kSamples) + 0.5F) / static_cast<float>(kSamples) - 0.5F;
+    const Point point = offset_point(one.box.centre, ahead * one.box.length_m, left * one.box.width_m);
+    const float weight = field_at(field, point);
+    if (weight <= 0.0F) continue;
+    float before = 0.0F;
+    int agent = -1;
+    for (int j = 0; j < index; ++j) {
+      if (felt[j].agent == one.agent || felt[j].agent == agent) continue;
+      agent = felt[j].agent;
+      before = max(before, presence(felt, agent, point));
+    }
+    const float mine = presence(felt, one.agent, point);
+    whole += weight;
+    own += weight * max(mine - before, 0.0F) / max(mine, 1e-6F);
+  }
+  return whole > 0.0F ? own / whole : 1.0F;
+}
+
+/// R_ego of the vehicles: our field over their boxes.
+void add_obstacles(const Scene& scene, const Futures& futures, const Field& field, int step, BoxLines lines,
+                   const Parameters& parameters, StepRisk& risk) {
+  FeltBoxes felt;
+  for (const Future& future : futures) {
+    const Track& track = scene.agents[future.agent].track;
+    const Pose& centre = future.mode->steps[step];
+    if (out_of_reach(field, position(centre), radius(track))) continue;
+    const Box box = {centre, track.length_m, track.width_m};
+    const float cost = parameters.risk.cost_obstacle * future.probability;
+    const float value = cost * field_over_box(field, box, lines);
+    if (value > 0.0F && !felt.push({box, future.probability, value, future.agent})) break;
+  }
+  for (int i = 0; i < felt.size(); ++i) {
+    const float part = lines == BoxLines::kFine ? own_part(field, felt, i) : 1.0F;
+    risk.obstacle += part * felt[i].risk;
+    risk.share[felt[i].agent] += part * felt[i].risk;
+  }
+}
+
+/// True when we are surely behind a driver or further away than he looks, found without his field.
+bool unseen(const Motion& motion, Point towards_us, float look_ahead_m, float margin_m) {
+  const float squared = dot(towards_us, towards_us);
+  if (squared > square(look_ahead_m + margin_m)) return true;
+  const float moved_m = max(norm(motion.moved), 1e-3F);
+  if (moved_m < 0.3F) return false;  // too slow for the motion to tell the heading
+  // The motion of the box centre differs from the heading by at most 0.3 x length x kappa = 0.25 rad or so.
+  const float ahead_m = dot(motion.moved, towards_us) / moved_m;
+  return ahead_m < -margin_m && square(ahead_m) > 0.1F * squared;
+}
+
+/// R_soc: their fields over our box.
+void add_social(const Scene& scene, const Futures& futures, const Box& ego, int step, float look_ahead_s,
+                BoxLines lines, const Parameters& parameters, StepRisk& risk) {
+  const float ego_radius_m = 0.5F * (ego.length_m + ego.width_m);
+  for (const Future& future : futures) {
+    const Track& track = scene.agents[future.agent].track;
+    const Pose& centre = future.mode->steps[step];
+    const Motion motion = motion_at(*future.mode, step);
+    FieldParams params = field_params(parameters, track.width_m);
+    params.look_ahead_s = look_ahead_s;
+    const float look_ahead_m = max(motion.speed_mps * look_ahead_s, 1.0F);
+    const float margin_m = ego_radius_m + track.length_m;
+    if (unseen(motion, position(ego.centre) - position(centre), look_ahead_m, margin_m)) continue;
+    const Field field = prepare_field(params, driver_of(centre, motion, track.length_m));
+    if (out_of_reach(field, position(ego.centre), ego_radius_m)) continue;
+    const float cost = parameters.risk.cost_obstacle * future.probability;
+    const float value = cost * field_over_box(field, ego, lines);
+    risk.social += value;
+    risk.share[future.agent] += parameters.risk.weight_social * value;
+  }
+}
+
+/// Both sides at step `step` + 1 of the trajectory.
+StepRisk risk_at(const Scene& scene, const Futures& futures, const Trajectory& trajectory, int step,
+                 BoxLines lines, const Parameters& parameters) {
+  const auto& vehicle = parameters.vehicle;
+  const TrajectoryPoint& point = trajectory.points[step + 1];
+  const float look_ahead_s =
+      look_ahead_at(parameters.risk.look_ahead_s, parameters.risk.look_ahead_shrinks > 0.5F,
+                    static_cast<float>(step + 1) * kStepS);
+  FieldParams params = field_params(parameters, vehicle.width_m);
+  params.look_ahead_s = look_ahead_s;
+  const DriverState driver = {point.rear_axle, point.speed_mps,
+                              atan(vehicle.wheelbase_m * point.curvature_1pm), vehicle.wheelbase_m};
+  const float to_centre_m = 0.5F * vehicle.length_m - vehicle.rear_overhang_m;
+  const Box ego = {shift_ahead(point.rear_axle, to_centre_m), vehicle.length_m, vehicle.width_m};
+  StepRisk risk;
+  add_obstacles(scene, futures, prepare_field(params, driver), step, lines, parameters, risk);
+  add_social(scene, futures, ego, step, look_ahead_s, lines, parameters, risk);
+  return risk;
+}
+
+float instant(float obstacle, float road, float social, const Parameters& parameters) {
+  return obstacle + road + parameters.risk.weight_social * social +
+         parameters.scoring.risk_excess * max(obstacle - parameters.risk.threshold, 0.0F);
+}
+
+}  // namespace
+
+float risk_integral(const RiskProfile& profile, const Parameters& parameters) {
+  float sum = 0.0F;
+  for (int i = 0; i < kHorizonSteps; ++i) {
+    sum += instant(profile.obstacle[i], profile.road[i], profile.social[i], parameters);
+  }
+  return kStepS * sum;
+}
+
+void exact_risk(const Scene& scene, const DrivableArea& area, const PredictionSet& prediction,
+                const KinematicSet& others, const Trajectory& trajectory, const Parameters& parameters,
+                RiskProfile& profile) {
+  const Futures futures = all_modes(scene, prediction, others);
+  road_risk(area, trajectory, parameters, 1, profile.road);
+  profile.dominating_agent = 255;
+  profile.dominating_step = 0;
+  float largest = 0.0F;
+  for (int i = 0; i < kHorizonSteps; ++i) {
+    const StepRisk risk = risk_at(scene, futures, trajectory, i, BoxLines::kFine, parameters);
+    profile.obstacle[i] = risk.obstacle;
+    profile.social[i] = risk.social;
+    for (int agent = 0; agent < scene.agents.size(); ++agent) {
+      if (risk.share[agent] <= largest) continue;
+      largest = risk.share[agent];
+      profile.dominating_agent = static_cast<std::uint8_t>(agent);
+      profile.dominating_step = static_cast<std::uint8_t>(i);
+    }
+  }
+}
+
+float rank_risk(const Scene& scene, const DrivableArea& area, const PredictionSet& prediction,
+                const KinematicSet& others, const Trajectory& trajectory, const Parameters& parameters) {
+  constexpr int kStride = 3;
+  const Futures futures = likeliest(all_modes(scene, prediction, others));
+  float road[kHorizonSteps] = {};
+  road_risk(area, trajectory, parameters, kStride, road);
+  float sum = 0.0F;
+  for (int i = kStride - 1; i < kHorizonSteps; i += kStride) {
+    const StepRisk risk = risk_at(scene, futures, trajectory, i, BoxLines::kCoarse, parameters);
+    sum += instant(risk.obstacle, road[i], risk.social, parameters);
+  }
+  return static_cast<float>(kStride) * kStepS * sum;
+}
+
+}  // namespace s4tp
