@@ -96,6 +96,7 @@ Status Planner::plan(const PlannerInput& input, Plan& plan, Explanation& explana
       const StageScope scope(probe, Stage::kScene);
       status = scene_builder_.build(input.now_ms, input.ego, input.tracks, input.tracks_ms, input.map,
                                     parameters_, scene_);
+      build_drivable(input.map, drivable_);
       count(explanation, Stage::kScene, scene_.agents.size());
     }
     start_ = plan_start(input.ego, input.now_ms, running_, start_ms_, parameters_);
@@ -167,8 +168,8 @@ void Planner::rank(bool careful, Explanation& explanation) {
     explanation.rejections[i] = judge(candidate.path, conditioned_, explanation.check);
     if (explanation.rejections[i] != Rejection::kNone) continue;
     costs_[i] = score_motion(scene_, candidate.path, chosen_, previous, careful, parameters_);
-    costs_[i].risk =
-        parameters_.scoring.risk * rank_risk(scene_, unconditioned_, keep_going_, chosen_, parameters_);
+    costs_[i].risk = parameters_.scoring.risk *
+                     rank_risk(scene_, drivable_, unconditioned_, keep_going_, chosen_, parameters_);
     const DecisionKey key = decision_key(scene_, candidate.path, chosen_, unconditioned_);
     if (previous) {
       keeps_plan_ = true;
@@ -246,7 +247,7 @@ bool Planner::evaluate(int index, Explanation& explanation) {
     if (explanation.rejections[index] != Rejection::kNone) return false;
   }
   const StageScope scope(probe, Stage::kExactRisk);
-  exact_risk(scene_, conditioned_, keep_going_, chosen_, parameters_, risk_);
+  exact_risk(scene_, drivable_, conditioned_, keep_going_, chosen_, parameters_, risk_);
   costs_[index].risk = parameters_.scoring.risk * risk_integral(risk_, parameters_);
   count(explanation, Stage::kExactRisk, 1);
   return true;

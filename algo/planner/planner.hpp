@@ -73,6 +73,7 @@ class Planner {
   std::uint32_t start_ms_ = 0;
   Plan running_;
   Scene scene_;
+  DrivableArea drivable_;
   TrajectoryPoint start_;
   PredictionSet unconditioned_;
   KinematicSet keep_going_;
