@@ -1,0 +1,20 @@
+#pragma once
+/// A driver who holds the speed he came with and steers along the route, whoever is in the way.
+
+#include "algo/planner/planner.hpp"
+
+namespace s4tp::baselines {
+
+class ConstantSpeedPlanner {
+ public:
+  [[nodiscard]] Status init(const Parameters& parameters);
+  [[nodiscard]] Status plan(const PlannerInput& input, Plan& plan, Explanation& explanation);
+
+ private:
+  Parameters parameters_;
+  SceneBuilder scene_builder_;
+  Scene scene_;
+  float speed_mps_ = -1.0F;  ///< held; < 0: not seen yet
+};
+
+}  // namespace s4tp::baselines

@@ -1,0 +1,41 @@
+#pragma once
+/// Many episodes: planners x scenarios x seeds, the same seeds for every planner.
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "algo/core/parameters.hpp"
+#include "sim_host/campaign/episode.hpp"
+#include "sim_host/metrics/metrics.hpp"
+#include "sim_host/world/scenario.hpp"
+
+namespace s4tp::campaign {
+
+struct CampaignOptions {
+  std::vector<std::string> planners{"s4tp"};
+  int episodes = 20;                     ///< per planner and scenario
+  std::uint64_t first_seed = 0;          ///< the others follow
+  Parameters parameters;
+  int threads = 0;                       ///< 0: one per core
+  /// Called after each episode, one call at a time. `traced` says whether the result carries a trace.
+  std::function<void(const world::Scenario&, const std::string& planner, const EpisodeResult&)> on_episode;
+  /// Whose episodes keep a trace (costs memory while they run).
+  std::function<bool(const std::string& planner)> traces;
+};
+
+/// One episode's outcome.
+struct EpisodeRow {
+  std::string scenario;
+  std::string planner;
+  metrics::EpisodeMetrics metrics;
+};
+
+/// Runs everything; rows in the order planner, scenario, seed, whatever the threads did.
+/// \throws what an episode throws
+[[nodiscard]] std::vector<EpisodeRow> run_campaign(const std::vector<world::Scenario>& scenarios,
+                                                   const CampaignOptions& options);
+
+}  // namespace s4tp::campaign

@@ -1,0 +1,96 @@
+#include "sim_host/campaign/episode.hpp"
+
+#include <ctime>
+#include <fstream>
+#include <stdexcept>
+
+#include "algo/core/versions.hpp"
+#include "firmware/wire/candump.hpp"
+#include "firmware/wire/codec.hpp"
+#include "sim_host/campaign/driver.hpp"
+#include "sim_host/world/world.hpp"
+
+namespace s4tp::campaign {
+namespace {
+
+/// Writes every frame of the bus in candump's format; time is vehicle time.
+class BusLog {
+ public:
+  explicit BusLog(const std::filesystem::path& file, const EpisodeOptions& options) : stream_(file), file_(file) {
+    stream_ << "# s4tp log: seed " << options.seed << ", planner " << options.planner << ", parameters "
+            << parameters_crc(options.parameters) << ", wire " << int{kWireVersion} << '\n';
+    check();
+  }
+
+  void write(std::uint64_t time_us, const std::vector<wire::Frame>& frames) {
+    for (const wire::Frame& frame : frames) {
+      wire::LoggedFrame logged{time_us, "vcan0", frame};
+      char line[wire::kCandumpLineSize];
+      wire::format_candump(logged, line);
+      stream_ << line << '\n';
+    }
+    check();
+  }
+
+  /// The planning cycle that started last comes too late.
+  void write_deadline_miss() { stream_ << "# miss\n"; }
+
+ private:
+  void check() const {
+    if (!stream_) throw std::runtime_error(file_.string() + ": cannot write the log");
+  }
+  std::ofstream stream_;
+  std::filesystem::path file_;
+};
+
+double cpu_now_s() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+}  // namespace
+
+EpisodeResult run_episode(const world::Scenario& scenario, const EpisodeOptions& options) {
+  const double cpu_start_s = cpu_now_s();
+  EpisodeResult result;
+  result.trace = std::make_unique<Trace>();
+  Trace* const trace = options.trace ? result.trace.get() : nullptr;
+  const auto driver = make_driver(options.planner, options.parameters, trace, trace);
+  world::World world(scenario, {.seed = options.seed});
+  std::optional<BusLog> log;
+  if (options.log) log.emplace(*options.log, options);
+
+  std::vector<wire::Frame> from_world;
+  std::vector<wire::Frame> delivered;
+  std::vector<wire::Frame> from_ecu;
+  std::size_t misses = 0;
+  for (std::uint64_t tick = 0; !world.finished(); ++tick) {
+    from_world.clear();
+    delivered.clear();
+    from_ecu.clear();
+    world.tick(from_world);
+    for (const wire::Frame& frame : from_world) {
+      wire::MapOrigin origin{};
+      if (wire::decode(frame, origin)) result.origin = {origin.x_m, origin.y_m};
+      if (!options.passes || options.passes(world.time_s(), frame)) delivered.push_back(frame);
+    }
+    if (misses < options.deadline_misses_s.size() && world.time_s() >= options.deadline_misses_s[misses]) {
+      ++misses;
+      driver->inject_deadline_miss();
+      if (log) log->write_deadline_miss();
+    }
+    driver->tick(delivered, from_ecu);
+    for (const wire::Frame& frame : from_ecu) world.receive(frame);
+    if (log) {
+      log->write(tick * 10'000, delivered);
+      log->write(tick * 10'000, from_ecu);
+    }
+  }
+  result.recording = world.recording();
+  if (!options.trace) result.trace.reset();
+  result.cpu_s = cpu_now_s() - cpu_start_s;
+  return result;
+}
+
+}  // namespace s4tp::campaign

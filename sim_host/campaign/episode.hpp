@@ -1,0 +1,41 @@
+#pragma once
+/// One episode: the world and an ECU on one bus, from pre-roll to the end.
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "algo/core/parameters.hpp"
+#include "firmware/wire/frame.hpp"
+#include "sim_host/campaign/trace.hpp"
+#include "sim_host/world/recording.hpp"
+#include "sim_host/world/scenario.hpp"
+
+namespace s4tp::campaign {
+
+struct EpisodeOptions {
+  std::uint64_t seed = 0;
+  std::string planner = "s4tp";
+  Parameters parameters;
+  std::optional<std::filesystem::path> log;  ///< candump log of every frame on the bus
+  bool trace = false;                        ///< keep what the planner thought
+  /// Disturbs the bus: false drops the frame on its way to the ECU. Called with the time since entry [s].
+  std::function<bool(double time_s, const wire::Frame& frame)> passes;
+  /// Times since entry at which the running planning cycle misses its deadline [s].
+  std::vector<double> deadline_misses_s;
+};
+
+struct EpisodeResult {
+  world::Recording recording;
+  world::Vec2 origin;                        ///< of the odometry frame, network coordinates
+  std::unique_ptr<Trace> trace;              ///< when asked for
+  double cpu_s = 0.0;
+};
+
+/// \throws std::runtime_error when the log cannot be written
+[[nodiscard]] EpisodeResult run_episode(const world::Scenario& scenario, const EpisodeOptions& options);
+
+}  // namespace s4tp::campaign

@@ -1,0 +1,38 @@
+#pragma once
+/// What the planner thought during an episode, for pictures and checks. Coordinates are the odometry frame's.
+
+#include <cstdint>
+#include <vector>
+
+#include "algo/planner/probe.hpp"
+#include "algo/planner/planner.hpp"
+#include "firmware/ecu/records.hpp"
+#include "hal/telemetry.hpp"
+
+namespace s4tp::campaign {
+
+/// One planning cycle.
+struct CycleTrace {
+  ecu::PlanRecord record;
+  std::vector<Track> tracks;             ///< as the scene saw them
+  std::vector<AgentPrediction> predictions;
+  RiskProfile risk;
+};
+
+/// Collects telemetry records and the probe's views of one ECU.
+class Trace final : public hal::Telemetry, public Probe {
+ public:
+  bool publish(std::uint16_t kind, const void* record, std::uint32_t size) override;
+  void stage_begin(Stage) override {}
+  void stage_end(Stage) override {}
+  void cycle_done(const Scene& scene, const PredictionSet& prediction, const RiskProfile& risk) override;
+
+  std::vector<CycleTrace> cycles;
+  std::vector<ecu::ControlRecord> controls;
+  std::vector<ecu::ModeRecord> modes;
+
+ private:
+  CycleTrace pending_;
+};
+
+}  // namespace s4tp::campaign
