@@ -1,6 +1,6 @@
 #pragma once
-/// A driver who sees the road and nobody on it: the S4TP planner with every track withheld. The measure of how
-/// dangerous the traffic is.
+/// A driver who sees the road and nobody on it: the S4TP planner with every track withheld. The measure of
+/// how dangerous the traffic is.
 
 #include "algo/planner/planner.hpp"
 

@@ -31,8 +31,7 @@ Status ConstantSpeedPlanner::plan(const PlannerInput& input, Plan& plan, Explana
   explanation = Explanation{};
   if (speed_mps_ < 0.0F) speed_mps_ = input.ego.speed_mps;
   const Plan running = input.running != nullptr ? *input.running : Plan{};
-  const TrajectoryPoint start =
-      plan_start(input.ego, input.now_ms, running, input.start_ms, parameters_);
+  const TrajectoryPoint start = plan_start(input.ego, input.now_ms, running, input.start_ms, parameters_);
   plan.start_ms = input.start_ms;
   plan.kind = PlanKind::kDrive;
 
@@ -41,9 +40,12 @@ Status ConstantSpeedPlanner::plan(const PlannerInput& input, Plan& plan, Explana
   const bool has_road = status == Status::kOk;
   const EgoPath* path = has_road ? &wanted_path(scene_) : nullptr;
   const Frenet begin =
-      has_road ? project(*input.map, path->path, position(start.rear_axle), path->frenet.s_m, 20.0F) : Frenet{};
+      has_road ? project(*input.map, path->path, position(start.rear_axle), path->frenet.s_m, 20.0F)
+               : Frenet{};
   const float slope =
-      has_road ? s4tp::tan(std::clamp(wrap_angle(start.rear_axle.heading_rad - begin.heading_rad), -1.0F, 1.0F)) : 0.0F;
+      has_road
+          ? s4tp::tan(std::clamp(wrap_angle(start.rear_axle.heading_rad - begin.heading_rad), -1.0F, 1.0F))
+          : 0.0F;
 
   for (int i = 0; i < kTrajectoryPoints; ++i) {
     TrajectoryPoint& point = plan.trajectory.points[i];
@@ -64,7 +66,8 @@ Status ConstantSpeedPlanner::plan(const PlannerInput& input, Plan& plan, Explana
     const PathPoint centre = path_point(*input.map, path->path, begin.s_m + ahead_m);
     const Point at = offset_point(centre.pose, 0.0F, left_m);
     point.rear_axle = {at.x_m, at.y_m, wrap_angle(centre.pose.heading_rad + s4tp::atan(drift))};
-    const float turned = wrap_angle(point.rear_axle.heading_rad - plan.trajectory.points[i - 1].rear_axle.heading_rad);
+    const float turned =
+        wrap_angle(point.rear_axle.heading_rad - plan.trajectory.points[i - 1].rear_axle.heading_rad);
     point.curvature_1pm = turned / std::max(speed_mps_ * kStepS, 0.05F);
   }
   return Status::kOk;

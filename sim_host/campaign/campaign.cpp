@@ -48,7 +48,8 @@ std::vector<EpisodeRow> run_campaign(const std::vector<world::Scenario>& scenari
       }
     }
   };
-  const int wanted = options.threads > 0 ? options.threads : static_cast<int>(std::thread::hardware_concurrency());
+  const int wanted =
+      options.threads > 0 ? options.threads : static_cast<int>(std::thread::hardware_concurrency());
   {
     std::vector<std::jthread> threads;
     for (int i = 0; i < std::max(wanted, 1); ++i) threads.emplace_back(work);

@@ -16,10 +16,10 @@ namespace s4tp::campaign {
 
 struct CampaignOptions {
   std::vector<std::string> planners{"s4tp"};
-  int episodes = 20;                     ///< per planner and scenario
-  std::uint64_t first_seed = 0;          ///< the others follow
+  int episodes = 20;             ///< per planner and scenario
+  std::uint64_t first_seed = 0;  ///< the others follow
   Parameters parameters;
-  int threads = 0;                       ///< 0: one per core
+  int threads = 0;  ///< 0: one per core
   /// Called after each episode, one call at a time. `traced` says whether the result carries a trace.
   std::function<void(const world::Scenario&, const std::string& planner, const EpisodeResult&)> on_episode;
   /// Whose episodes keep a trace (costs memory while they run).

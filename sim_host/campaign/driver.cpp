@@ -31,8 +31,12 @@ wire::Frame to_wire(const hal::CanFrame& can) {
   return frame;
 }
 
-void set_probe(Planner& planner, Probe* probe) { planner.probe = probe; }
-void set_probe(baselines::BlindPlanner& planner, Probe* probe) { planner.inner().probe = probe; }
+void set_probe(Planner& planner, Probe* probe) {
+  planner.probe = probe;
+}
+void set_probe(baselines::BlindPlanner& planner, Probe* probe) {
+  planner.inner().probe = probe;
+}
 void set_probe(baselines::ConstantSpeedPlanner&, Probe*) {}
 
 template <typename PlannerT>

@@ -16,8 +16,8 @@ namespace s4tp::campaign {
 class Driver {
  public:
   virtual ~Driver() = default;
-  /// One control tick in lock-step: frames of the world in (TICK last), frames of the ECU out. A planning cycle
-  /// that becomes due runs before the call returns.
+  /// One control tick in lock-step: frames of the world in (TICK last), frames of the ECU out. A planning
+  /// cycle that becomes due runs before the call returns.
   virtual void tick(const std::vector<wire::Frame>& from_world, std::vector<wire::Frame>& to_world) = 0;
   /// The plan being made now will miss its boundary.
   virtual void inject_deadline_miss() = 0;

@@ -16,7 +16,8 @@ namespace {
 /// Writes every frame of the bus in candump's format; time is vehicle time.
 class BusLog {
  public:
-  explicit BusLog(const std::filesystem::path& file, const EpisodeOptions& options) : stream_(file), file_(file) {
+  explicit BusLog(const std::filesystem::path& file, const EpisodeOptions& options)
+      : stream_(file), file_(file) {
     stream_ << "# s4tp log: seed " << options.seed << ", planner " << options.planner << ", parameters "
             << parameters_crc(options.parameters) << ", wire " << int{kWireVersion} << '\n';
     check();

@@ -30,8 +30,8 @@ struct EpisodeOptions {
 
 struct EpisodeResult {
   world::Recording recording;
-  world::Vec2 origin;                        ///< of the odometry frame, network coordinates
-  std::unique_ptr<Trace> trace;              ///< when asked for
+  world::Vec2 origin;            ///< of the odometry frame, network coordinates
+  std::unique_ptr<Trace> trace;  ///< when asked for
   double cpu_s = 0.0;
 };
 

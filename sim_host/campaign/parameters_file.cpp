@@ -37,7 +37,8 @@ Parameters load_parameters(const std::filesystem::path& file) {
       if (!value.is_floating() && !value.is_integer()) {
         refuse(file, name + " is not a number; accepted: " + range_of(parameter_info(index)));
       }
-      const double number = value.is_integer() ? static_cast<double>(value.as_integer()) : value.as_floating();
+      const double number =
+          value.is_integer() ? static_cast<double>(value.as_integer()) : value.as_floating();
       set_parameter(parameters, index, static_cast<float>(number));
     }
   }

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "algo/planner/probe.hpp"
 #include "algo/planner/planner.hpp"
+#include "algo/planner/probe.hpp"
 #include "firmware/ecu/records.hpp"
 #include "hal/telemetry.hpp"
 
@@ -14,7 +14,7 @@ namespace s4tp::campaign {
 /// One planning cycle.
 struct CycleTrace {
   ecu::PlanRecord record;
-  std::vector<Track> tracks;             ///< as the scene saw them
+  std::vector<Track> tracks;  ///< as the scene saw them
   std::vector<AgentPrediction> predictions;
   RiskProfile risk;
 };

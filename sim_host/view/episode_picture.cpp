@@ -17,7 +17,7 @@ using world::Vec2;
 
 constexpr double kPixelsPerMetre = 8.0;
 constexpr double kChartHeightPx = 150.0;
-constexpr double kReachM = 48.0;   // half the width of what is shown
+constexpr double kReachM = 48.0;  // half the width of what is shown
 constexpr double kCellM = 1.0;
 
 const char* const kEgoColour = "#c0392b";
@@ -42,12 +42,18 @@ const CycleTrace* tensest(const EpisodeResult& result, double entry_ms) {
 
 const char* ending_name(world::Ending ending) {
   switch (ending) {
-    case world::Ending::kRunning: return "running";
-    case world::Ending::kGoal: return "goal";
-    case world::Ending::kCollision: return "collision";
-    case world::Ending::kOffRoad: return "off road";
-    case world::Ending::kTimeOut: return "time-out";
-    case world::Ending::kDeadEcu: return "dead ECU";
+    case world::Ending::kRunning:
+      return "running";
+    case world::Ending::kGoal:
+      return "goal";
+    case world::Ending::kCollision:
+      return "collision";
+    case world::Ending::kOffRoad:
+      return "off road";
+    case world::Ending::kTimeOut:
+      return "time-out";
+    case world::Ending::kDeadEcu:
+      return "dead ECU";
   }
   return "?";
 }
@@ -81,7 +87,8 @@ void draw_fields(Svg& svg, const CycleTrace& cycle, Vec2 origin, Vec2 low, Vec2 
   const FieldParams params = paper_preset(1.8F);
   for (double x = std::floor(low.x); x < high.x; x += kCellM) {
     for (double y = std::floor(low.y); y < high.y; y += kCellM) {
-      const Point centre{static_cast<float>(x + kCellM / 2 - origin.x), static_cast<float>(y + kCellM / 2 - origin.y)};
+      const Point centre{static_cast<float>(x + kCellM / 2 - origin.x),
+                         static_cast<float>(y + kCellM / 2 - origin.y)};
       float risk = 0.0F;
       for (const DriverState& driver : drivers) risk += field_at(params, driver, centre);
       const double shown = std::min(1.0, std::sqrt(static_cast<double>(risk) / 12.0));
@@ -95,7 +102,9 @@ void draw_thoughts(Svg& svg, const CycleTrace& cycle, Vec2 origin) {
     for (const Mode& mode : agent.modes) {
       std::vector<Vec2> line;
       for (const Pose& pose : mode.steps) line.push_back({pose.x_m + origin.x, pose.y_m + origin.y});
-      svg.line(line, {.colour = kOtherColour, .width_m = 0.35, .opacity = 0.25 + 0.7 * static_cast<double>(mode.probability)});
+      svg.line(line, {.colour = kOtherColour,
+                      .width_m = 0.35,
+                      .opacity = 0.25 + 0.7 * static_cast<double>(mode.probability)});
     }
   }
   std::vector<Vec2> plan;
@@ -119,13 +128,14 @@ void draw_cars(Svg& svg, const world::Recording& recording, const world::Snapsho
 }
 
 /// One curve over the episode in a strip of the chart area.
-void draw_curve(Svg& svg, double top_px, double height_px, const std::vector<double>& values, double full_scale,
-                const std::string& colour, const std::string& label) {
+void draw_curve(Svg& svg, double top_px, double height_px, const std::vector<double>& values,
+                double full_scale, const std::string& colour, const std::string& label) {
   const double width = svg.width_px() - 20.0;
   std::vector<Vec2> line;
   for (std::size_t i = 0; i < values.size(); ++i) {
     const double share = std::clamp(values[i] / full_scale, 0.0, 1.0);
-    line.push_back({10.0 + width * static_cast<double>(i) / std::max<double>(1.0, static_cast<double>(values.size() - 1)),
+    line.push_back({10.0 + width * static_cast<double>(i) /
+                               std::max<double>(1.0, static_cast<double>(values.size() - 1)),
                     top_px + height_px * (1.0 - share)});
   }
   svg.line_px(line, colour, 1.6);
@@ -134,7 +144,8 @@ void draw_curve(Svg& svg, double top_px, double height_px, const std::vector<dou
 
 }  // namespace
 
-void draw_episode(const world::Scenario& scenario, const EpisodeResult& result, const std::filesystem::path& file) {
+void draw_episode(const world::Scenario& scenario, const EpisodeResult& result,
+                  const std::filesystem::path& file) {
   const world::Recording& recording = result.recording;
   if (recording.snapshots.empty()) return;
   // Vehicle time starts with the pre-roll, the recording's time at entry.
@@ -142,10 +153,10 @@ void draw_episode(const world::Scenario& scenario, const EpisodeResult& result, 
   const CycleTrace* cycle = tensest(result, 1000.0 * pre_roll_s);
   const double shown_s =
       cycle != nullptr ? static_cast<double>(cycle->record.plan.start_ms) / 1000.0 - pre_roll_s : 0.0;
-  const auto now = std::min_element(
-      recording.snapshots.begin(), recording.snapshots.end(), [&](const auto& a, const auto& b) {
-        return std::abs(a.time_s - shown_s) < std::abs(b.time_s - shown_s);
-      });
+  const auto now = std::min_element(recording.snapshots.begin(), recording.snapshots.end(),
+                                    [&](const auto& a, const auto& b) {
+                                      return std::abs(a.time_s - shown_s) < std::abs(b.time_s - shown_s);
+                                    });
 
   const Vec2 low{now->ego.centre.x - kReachM, now->ego.centre.y - 0.75 * kReachM};
   const Vec2 high{now->ego.centre.x + kReachM, now->ego.centre.y + 0.75 * kReachM};
@@ -156,12 +167,14 @@ void draw_episode(const world::Scenario& scenario, const EpisodeResult& result, 
   draw_cars(svg, recording, *now);
 
   char title[200];
-  std::snprintf(title, sizeof title, "%s, seed %llu: %s after %.1f s; shown at %.1f s, %.1f m/s", recording.scenario.c_str(),
-                static_cast<unsigned long long>(recording.seed), ending_name(recording.ending),
-                recording.snapshots.back().time_s, now->time_s, now->ego.speed_mps);
+  std::snprintf(title, sizeof title, "%s, seed %llu: %s after %.1f s; shown at %.1f s, %.1f m/s",
+                recording.scenario.c_str(), static_cast<unsigned long long>(recording.seed),
+                ending_name(recording.ending), recording.snapshots.back().time_s, now->time_s,
+                now->ego.speed_mps);
   svg.rectangle_px(0, 0, svg.width_px(), 24, "#ffffffcc");
   svg.text_px(8, 17, title, 14);
-  svg.text_px(svg.width_px() - 330, 17, "orange: plan   blue: predictions   red field: their risk", 11, "#555");
+  svg.text_px(svg.width_px() - 330, 17, "orange: plan   blue: predictions   red field: their risk", 11,
+              "#555");
 
   std::vector<double> speeds;
   for (const world::Snapshot& snapshot : recording.snapshots) speeds.push_back(snapshot.ego.speed_mps);

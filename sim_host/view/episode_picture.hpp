@@ -1,6 +1,6 @@
 #pragma once
-/// The picture of an episode: bird's eye at its tensest moment with plan, predictions and risk field, the ways
-/// driven, and below it speed and risk over time.
+/// The picture of an episode: bird's eye at its tensest moment with plan, predictions and risk field, the
+/// ways driven, and below it speed and risk over time.
 
 #include <filesystem>
 

@@ -39,10 +39,11 @@ world::Vec2 Svg::to_px(world::Vec2 point) const {
 }
 
 void Svg::line(const std::vector<world::Vec2>& points, const Stroke& stroke) {
-  body_ << "<polyline clip-path='url(#map)' fill='none' stroke-linecap='butt' stroke-linejoin='round' stroke='" << stroke.colour
-        << "' stroke-width='" << stroke.width_m * scale_ << "' stroke-opacity='" << std::setprecision(2)
-        << stroke.opacity << std::setprecision(1) << "'"
-        << (stroke.dashed ? " stroke-dasharray='6 6'" : "") << " points='";
+  body_
+      << "<polyline clip-path='url(#map)' fill='none' stroke-linecap='butt' stroke-linejoin='round' stroke='"
+      << stroke.colour << "' stroke-width='" << stroke.width_m * scale_ << "' stroke-opacity='"
+      << std::setprecision(2) << stroke.opacity << std::setprecision(1) << "'"
+      << (stroke.dashed ? " stroke-dasharray='6 6'" : "") << " points='";
   for (const world::Vec2& point : points) {
     const world::Vec2 px = to_px(point);
     body_ << px.x << ',' << px.y << ' ';
@@ -50,14 +51,15 @@ void Svg::line(const std::vector<world::Vec2>& points, const Stroke& stroke) {
   body_ << "'/>\n";
 }
 
-void Svg::box(world::Vec2 centre, double heading_rad, double length_m, double width_m, const std::string& fill,
-              double opacity) {
+void Svg::box(world::Vec2 centre, double heading_rad, double length_m, double width_m,
+              const std::string& fill, double opacity) {
   const world::Vec2 px = to_px(centre);
   const double length = length_m * scale_;
   const double width = width_m * scale_;
-  body_ << "<g clip-path='url(#map)'><rect x='" << -length / 2 << "' y='" << -width / 2 << "' width='" << length << "' height='" << width
-        << "' rx='" << width / 5 << "' fill='" << fill << "' fill-opacity='" << std::setprecision(2) << opacity
-        << std::setprecision(1) << "' transform='translate(" << px.x << ' ' << px.y << ") rotate("
+  body_ << "<g clip-path='url(#map)'><rect x='" << -length / 2 << "' y='" << -width / 2 << "' width='"
+        << length << "' height='" << width << "' rx='" << width / 5 << "' fill='" << fill
+        << "' fill-opacity='" << std::setprecision(2) << opacity << std::setprecision(1)
+        << "' transform='translate(" << px.x << ' ' << px.y << ") rotate("
         << -heading_rad * 180.0 / std::numbers::pi << ")'/></g>\n";
 }
 
@@ -91,10 +93,11 @@ void Svg::line_px(const std::vector<world::Vec2>& points, const std::string& col
 
 void Svg::save(const std::filesystem::path& file) const {
   std::ofstream stream(file);
-  stream << std::fixed << std::setprecision(0) << "<svg xmlns='http://www.w3.org/2000/svg' width='" << width_px_
-         << "' height='" << height_px_ << "' viewBox='0 0 " << width_px_ << ' ' << height_px_
+  stream << std::fixed << std::setprecision(0) << "<svg xmlns='http://www.w3.org/2000/svg' width='"
+         << width_px_ << "' height='" << height_px_ << "' viewBox='0 0 " << width_px_ << ' ' << height_px_
          << "'>\n<clipPath id='map'><rect width='" << width_px_ << "' height='" << map_height_px_
-         << "'/></clipPath>\n<rect width='" << width_px_ << "' height='" << height_px_ << "' fill='#f7f7f4'/>\n"
+         << "'/></clipPath>\n<rect width='" << width_px_ << "' height='" << height_px_
+         << "' fill='#f7f7f4'/>\n"
          << body_.str() << "</svg>\n";
   if (!stream) throw std::runtime_error(file.string() + ": cannot write the picture");
 }

@@ -28,7 +28,8 @@ class Svg {
   void cell(world::Vec2 low, double size_m, const std::string& fill, double opacity);
   void text(world::Vec2 at, const std::string& text, double size_px, const std::string& colour = "#222");
   /// Text and a filled rectangle in pixels from the top left, for legends and charts.
-  void text_px(double x, double y, const std::string& text, double size_px, const std::string& colour = "#222");
+  void text_px(double x, double y, const std::string& text, double size_px,
+               const std::string& colour = "#222");
   void rectangle_px(double x, double y, double width, double height, const std::string& fill);
   void line_px(const std::vector<world::Vec2>& points, const std::string& colour, double width);
 

@@ -1,0 +1,195 @@
+// The planning cycle as a whole: what comes out for whole, broken and empty worlds.
+
+#include "algo/planner/planner.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <memory>
+
+#include "tests/support/lane_maps.hpp"
+
+namespace s4tp {
+namespace {
+
+using test::car;
+using test::straight_road;
+
+/// A planner that is driven at its own planned state, 100 ms a cycle.
+class Drive {
+ public:
+  explicit Drive(LaneMap map) : map_(std::make_unique<LaneMap>(std::move(map))) {
+    EXPECT_EQ(planner->init(Parameters{}), Status::kOk);
+    input.start_ms = 100;
+  }
+
+  Status step() {
+    input.map = has_map ? map_.get() : nullptr;
+    input.running = &running;
+    Plan next;
+    const Status status = planner->plan(input, next, explanation);
+    running = next;
+    input.now_ms += 100;
+    input.start_ms += 100;
+    input.tracks_ms = input.now_ms;
+    const TrajectoryPoint now = sample(running, input.now_ms);
+    input.ego = {now.rear_axle, now.speed_mps, now.acceleration_mps2, now.speed_mps * now.curvature_1pm,
+                 std::atan(2.9F * now.curvature_1pm)};
+    for (Track& track : input.tracks) track.centre = shift_ahead(track.centre, 0.1F * track.speed_mps);
+    return status;
+  }
+
+  bool has_map = true;
+  std::unique_ptr<Planner> planner = std::make_unique<Planner>();
+  PlannerInput input;
+  Plan running;
+  Explanation explanation;
+
+ private:
+  std::unique_ptr<LaneMap> map_;
+};
+
+Drive on_straight_road(float speed_mps) {
+  Drive drive(straight_road(3, 400.0F));
+  drive.input.ego.rear_axle = {20.0F, 0.0F, 0.0F};
+  drive.input.ego.speed_mps = speed_mps;
+  return drive;
+}
+
+// CORE-002: plan() before init() answers so and leaves the plan untouched.
+TEST(Planner, RefusesBeforeInit) {
+  const auto planner = std::make_unique<Planner>();
+  Plan plan;
+  plan.start_ms = 77;
+  Explanation explanation;
+  EXPECT_EQ(planner->plan(PlannerInput{}, plan, explanation), Status::kNotInitialized);
+  EXPECT_EQ(plan.start_ms, 77U);
+}
+
+// CORE-003: a parameter out of range (wheelbase 0) keeps the planner from starting.
+TEST(Planner, RefusesBadParameters) {
+  Parameters parameters;
+  parameters.vehicle.wheelbase_m = 0.0F;
+  EXPECT_EQ(std::make_unique<Planner>()->init(parameters), Status::kInvalidParameter);
+}
+
+// CORE-001: on an empty road at the limit it goes on at the limit: after 3 s 13.89 +- 0.5 m/s in the lane
+// centre.
+TEST(Planner, HoldsTheLimitOnAnEmptyRoad) {
+  Drive drive = on_straight_road(13.89F);
+  for (int i = 0; i < 30; ++i) ASSERT_EQ(drive.step(), Status::kOk) << i;
+  EXPECT_NEAR(drive.input.ego.speed_mps, 13.89F, 0.5F);
+  EXPECT_NEAR(drive.input.ego.rear_axle.y_m, 0.0F, 0.1F);
+}
+
+// From standstill it starts by itself: more than 3 m/s after 3 s.
+TEST(Planner, StartsFromStandstill) {
+  Drive drive = on_straight_road(0.0F);
+  for (int i = 0; i < 30; ++i) ASSERT_EQ(drive.step(), Status::kOk) << i;
+  EXPECT_GT(drive.input.ego.speed_mps, 3.0F);
+}
+
+// CORE-006: without a map the answer is kNoLane and the plan a stop: 13 m/s at 4 m/s^2 takes 3.25 s, so the
+// end of the horizon is below 2 m/s.
+TEST(Planner, StopsWithoutAMap) {
+  Drive drive = on_straight_road(13.0F);
+  drive.has_map = false;
+  EXPECT_EQ(drive.step(), Status::kNoLane);
+  EXPECT_EQ(drive.running.kind, PlanKind::kMinimumRisk);
+  EXPECT_LT(drive.running.trajectory.points[kHorizonSteps].speed_mps, 2.0F);
+}
+
+// CORE-005: one NaN anywhere in the input, and the plan is the minimum-risk manoeuvre, finite in every
+// number.
+TEST(Planner, NeverUsesABrokenInput) {
+  Drive drive = on_straight_road(10.0F);
+  ASSERT_EQ(drive.step(), Status::kOk);
+  drive.input.ego.speed_mps = std::numeric_limits<float>::quiet_NaN();
+  Plan plan;
+  EXPECT_EQ(drive.planner->plan(drive.input, plan, drive.explanation), Status::kInvalidInput);
+  EXPECT_EQ(plan.kind, PlanKind::kMinimumRisk);
+  for (const TrajectoryPoint& point : plan.trajectory.points) {
+    EXPECT_TRUE(std::isfinite(point.rear_axle.x_m) && std::isfinite(point.speed_mps) &&
+                std::isfinite(point.curvature_1pm));
+  }
+}
+
+// CORE-007: a car standing 8 m ahead across all lanes at 13 m/s: 13^2 / (2 * 8) = 10.6 m, nothing avoids it,
+// and what is driven is the hardest stop there is.
+TEST(Planner, BrakesWhenNothingIsSafe) {
+  Drive drive = on_straight_road(13.0F);
+  for (int lane = 0; lane < 3; ++lane) {
+    ASSERT_TRUE(drive.input.tracks.push(car(lane + 1, 34.0F, 3.2F * static_cast<float>(lane), 0.0F, 0.0F)));
+  }
+  EXPECT_EQ(drive.step(), Status::kNoSafePlan);
+  EXPECT_EQ(drive.running.kind, PlanKind::kMinimumRisk);
+  EXPECT_LT(drive.running.trajectory.points[10].speed_mps, 8.0F);
+}
+
+// Behind a car standing 80 m ahead in a single lane it comes to rest before it, without a collision on the
+// way.
+TEST(Planner, StopsBehindAStandingCar) {
+  Drive drive(straight_road(1, 400.0F));
+  drive.input.ego.rear_axle = {20.0F, 0.0F, 0.0F};
+  drive.input.ego.speed_mps = 13.0F;
+  ASSERT_TRUE(drive.input.tracks.push(car(1, 100.0F, 0.0F, 0.0F, 0.0F)));
+  for (int i = 0; i < 150; ++i) (void)drive.step();
+  EXPECT_LT(drive.input.ego.speed_mps, 0.3F);
+  const float front_m = drive.input.ego.rear_axle.x_m + 4.0F;
+  EXPECT_LT(front_m, 97.5F);  // its rear bumper
+  EXPECT_GT(front_m, 85.0F);  // and not absurdly far from it
+}
+
+// A slow car ahead and two free lanes beside: it passes. After 20 s it is ahead of a car at 5 m/s (40 + 100
+// m).
+TEST(Planner, OvertakesASlowCar) {
+  Drive drive = on_straight_road(13.0F);
+  ASSERT_TRUE(drive.input.tracks.push(car(1, 60.0F, 0.0F, 0.0F, 5.0F)));
+  for (int i = 0; i < 150; ++i) ASSERT_NE(drive.step(), Status::kInvalidInput);
+  EXPECT_GT(drive.input.ego.rear_axle.x_m, drive.input.tracks[0].centre.x_m);
+}
+
+// Every plan says why: terms add up to a score, the runner-up is not better, the parameters' CRC is there.
+TEST(Planner, ExplainsItsChoice) {
+  Drive drive = on_straight_road(10.0F);
+  ASSERT_EQ(drive.step(), Status::kOk);
+  EXPECT_GT(drive.explanation.candidate_count, 1);
+  EXPECT_GE(drive.explanation.decisions, 1);
+  if (drive.explanation.decisions > 1) {
+    EXPECT_LE(drive.explanation.chosen_cost.total(), drive.explanation.runner_up_cost.total());
+  }
+  EXPECT_EQ(drive.explanation.parameters_crc, parameters_crc(Parameters{}));
+}
+
+// Work allowances cut at the same place every time and still give a plan: one candidate, one decision.
+TEST(Planner, LivesWithTheSmallestAllowance) {
+  Drive drive = on_straight_road(10.0F);
+  drive.planner->allowance.candidates = 1;
+  drive.planner->allowance.decisions = 1;
+  (void)drive.step();
+  EXPECT_EQ(drive.explanation.candidate_count, 1);
+  EXPECT_NE(drive.running.kind, PlanKind::kNone);
+  EXPECT_GT(drive.explanation.left_out, 0);
+}
+
+// The same inputs give the same plans to the last bit, whatever the planner did before its init().
+TEST(Planner, IsDeterministic) {
+  Drive first = on_straight_road(12.0F);
+  Drive second = on_straight_road(3.0F);
+  (void)second.step();
+  second = on_straight_road(12.0F);
+  for (Drive* drive : {&first, &second}) {
+    ASSERT_TRUE(drive->input.tracks.push(car(1, 55.0F, 0.0F, 0.0F, 7.0F)));
+    ASSERT_TRUE(drive->input.tracks.push(car(2, 10.0F, 3.2F, 0.0F, 13.0F)));
+  }
+  for (int i = 0; i < 20; ++i) {
+    (void)first.step();
+    (void)second.step();
+    ASSERT_EQ(std::memcmp(&first.running.trajectory, &second.running.trajectory, sizeof(Trajectory)), 0) << i;
+  }
+}
+
+}  // namespace
+}  // namespace s4tp
