@@ -1,0 +1,94 @@
+#pragma once
+/// The built-in traffic: drivers who follow, change lanes on their route, accept gaps at junctions, and react
+/// to the ego as to any car. Decisions at 10 Hz from one common instant, motion at 100 Hz.
+///
+/// Drivers are honest, not superhuman: something unexpected (a car cutting in, a car entering without right
+/// of way) is acted upon only after a reaction time of 0.5 to 1 s and with at most 4.5 to 9 m/s^2; inside a
+/// junction nobody brakes for crossing traffic.
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "sim_host/world/recording.hpp"
+#include "sim_host/world/traffic_flow.hpp"
+#include "sim_host/world/traffic_junction.hpp"
+#include "sim_host/world/traffic_view.hpp"
+
+namespace s4tp::world {
+
+/// One car of the traffic; its box centre is at `s_m` along the lane, `offset_m` to the left of it.
+struct TrafficCar {
+  int id = 0;
+  std::size_t way = 0;
+  Driver driver;
+  LaneId lane = kNoLane;
+  double s_m = 0.0;
+  double speed_mps = 0.0;
+  double acceleration_mps2 = 0.0;
+  double length_m = 5.0;
+  double width_m = 1.8;
+
+  LaneId leaving = kNoLane;    ///< lane being left during a change
+  double change_from_m = 0.0;  ///< offset at the start of the change
+  double change_done = 1.0;    ///< 0 .. 1
+  double next_change_s = 0.0;  ///< no wish before
+
+  bool committed = false;
+  double waited_s = 0.0;
+  double distraction = 0.0;  ///< 0 .. 1, redrawn every second: imperfection at work
+  double next_distraction_s = 0.0;
+  int known_leader = -1;  ///< whom he follows
+  double known_gap_m = 0.0;
+  int surprise = -1;  ///< who appeared unexpectedly, and since when
+  double surprise_since_s = 0.0;
+  int hazard = -1;
+  double hazard_since_s = 0.0;
+
+  [[nodiscard]] double offset_m() const;
+};
+
+class Traffic {
+ public:
+  /// WORLD-021 The same network, groups and seed give the same traffic to the bit.
+  Traffic(const Network& network, const std::vector<FlowGroup>& groups, std::uint64_t seed);
+
+  /// Advances 10 ms. \param ego  as others see it, or null: not there
+  void step(const Actor* ego);
+
+  [[nodiscard]] double time_s() const { return static_cast<double>(ticks_) * 0.01; }
+  [[nodiscard]] std::vector<CarState> cars() const;
+  [[nodiscard]] const std::vector<TrafficCar>& details() const { return cars_; }
+  /// Takes everybody off a stretch of a lane.
+  void clear(LaneId lane, double from_m, double to_m);
+  [[nodiscard]] int finished() const { return finished_; }  ///< cars that reached the end of their route
+
+ private:
+  void decide(const Actor* ego);
+  [[nodiscard]] Actor actor_of(const TrafficCar& car) const;
+  [[nodiscard]] double wanted_speed_mps(const TrafficCar& car, const std::vector<WayPart>& way) const;
+  [[nodiscard]] double follow(TrafficCar& car, const Leader& leader, double wanted_mps);
+  [[nodiscard]] double acceleration(TrafficCar& car, const Actor& self, const TrafficView& view);
+  void consider_lane_change(TrafficCar& car, const Actor& self, const TrafficView& view);
+  [[nodiscard]] bool gap_beside(const TrafficCar& car, const WayPart& beside, const TrafficView& view,
+                                bool urgent, double& gain_mps2) const;
+  [[nodiscard]] const Driver& driver_of(int id) const;
+  void insert_waiting(const TrafficView& view);
+  void move(TrafficCar& car);
+  [[nodiscard]] const NetworkLane& lane(LaneId id) const { return road_.lane(id); }
+
+  RoadIndex road_;
+  Random random_;
+  FlowPlan plan_;
+  std::vector<TrafficCar> cars_;
+  std::vector<std::deque<Departure>> waiting_;  ///< by lane
+  std::size_t next_departure_ = 0;
+  int next_id_ = 1;
+  int finished_ = 0;
+  std::int64_t ticks_ = 0;
+  Driver ego_driver_;  ///< what others take the ego's driver to be
+};
+
+}  // namespace s4tp::world

@@ -1,0 +1,49 @@
+#pragma once
+/// One driver as data, and the laws he drives by: car following, imperfection, gap acceptance.
+
+#include "sim_host/world/random.hpp"
+#include "sim_host/world/scenario.hpp"
+
+namespace s4tp::world {
+
+/// Drawn once a car from its flow's DriverModel. A social mix of drivers differs in these values only.
+struct Driver {
+  double acceleration_mps2 = 2.6;
+  double deceleration_mps2 = 4.5;  ///< hardest in ordinary driving
+  double emergency_mps2 = 6.5;     ///< hardest at all, 4.5 .. 9
+  double headway_s = 1.0;
+  double min_gap_m = 2.5;
+  double speed_factor = 1.0;
+  double max_speed_mps = 55.0;
+  double imperfection = 0.5;  ///< SUMO's sigma
+  double reaction_s = 0.75;   ///< until something unexpected is acted upon, 0.5 .. 1
+  double gap_margin_s = 1.0;  ///< wanted between own leaving of a zone and the other's arrival
+  double patience_s = 30.0;   ///< waiting time after which the margin is down to a third
+  double politeness = 0.3;    ///< MOBIL: weight of the new follower's loss
+  double lane_change_gain_mps2 = 0.3;
+  bool lane_keeping = false;
+};
+
+[[nodiscard]] Driver draw_driver(const DriverModel& model, Random& random);
+
+/// Free-road part: towards the wanted speed; above it, ordinary braking growing with the excess.
+[[nodiscard]] double free_acceleration_mps2(const Driver& driver, double speed_mps, double wanted_mps);
+
+/// The improved intelligent driver model (Treiber, Kesting: Traffic Flow Dynamics, 11.3.7).
+/// \param gap_m  bumper to bumper, to a leader driving `leader_mps`; infinity: none
+/// \return unbounded below; the caller limits it to what the driver does
+[[nodiscard]] double following_acceleration_mps2(const Driver& driver, double speed_mps, double wanted_mps,
+                                                 double gap_m, double leader_mps);
+
+/// Braking that stops at a line `distance_m` ahead of the bumper.
+[[nodiscard]] double stopping_acceleration_mps2(const Driver& driver, double speed_mps, double wanted_mps,
+                                                double distance_m);
+
+/// Time to cover a distance from `speed_mps`, accelerating to at most `top_mps`. \return infinity: never
+[[nodiscard]] double time_to_cover_s(double distance_m, double speed_mps, double acceleration_mps2,
+                                     double top_mps);
+
+/// Margin this driver asks of a gap after having waited so long.
+[[nodiscard]] double accepted_margin_s(const Driver& driver, double waited_s);
+
+}  // namespace s4tp::world

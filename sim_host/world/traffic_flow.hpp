@@ -1,0 +1,37 @@
+#pragma once
+/// Who wants to enter the network, where and when: drawn beforehand, so nothing the ego does changes it.
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "sim_host/world/random.hpp"
+#include "sim_host/world/scenario.hpp"
+#include "sim_host/world/traffic_driver.hpp"
+
+namespace s4tp::world {
+
+/// A route that flows in this episode.
+struct Way {
+  RouteGuide guide;
+  std::string last_edge;
+};
+
+struct Departure {
+  double time_s = 0.0;
+  std::size_t way = 0;  ///< index
+  LaneId lane = kNoLane;
+  Driver driver;
+};
+
+struct FlowPlan {
+  std::vector<Way> ways;
+  std::vector<Departure> departures;  ///< by time
+};
+
+/// WORLD-020 Draws which routes of each group flow, how densely, and every driver; the same seed gives the
+/// same plan. \param until_s  traffic time after which nobody wants to enter
+[[nodiscard]] FlowPlan draw_flows(const Network& network, const std::vector<FlowGroup>& groups,
+                                  double until_s, Random& random);
+
+}  // namespace s4tp::world

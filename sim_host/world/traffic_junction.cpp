@@ -1,0 +1,160 @@
+#include "sim_host/world/traffic_junction.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace s4tp::world {
+namespace {
+
+constexpr double kLook_m = 60.0;        // junctions further away are not thought about
+constexpr double kOther_mps2 = 1.5;     // how quickly one expects others to come
+constexpr double kOwnShare = 0.7;       // of the own acceleration, when judging a gap
+constexpr double kBehindOther_s = 0.4;  // entering after somebody has left
+constexpr double kOrder_s = 0.2;        // "at the same time"
+constexpr double kStanding_mps = 0.3;
+constexpr double kPatience_s = 5.0;  // then somebody who stands is more and more taken to let us go
+constexpr double kLineRoom_m = 0.3;
+
+/// When somebody is on the ground shared, as others expect it.
+struct Occupation {
+  bool coming = false;
+  bool inside_junction = false;
+  double from_s = 0.0;
+  double until_s = 0.0;
+};
+
+Occupation occupation_of(const TrafficView& view, const Actor& actor, const Meeting& meeting) {
+  Occupation occupation;
+  for (const WayPart& part : actor.way) {
+    if (part.lane != meeting.other) {
+      continue;
+    }
+    const double in_m = part.start_m + meeting.other_entry_m;
+    const double out_m = part.start_m + meeting.other_exit_m;
+    if (out_m <= 0.0) {
+      break;
+    }
+    const double limit_mps = view.road().lane(part.lane).speed_limit_mps;
+    occupation.coming = true;
+    occupation.inside_junction = view.road().lane(actor.lane).in_junction || in_m <= 0.0;
+    occupation.from_s =
+        time_to_cover_s(in_m, actor.speed_mps, kOther_mps2, std::max(limit_mps, actor.speed_mps));
+    occupation.until_s = time_to_cover_s(out_m, std::min(actor.speed_mps, limit_mps), 0.0, limit_mps);
+    break;
+  }
+  return occupation;
+}
+
+struct OwnTimes {
+  double in_s = 0.0;
+  double out_s = 0.0;
+};
+
+OwnTimes own_times(const Approach& approach, double in_m, double out_m) {
+  const double acceleration = kOwnShare * approach.driver->acceleration_mps2;
+  double top_mps = approach.wanted_mps;
+  if (approach.leader.actor != nullptr && approach.leader.gap_m < 15.0) {
+    top_mps = std::min(top_mps, approach.leader.actor->speed_mps + 1.0);
+  }
+  const double speed = approach.self->speed_mps;
+  return {time_to_cover_s(in_m, speed, acceleration, top_mps),
+          time_to_cover_s(out_m, std::min(speed, top_mps), acceleration, top_mps)};
+}
+
+bool gap_accepted(const Approach& approach, Rule rule, const OwnTimes& own, const Actor& other,
+                  Occupation theirs) {
+  if (rule == Rule::kFirstCome && other.speed_mps < kStanding_mps && !theirs.inside_junction) {
+    theirs.from_s += 0.5 * std::max(0.0, approach.waited_s - kPatience_s);
+  }
+  const double margin_s = accepted_margin_s(*approach.driver, approach.waited_s);
+  return own.out_s + margin_s < theirs.from_s || own.in_s > theirs.until_s + kBehindOther_s;
+}
+
+bool must_wait(const Approach& approach, const Meeting& meeting, const OwnTimes& own, const Actor& other,
+               const Occupation& theirs) {
+  switch (meeting.rule) {
+    case Rule::kFirstHasPriority:
+      return false;
+    case Rule::kFirstYields:
+      return !gap_accepted(approach, meeting.rule, own, other, theirs);
+    case Rule::kFirstCome:
+      break;
+  }
+  const bool they_first = theirs.inside_junction || theirs.from_s < own.in_s - kOrder_s ||
+                          (theirs.from_s < own.in_s + kOrder_s && other.id < approach.self->id);
+  return they_first && !gap_accepted(approach, meeting.rule, own, other, theirs);
+}
+
+/// Whether the other one, who is inside though he should have waited, will be there when we are.
+bool in_the_way(const OwnTimes& own, const Occupation& theirs) {
+  return theirs.inside_junction && theirs.from_s < own.out_s && own.in_s < theirs.until_s;
+}
+
+/// A queue behind the junction must leave room for the whole car.
+bool no_room_behind(const Approach& approach, double junction_end_m) {
+  const Leader& leader = approach.leader;
+  return leader.actor != nullptr && !leader.merging && leader.actor->speed_mps < 2.0 &&
+         leader.gap_m < junction_end_m + 0.5 * approach.self->length_m + 1.0 &&
+         leader.gap_m + 0.5 * leader.actor->length_m > 0.0;
+}
+
+}  // namespace
+
+JunctionChoice choose_at_junction(const TrafficView& view, const Approach& approach) {
+  JunctionChoice choice;
+  const std::vector<WayPart>& way = approach.self->way;
+  const auto inside = [&](std::size_t i) { return view.road().lane(way[i].lane).in_junction; };
+  if (way.empty() || inside(0)) {
+    return choice;
+  }
+  std::size_t first = 1;
+  while (first < way.size() && !inside(first)) {
+    ++first;
+  }
+  if (first >= way.size() || way[first].start_m > kLook_m) {
+    return choice;
+  }
+  std::size_t after = first;
+  while (after < way.size() && inside(after)) {
+    ++after;
+  }
+  const double half_m = 0.5 * approach.self->length_m;
+  choice.near = true;
+  choice.line_m = way[first].start_m - half_m - kLineRoom_m;
+  double hazard_m = std::numeric_limits<double>::infinity();
+  for (std::size_t i = first - 1; i < std::min(after + 1, way.size()); ++i) {
+    for (const Meeting& meeting : view.road().meetings(way[i].lane)) {
+      const double in_m = way[i].start_m + meeting.entry_m;
+      const double out_m = way[i].start_m + meeting.exit_m;
+      if (out_m <= 0.0) {
+        continue;
+      }
+      const OwnTimes own = own_times(approach, in_m, out_m);
+      for (const Actor& other : view.actors()) {
+        if (other.id == approach.self->id || other.way.empty()) {
+          continue;
+        }
+        const Occupation theirs = occupation_of(view, other, meeting);
+        if (!theirs.coming) {
+          continue;
+        }
+        if (!approach.committed && must_wait(approach, meeting, own, other, theirs)) {
+          choice.stop = true;
+          if (i < first) {  // shared ground begins before the line
+            choice.line_m = std::min(choice.line_m, in_m - kLineRoom_m);
+          }
+        } else if (!meeting.merging && in_m > 0.0 && in_m < hazard_m && in_the_way(own, theirs)) {
+          hazard_m = in_m;
+          choice.hazard = other.id;
+          choice.hazard_m = in_m - kLineRoom_m;
+        }
+      }
+    }
+  }
+  const double end_m = after < way.size() ? way[after].start_m : way.back().start_m;
+  choice.stop = choice.stop || (!approach.committed && no_room_behind(approach, end_m));
+  return choice;
+}
+
+}  // namespace s4tp::world

@@ -1,0 +1,38 @@
+#pragma once
+/// How a driver gets through a junction: whose way he waits for, and for whom he brakes late.
+///
+/// | other one                          | what he does                                                     |
+/// |------------------------------------|------------------------------------------------------------------|
+/// | has right of way                   | goes only through a gap in time with his margin, else stops at the
+/// line | | yields, still before his line      | trusts him | | yields, but is inside and will be there |
+/// brakes before the shared ground after his reaction time (unexpected) | | first come, first served | lets
+/// him go if he is inside or will be there first               | | no room behind the junction        | does
+/// not enter                                                   | | he himself is inside               | goes
+/// on                                                          |
+
+#include "sim_host/world/traffic_driver.hpp"
+#include "sim_host/world/traffic_view.hpp"
+
+namespace s4tp::world {
+
+/// The driver's own side of it.
+struct Approach {
+  const Actor* self = nullptr;
+  const Driver* driver = nullptr;
+  double wanted_mps = 0.0;
+  double waited_s = 0.0;   ///< standing near the line so far
+  bool committed = false;  ///< past the point of no return with a gap accepted
+  Leader leader;
+};
+
+struct JunctionChoice {
+  bool near = false;      ///< there is a junction ahead within sight
+  double line_m = 0.0;    ///< from the bumper to the stop line
+  bool stop = false;      ///< before the line
+  int hazard = -1;        ///< id of somebody who should not be in the way; -1: none
+  double hazard_m = 0.0;  ///< from the bumper to where the ground shared with him begins
+};
+
+[[nodiscard]] JunctionChoice choose_at_junction(const TrafficView& view, const Approach& approach);
+
+}  // namespace s4tp::world
