@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "algo/sadrf/field.hpp"
+#include "sim_host/metrics/metrics.hpp"
 #include "sim_host/view/svg.hpp"
 
 namespace s4tp::view {
@@ -38,24 +39,6 @@ const CycleTrace* tensest(const EpisodeResult& result, double entry_ms) {
     if (best == nullptr || later_counts || obstacle_peak(cycle) > obstacle_peak(*best)) best = &cycle;
   }
   return best != nullptr || cycles.empty() ? best : &cycles.back();
-}
-
-const char* ending_name(world::Ending ending) {
-  switch (ending) {
-    case world::Ending::kRunning:
-      return "running";
-    case world::Ending::kGoal:
-      return "goal";
-    case world::Ending::kCollision:
-      return "collision";
-    case world::Ending::kOffRoad:
-      return "off road";
-    case world::Ending::kTimeOut:
-      return "time-out";
-    case world::Ending::kDeadEcu:
-      return "dead ECU";
-  }
-  return "?";
 }
 
 void draw_road(Svg& svg, const world::Network& network) {
@@ -169,7 +152,7 @@ void draw_episode(const world::Scenario& scenario, const EpisodeResult& result,
   char title[200];
   std::snprintf(title, sizeof title, "%s, seed %llu: %s after %.1f s; shown at %.1f s, %.1f m/s",
                 recording.scenario.c_str(), static_cast<unsigned long long>(recording.seed),
-                ending_name(recording.ending), recording.snapshots.back().time_s, now->time_s,
+                metrics::ending_name(recording.ending), recording.snapshots.back().time_s, now->time_s,
                 now->ego.speed_mps);
   svg.rectangle_px(0, 0, svg.width_px(), 24, "#ffffffcc");
   svg.text_px(8, 17, title, 14);

@@ -1,0 +1,29 @@
+#pragma once
+/// Results of a campaign as a terminal table and as JSON.
+
+#include <filesystem>
+#include <ostream>
+#include <vector>
+
+#include "sim_host/campaign/campaign.hpp"
+#include "sim_host/metrics/summary.hpp"
+
+namespace s4tp::campaign {
+
+/// One cell of the table: a planner in a scenario.
+struct ResultCell {
+  std::string planner;
+  std::string scenario;
+  metrics::Summary summary;
+};
+
+/// In the order the rows first name them.
+[[nodiscard]] std::vector<ResultCell> summarize(const std::vector<EpisodeRow>& rows);
+
+void print_table(std::ostream& out, const std::vector<ResultCell>& cells);
+
+/// Cells and every episode. \throws std::runtime_error naming the file
+void write_json(const std::filesystem::path& file, const std::vector<EpisodeRow>& rows,
+                const CampaignOptions& options);
+
+}  // namespace s4tp::campaign
