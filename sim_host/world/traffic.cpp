@@ -68,6 +68,7 @@ Actor Traffic::actor_of(const TrafficCar& car) const {
   actor.speed_mps = car.speed_mps;
   actor.length_m = car.length_m;
   actor.guide = &plan_.ways[car.way].guide;
+  actor.committed = car.committed;
   if (car.leaving != kNoLane) {
     actor.also.push_back({car.leaving, -car.s_m});
   }
@@ -87,13 +88,13 @@ double Traffic::wanted_speed_mps(const TrafficCar& car, const std::vector<WayPar
 double Traffic::follow(TrafficCar& car, const Leader& leader, double wanted_mps) {
   const double free = free_acceleration_mps2(car.driver, car.speed_mps, wanted_mps);
   if (leader.actor == nullptr) {
-    car.known_leader = car.surprise = -1;
+    car.known_leader = car.surprise = TrafficCar::kNobody;
     car.known_gap_m = std::numeric_limits<double>::infinity();
     return free;
   }
   const int id = leader.actor->id;
-  const bool cut_in =
-      id != car.known_leader && car.known_leader != -2 && leader.gap_m < car.known_gap_m - 2.0;
+  const bool cut_in = id != car.known_leader && car.known_leader != TrafficCar::kLooking &&
+                      leader.gap_m < car.known_gap_m - 2.0;
   if (cut_in) {
     if (car.surprise != id) {
       car.surprise = id;
@@ -105,7 +106,7 @@ double Traffic::follow(TrafficCar& car, const Leader& leader, double wanted_mps)
   }
   car.known_leader = id;
   car.known_gap_m = leader.gap_m;
-  car.surprise = -1;
+  car.surprise = TrafficCar::kNobody;
   return following_acceleration_mps2(car.driver, car.speed_mps, wanted_mps, leader.gap_m,
                                      leader.actor->speed_mps);
 }
@@ -146,8 +147,8 @@ double Traffic::acceleration(TrafficCar& car, const Actor& self, const TrafficVi
     car.waited_s = 0.0;
   }
   if (choice.hazard != car.hazard) {
+    car.hazard_since_s = car.hazard == TrafficCar::kLooking ? time_s() - car.driver.reaction_s : time_s();
     car.hazard = choice.hazard;
-    car.hazard_since_s = time_s();
   }
   if (car.hazard >= 0 && time_s() - car.hazard_since_s >= car.driver.reaction_s) {
     result = std::min(result, stopping_acceleration_mps2(car.driver, car.speed_mps, wanted, choice.hazard_m));
@@ -183,6 +184,9 @@ void Traffic::insert_waiting(const TrafficView& view) {
         break;
       }
     }
+    if (surprises_at_junction(view, way)) {
+      continue;
+    }
     const Leader leader = view.leader(way, -1, car.length_m);
     car.speed_mps = wanted;
     if (leader.actor != nullptr) {
@@ -196,7 +200,7 @@ void Traffic::insert_waiting(const TrafficView& view) {
       }
     }
     car.id = next_id_++;
-    car.known_leader = -2;  // whoever is ahead at the start is no surprise
+    car.known_leader = car.hazard = TrafficCar::kLooking;  // nothing there at the start is a surprise
     car.next_change_s = time_s() + 1.0;
     cars_.push_back(car);
     waiting_[id].pop_front();

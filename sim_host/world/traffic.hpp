@@ -21,6 +21,9 @@ namespace s4tp::world {
 
 /// One car of the traffic; its box centre is at `s_m` along the lane, `offset_m` to the left of it.
 struct TrafficCar {
+  static constexpr int kNobody = -1;
+  static constexpr int kLooking = -2;  ///< attentive just now: whoever is there is no surprise
+
   int id = 0;
   std::size_t way = 0;
   Driver driver;
@@ -40,11 +43,11 @@ struct TrafficCar {
   double waited_s = 0.0;
   double distraction = 0.0;  ///< 0 .. 1, redrawn every second: imperfection at work
   double next_distraction_s = 0.0;
-  int known_leader = -1;  ///< whom he follows
+  int known_leader = kNobody;  ///< whom he follows
   double known_gap_m = 0.0;
-  int surprise = -1;  ///< who appeared unexpectedly, and since when
+  int surprise = kNobody;  ///< who appeared unexpectedly, and since when
   double surprise_since_s = 0.0;
-  int hazard = -1;
+  int hazard = kNobody;
   double hazard_since_s = 0.0;
 
   [[nodiscard]] double offset_m() const;

@@ -80,7 +80,7 @@ double time_to_cover_s(double distance_m, double speed_mps, double acceleration_
 
 double accepted_margin_s(const Driver& driver, double waited_s) {
   const double impatience = std::clamp(waited_s / driver.patience_s, 0.0, 1.0);
-  return driver.gap_margin_s * (1.0 - 0.67 * impatience);
+  return driver.gap_margin_s * (1.0 - 0.75 * impatience);
 }
 
 }  // namespace s4tp::world

@@ -18,7 +18,7 @@ struct Driver {
   double imperfection = 0.5;  ///< SUMO's sigma
   double reaction_s = 0.75;   ///< until something unexpected is acted upon, 0.5 .. 1
   double gap_margin_s = 1.0;  ///< wanted between own leaving of a zone and the other's arrival
-  double patience_s = 30.0;   ///< waiting time after which the margin is down to a third
+  double patience_s = 15.0;   ///< waiting time after which the margin is down to a quarter
   double politeness = 0.3;    ///< MOBIL: weight of the new follower's loss
   double lane_change_gain_mps2 = 0.3;
   bool lane_keeping = false;

@@ -9,8 +9,10 @@ namespace {
 
 constexpr double kLook_m = 60.0;        // junctions further away are not thought about
 constexpr double kOther_mps2 = 1.5;     // how quickly one expects others to come
-constexpr double kOwnShare = 0.7;       // of the own acceleration, when judging a gap
-constexpr double kBehindOther_s = 0.4;  // entering after somebody has left
+constexpr double kOwnShareIn = 1.0;     // of the own acceleration, when judging how soon one is there
+constexpr double kOwnShareOut = 0.6;    // and how late one is gone
+constexpr double kOwnTopShare = 0.9;    // of the speed wanted, the same
+constexpr double kBehindOther_s = 0.7;  // entering after somebody has left
 constexpr double kOrder_s = 0.2;        // "at the same time"
 constexpr double kStanding_mps = 0.3;
 constexpr double kPatience_s = 5.0;  // then somebody who stands is more and more taken to let us go
@@ -52,14 +54,15 @@ struct OwnTimes {
 };
 
 OwnTimes own_times(const Approach& approach, double in_m, double out_m) {
-  const double acceleration = kOwnShare * approach.driver->acceleration_mps2;
+  const double acceleration = approach.driver->acceleration_mps2;
   double top_mps = approach.wanted_mps;
   if (approach.leader.actor != nullptr && approach.leader.gap_m < 15.0) {
     top_mps = std::min(top_mps, approach.leader.actor->speed_mps + 1.0);
   }
   const double speed = approach.self->speed_mps;
-  return {time_to_cover_s(in_m, speed, acceleration, top_mps),
-          time_to_cover_s(out_m, std::min(speed, top_mps), acceleration, top_mps)};
+  const double slow_top_mps = kOwnTopShare * top_mps;
+  return {time_to_cover_s(in_m, speed, kOwnShareIn * acceleration, top_mps),
+          time_to_cover_s(out_m, std::min(speed, slow_top_mps), kOwnShareOut * acceleration, slow_top_mps)};
 }
 
 bool gap_accepted(const Approach& approach, Rule rule, const OwnTimes& own, const Actor& other,
@@ -100,6 +103,23 @@ bool no_room_behind(const Approach& approach, double junction_end_m) {
 }
 
 }  // namespace
+
+bool surprises_at_junction(const TrafficView& view, const std::vector<WayPart>& way) {
+  for (const WayPart& part : way) {
+    if (part.start_m > kLook_m || !view.road().lane(part.lane).in_junction) {
+      continue;
+    }
+    for (const Meeting& meeting : view.road().meetings(part.lane)) {
+      for (const Actor& other : view.actors()) {
+        const Occupation theirs = occupation_of(view, other, meeting);
+        if (theirs.coming && (theirs.inside_junction || other.committed)) {
+          return true;
+        }
+      }
+    }
+  }
+  return false;
+}
 
 JunctionChoice choose_at_junction(const TrafficView& view, const Approach& approach) {
   JunctionChoice choice;

@@ -33,6 +33,10 @@ struct JunctionChoice {
   double hazard_m = 0.0;  ///< from the bumper to where the ground shared with him begins
 };
 
+/// Whether a car that appeared at the start of this way would surprise somebody who has accepted a gap in a
+/// junction close ahead: arms of a network are cut short, drivers would have seen it coming for longer.
+[[nodiscard]] bool surprises_at_junction(const TrafficView& view, const std::vector<WayPart>& way);
+
 [[nodiscard]] JunctionChoice choose_at_junction(const TrafficView& view, const Approach& approach);
 
 }  // namespace s4tp::world

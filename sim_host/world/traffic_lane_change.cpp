@@ -92,7 +92,7 @@ void Traffic::consider_lane_change(TrafficCar& car, const Actor& self, const Tra
   car.s_m = there.s_m;
   car.change_from_m = there.d_m;
   car.change_done = 0.0;
-  car.known_leader = -2;  // he has looked
+  car.known_leader = TrafficCar::kLooking;  // he has looked
   car.next_change_s = time_s() + kPause_s;
 }
 

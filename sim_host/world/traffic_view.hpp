@@ -24,6 +24,7 @@ struct Actor {
   double speed_mps = 0.0;
   double length_m = 5.0;
   const RouteGuide* guide = nullptr;
+  bool committed = false;     ///< to the junction ahead: has accepted a gap and cannot well stop any more
   std::vector<WayPart> also;  ///< further lanes it is in now, changing or straying; `start_m` = -s there
   std::vector<WayPart> way;   ///< filled in by TrafficView: from its lane onwards
 };
