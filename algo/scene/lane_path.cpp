@@ -199,10 +199,13 @@ bool usable(const Lane& lane) {
   if (!lane.present || lane.point_count < 2 || lane.point_count > kMaxLanePoints) return false;
   for (int i = 0; i < lane.point_count; ++i) {
     // Written so that NaN fails.
-    const bool sound = abs(lane.points[i].x_m) < kCoordinateMaxM && abs(lane.points[i].y_m) < kCoordinateMaxM;
-    if (!sound) return false;
+    const Point point = lane.points[i];
+    if (!(abs(point.x_m) < kCoordinateMaxM && abs(point.y_m) < kCoordinateMaxM)) return false;
   }
-  return centre_line_length(lane) > 0.1F;
+  const bool sound = lane.width_m > 0.5F && lane.width_m < 20.0F && lane.speed_limit_mps >= 0.0F &&
+                     lane.speed_limit_mps < 100.0F && is_finite(lane.route_remaining_m) &&
+                     is_finite(lane.goal_distance_m) && is_finite(lane.stop_line_m);
+  return sound && centre_line_length(lane) > 0.1F;
 }
 
 LaneFix nearest_on_lane(const Lane& lane, Point point) {

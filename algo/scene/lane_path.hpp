@@ -89,7 +89,8 @@ class PathCursor {
 /// Sum of the chords of a centre line [m].
 [[nodiscard]] float centre_line_length(const Lane& lane);
 
-/// Whether a lane can be driven along in thought: present, 2 or more vertices, all finite, some length.
+/// Whether a lane can be driven along in thought: present, 2 or more vertices, some length, every value
+/// sound.
 [[nodiscard]] bool usable(const Lane& lane);
 
 /// Nearest point of one lane's centre line, ends included. \pre usable(lane)

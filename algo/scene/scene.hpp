@@ -26,6 +26,7 @@ struct Agent {
   std::uint16_t age_ms = 0;  ///< since it was last in a list; coasted meanwhile
   LaneIndex lane = kNoLaneIndex;
   BoundedVector<LanePath, kPathsPerAgent> paths;  ///< ways it may go; the first is the likeliest
+  float path_probability[kPathsPerAgent] = {};    ///< of each path; they add up to 1
   Frenet frenet[kPathsPerAgent];                  ///< of its centre along each path
   History history;
 };
@@ -75,9 +76,13 @@ class SceneBuilder {
   /// Forgets every track.
   void reset();
 
-  /// \param list_time_ms  vehicle time of `tracks`; tracks older than 500 ms are coasted, then dropped
-  /// (CORE-030) \param map           may be null or empty: the scene then has no ego paths and the status
-  /// says so \return kOk, or kNoLane (the scene is still usable for a minimum-risk manoeuvre)
+  /// CORE-030 A track missing from the lists, or one of a late list, is coasted along its way for up to 500
+  /// ms, then dropped. CORE-031 The scene is a function of the calls since reset(): the same calls give the
+  /// same bits. CORE-032 No input makes the scene hold a value that is not finite, or an index that is out of
+  /// range. \param list_time_ms  vehicle time of `tracks`; a list older than the last one is ignored \param
+  /// map  may be null or empty: the scene then has no ego paths and the status says so \return kOk, kNoLane
+  /// (the scene is still usable for a minimum-risk manoeuvre), or kInvalidInput (the ego is not finite: the
+  /// scene is empty)
   [[nodiscard]] Status build(std::uint32_t time_ms, const EgoState& ego, const TrackList& tracks,
                              std::uint32_t list_time_ms, const LaneMap* map, const Parameters& parameters,
                              Scene& scene);
@@ -85,16 +90,23 @@ class SceneBuilder {
   Relevance relevance = Relevance::kInteraction;
 
  private:
+  /// What is known of one vehicle beyond the newest list.
   struct Past {
-    Track track;
-    std::uint32_t seen_ms = 0;
-    std::uint32_t updated_ms = 0;
+    Track track;                ///< as last seen
+    std::uint32_t seen_ms = 0;  ///< list time of that
     LaneIndex lane = kNoLaneIndex;
     History history;
   };
+
+  void advance_time(std::uint32_t time_ms);
+  void take_list(const TrackList& tracks, std::uint32_t list_time_ms);
+  int find_past(const Track& track, std::uint32_t list_time_ms) const;
+
   BoundedVector<Past, kMaxTracks> past_;
   History ego_history_;
   std::uint32_t last_ms_ = 0;
+  std::uint32_t last_list_ms_ = 0;
+  bool started_ = false;
   LaneIndex ego_lane_ = kNoLaneIndex;
 };
 

@@ -1,0 +1,228 @@
+#include "algo/scene/agent_paths.hpp"
+
+#include "algo/core/math.hpp"
+
+namespace s4tp {
+namespace {
+
+constexpr float kAheadM = 110.0F;      // far enough for whoever reaches a zone in 7 s
+constexpr float kStraightRad = 0.35F;  // less than this is not a turn
+constexpr float kUTurnRad = 2.3F;
+constexpr float kTurnPrior = 0.4F;  // relative to straight on
+constexpr float kUTurnPrior = 0.1F;
+constexpr float kTurnLateral = 3.0F;    // m/s^2, what drivers accept in a turn
+constexpr float kTurnBraking = 3.0F;    // m/s^2, on the way to it
+constexpr float kTooFastMps = 1.5F;     // scale: this much too fast for the turn makes it e times less likely
+constexpr float kHintsWithinM = 15.0F;  // heading, yaw rate and offset speak for what comes this soon
+constexpr float kAmbiguousM = 1.0F;     // lanes this close may both be the one
+constexpr float kAmbiguousRad = 0.5F;
+constexpr float kChangeLateralMps = 0.4F;  // a clear lateral speed
+constexpr float kChangeOffsetM = 0.8F;     // where it leads within a second
+constexpr int kSteps = 3 * kMaxPathLanes;  // each step closes a way or makes one longer
+
+// A way under construction; its likelihood is relative to the others'.
+struct Way {
+  LanePath path;
+  float start_s_m = 0.0F;  // of the vehicle on the path's first lane
+  float weight = 1.0F;
+  bool open = true;
+};
+
+using Ways = BoundedVector<Way, kPathsPerAgent>;
+
+float mean_curvature(const LaneFacts& facts) {
+  return facts.turn_rad / max(facts.length_m, 1.0F);
+}
+
+// How the vehicle stands and moves relative to the lane it is on.
+struct Bearing {
+  float heading_rad = 0.0F;  // relative to the lane
+  float offset_m = 0.0F;     // left positive
+};
+
+// Likelihood of entering the lane `facts`, `distance_m` ahead.
+float branch_weight(const LaneFacts& facts, float distance_m, const Track& track, const Bearing& bearing) {
+  const float turn_rad = abs(facts.turn_rad);
+  const bool turns = turn_rad > kStraightRad;
+  float exponent = 0.0F;
+  if (turns) {
+    const float curvature_1pm = max(abs(mean_curvature(facts)), 1e-3F);
+    const float entry_square = kTurnLateral / curvature_1pm;
+    const float possible_mps = sqrt(entry_square + 2.0F * kTurnBraking * max(distance_m, 0.0F));
+    exponent -= max(track.speed_mps - possible_mps, 0.0F) / kTooFastMps;
+  } else if (track.acceleration_mps2 < -0.7F && distance_m < 40.0F) {
+    exponent += 0.4F * max(track.acceleration_mps2 + 0.7F, -3.3F);  // who slows down rather turns
+  }
+  if (distance_m < kHintsWithinM) {
+    const float hint = clamp(
+        4.0F * track.yaw_rate_radps + 4.0F * bearing.heading_rad + 0.7F * bearing.offset_m, -2.0F, 2.0F);
+    const float nearness = 1.0F - max(distance_m, 0.0F) / kHintsWithinM;
+    const float agreement = turns ? (facts.turn_rad > 0.0F ? hint : -hint) : -abs(hint);
+    exponent += nearness * agreement;
+  }
+  const float prior = turn_rad > kUTurnRad ? kUTurnPrior : (turns ? kTurnPrior : 1.0F);
+  return prior * exp(clamp(exponent, -8.0F, 8.0F));
+}
+
+// Likelihood of already being on a lane that starts or runs together with another.
+float fit_weight(const LaneTable& table, const LaneFit& fit, const Track& track) {
+  const LaneFacts& facts = table.facts(fit.lane);
+  const float yaw_miss = track.yaw_rate_radps - track.speed_mps * mean_curvature(facts);
+  const float misfit =
+      square(fit.fix.distance_m / 0.5F) + square(fit.turn_rad / 0.2F) + square(yaw_miss / 0.2F);
+  return exp(clamp(-0.5F * misfit, -10.0F, 0.0F));
+}
+
+// Whether one continues the other, or both end in the same lane: not another way to go.
+bool same_way(const LaneTable& table, LaneIndex a, LaneIndex b) {
+  for (LaneIndex of_a : table.lane(a).successors) {
+    if (of_a == b) return true;
+    for (LaneIndex of_b : table.lane(b).successors) {
+      if (of_b == a || (of_a == of_b && of_a != kNoLaneIndex)) return true;
+    }
+  }
+  return false;
+}
+
+void start_way(const LaneTable& table, LaneIndex lane, float start_s_m, float weight, Ways& ways) {
+  Way way;
+  way.start_s_m = start_s_m;
+  way.weight = weight;
+  if (table.append(way.path, lane)) (void)ways.push(way);
+}
+
+// The neighbour lane a change under way leads to, or kNoLaneIndex.
+LaneIndex change_target(const LaneTable& table, LaneIndex lane, const Track& track, const Bearing& bearing) {
+  const float lateral_mps = track.speed_mps * sin(bearing.heading_rad);
+  if (abs(lateral_mps) < kChangeLateralMps || table.lane(lane).in_junction) return kNoLaneIndex;
+  const float soon_m = bearing.offset_m + lateral_mps;
+  const bool leaves = lateral_mps > 0.0F ? soon_m > kChangeOffsetM : soon_m < -kChangeOffsetM;
+  if (!leaves) return kNoLaneIndex;
+  const LaneIndex target = lateral_mps > 0.0F ? table.lane(lane).left : table.lane(lane).right;
+  return table.valid(target) && target != lane ? target : kNoLaneIndex;
+}
+
+// Makes the shortest open way longer, in as many ways as there is room for.
+void extend(const LaneTable& table, const Track& track, const Bearing& bearing, Ways& ways) {
+  int shortest = -1;
+  for (int i = 0; i < ways.size(); ++i) {
+    if (!ways[i].open) continue;
+    if (shortest < 0 ||
+        ways[i].path.length_m - ways[i].start_s_m < ways[shortest].path.length_m - ways[shortest].start_s_m) {
+      shortest = i;
+    }
+  }
+  if (shortest < 0) return;
+  const Way trunk = ways[shortest];
+  ways[shortest].open = false;
+  const float distance_m = trunk.path.length_m - trunk.start_s_m;
+  if (distance_m >= kAheadM) return;
+
+  struct Branch {
+    LaneIndex lane;
+    float weight;
+  };
+  BoundedVector<Branch, kMaxSuccessors> branches;
+  float sum = 0.0F;
+  const LaneIndex end = trunk.path.lanes[trunk.path.lanes.size() - 1].lane;
+  for (LaneIndex successor : table.lane(end).successors) {
+    if (!table.valid(successor)) continue;
+    const Branch branch{successor, branch_weight(table.facts(successor), distance_m, track, bearing)};
+    sum += branch.weight;
+    int place = branches.size();
+    (void)branches.push(branch);
+    for (; place > 0 && branch.weight > branches[place - 1].weight; --place)
+      branches[place] = branches[place - 1];
+    branches[place] = branch;
+  }
+  bool first = true;
+  for (const Branch& branch : branches) {
+    Way way = trunk;
+    way.weight = trunk.weight * (branch.weight / sum);
+    if (!table.append(way.path, branch.lane)) continue;
+    if (first) {
+      ways[shortest] = way;
+    } else {
+      (void)ways.push(way);  // no room: the unlikely ones are left out
+    }
+    first = false;
+  }
+}
+
+}  // namespace
+
+void build_agent_paths(const LaneTable& table, Agent& agent) {
+  const Track& track = agent.track;
+  agent.paths.clear();
+  LaneTable::Fits fits;
+  table.fit(track.centre, {agent.lane, false}, fits);
+  agent.lane = fits.empty() ? kNoLaneIndex : fits[0].lane;
+  if (fits.empty()) return;
+
+  Ways ways;
+  start_way(table, agent.lane, fits[0].fix.s_m, 1.0F, ways);
+  const Frenet here = project(table.map(), ways[0].path, position(track.centre), fits[0].fix.s_m, 5.0F);
+  const Bearing bearing{wrap_angle(track.centre.heading_rad - here.heading_rad), here.d_m};
+  const LaneIndex target = change_target(table, agent.lane, track, bearing);
+  if (target != kNoLaneIndex) {
+    const LaneFix fix = nearest_on_lane(table.lane(target), position(track.centre));
+    start_way(table, target, fix.s_m, 2.0F, ways);
+  }
+  // Where lanes branch it may be on any of those that lie together here.
+  ways[0].weight = fit_weight(table, fits[0], track);
+  for (int i = 1; i < fits.size(); ++i) {
+    const LaneFit& fit = fits[i];
+    const bool together = fit.fix.distance_m < kAmbiguousM && abs(fit.turn_rad) < kAmbiguousRad;
+    if (!together || fit.lane == target || same_way(table, agent.lane, fit.lane)) continue;
+    start_way(table, fit.lane, fit.fix.s_m, fit_weight(table, fit, track), ways);
+  }
+  if (target != kNoLaneIndex) ways[1].weight *= ways[0].weight;
+  for (int step = 0; step < kSteps; ++step) extend(table, track, bearing, ways);
+
+  // Likeliest first; in one order for equals.
+  float sum = 0.0F;
+  for (const Way& way : ways) sum += way.weight;
+  for (int i = 1; i < ways.size(); ++i) {
+    const Way moving = ways[i];
+    int j = i;
+    for (; j > 0 && moving.weight > ways[j - 1].weight; --j) ways[j] = ways[j - 1];
+    ways[j] = moving;
+  }
+  for (int i = 0; i < ways.size(); ++i) {
+    (void)agent.paths.push(ways[i].path);
+    agent.path_probability[i] = ways[i].weight / sum;
+    constexpr float kReachM = 15.0F;
+    agent.frenet[i] = project(table.map(), ways[i].path, position(track.centre), ways[i].start_s_m, kReachM);
+  }
+}
+
+void bring_forward(const LaneMap* map, float seconds, Agent& agent) {
+  Track& track = agent.track;
+  const float stop_s = track.acceleration_mps2 < 0.0F ? -track.speed_mps / track.acceleration_mps2 : 1e3F;
+  const float moving_s = min(seconds, stop_s);
+  const float travel_m =
+      max(track.speed_mps * moving_s + 0.5F * track.acceleration_mps2 * square(moving_s), 0.0F);
+  track.speed_mps = max(track.speed_mps + track.acceleration_mps2 * moving_s, 0.0F);
+  if (map == nullptr || agent.paths.empty()) {
+    const float turn_rad = track.yaw_rate_radps * moving_s;
+    track.centre.heading_rad = wrap_angle(track.centre.heading_rad + 0.5F * turn_rad);
+    track.centre = shift_ahead(track.centre, travel_m);
+    track.centre.heading_rad = wrap_angle(track.centre.heading_rad + 0.5F * turn_rad);
+    return;
+  }
+  const float off_rad = wrap_angle(track.centre.heading_rad - agent.frenet[0].heading_rad);
+  const SinCos off = sin_cos(off_rad);
+  for (int i = 0; i < agent.paths.size(); ++i) {
+    Frenet& frenet = agent.frenet[i];
+    frenet.s_m += travel_m * off.cos;
+    frenet.d_m += travel_m * off.sin;
+    const PathPoint point = path_point(*map, agent.paths[i], frenet.s_m);
+    frenet.heading_rad = point.pose.heading_rad;
+    if (i > 0) continue;
+    const Point centre = offset_point(point.pose, 0.0F, frenet.d_m);
+    track.centre = {centre.x_m, centre.y_m, wrap_angle(point.pose.heading_rad + off_rad)};
+    agent.lane = point.lane;
+  }
+}
+
+}  // namespace s4tp

@@ -1,0 +1,16 @@
+#pragma once
+/// The ways another vehicle may go, and how likely each is, from where it is and how it moves.
+
+#include "algo/scene/lane_table.hpp"
+#include "algo/scene/scene.hpp"
+
+namespace s4tp {
+
+/// Fills paths, probabilities and Frenet coordinates of `agent` from its track; without a lane there are
+/// none. `agent.lane` is the hint on entry and the lane found on return.
+void build_agent_paths(const LaneTable& table, Agent& agent);
+
+/// Moves the agent along its likeliest way by `seconds`; off the map on the arc it drives.
+void bring_forward(const LaneMap* map, float seconds, Agent& agent);
+
+}  // namespace s4tp

@@ -1,0 +1,61 @@
+#pragma once
+/// What scene building works out once a cycle about every lane, and which lanes a pose may belong to.
+
+#include "algo/core/bounded.hpp"
+#include "algo/core/world_state.hpp"
+#include "algo/scene/lane_path.hpp"
+
+namespace s4tp {
+
+struct LaneFacts {
+  bool usable = false;    ///< false: everything else is meaningless
+  float length_m = 0.0F;  ///< of the centre line
+  float turn_rad = 0.0F;  ///< last chord's heading minus the first one's, left positive
+  Point low;              ///< bounding box of the vertices
+  Point high;
+};
+
+/// One lane a pose may be driving on.
+struct LaneFit {
+  LaneIndex lane = kNoLaneIndex;
+  LaneFix fix;
+  float turn_rad = 0.0F;  ///< pose's heading minus the lane's
+  float score = 0.0F;     ///< smaller is better [m]
+};
+
+/// What makes one lane likelier than another beside distance and heading.
+struct LaneHint {
+  LaneIndex previous = kNoLaneIndex;  ///< the lane it was on: stays unless another is clearly better
+  bool follows_route = false;         ///< us: prefers our own lanes and those on the route
+};
+
+class LaneTable {
+ public:
+  static constexpr int kMaxFits = 4;
+  using Fits = BoundedVector<LaneFit, kMaxFits>;
+
+  /// \param map  null: no lane is valid
+  explicit LaneTable(const LaneMap* map);
+
+  [[nodiscard]] const LaneMap& map() const { return *map_; }  ///< \pre some lane is valid
+  [[nodiscard]] const Lane& lane(LaneIndex index) const { return map_->lanes[index]; }
+  [[nodiscard]] const LaneFacts& facts(LaneIndex index) const { return facts_[index]; }
+  /// Whether an index from outside names a lane that can be used.
+  [[nodiscard]] bool valid(LaneIndex index) const;
+
+  /// Lanes within half their width + 1 m of the pose and 60 degrees of its heading, best first.
+  void fit(const Pose& pose, const LaneHint& hint, Fits& fits) const;
+
+  /// The lane that begins at most 40 m straight ahead of a pose that is on none, or kNoLaneIndex: lanes go on
+  /// straight before their start.
+  [[nodiscard]] LaneIndex lane_ahead(const Pose& pose) const;
+
+  /// Adds `lane` to the end of `path`. \return false when it is full, or would run in a circle
+  [[nodiscard]] bool append(LanePath& path, LaneIndex lane) const;
+
+ private:
+  const LaneMap* map_;
+  LaneFacts facts_[kMaxLanes];
+};
+
+}  // namespace s4tp

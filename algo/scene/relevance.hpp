@@ -1,0 +1,11 @@
+#pragma once
+/// Whom to watch (METHOD 4.0).
+
+#include "algo/scene/scene.hpp"
+
+namespace s4tp {
+
+/// Puts the agents that matter most first and sets scene.watched. Equals keep their order.
+void rank_agents(Relevance relevance, const Parameters& parameters, Scene& scene);
+
+}  // namespace s4tp

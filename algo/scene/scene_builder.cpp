@@ -1,0 +1,197 @@
+#include "algo/core/math.hpp"
+#include "algo/scene/agent_paths.hpp"
+#include "algo/scene/ego_paths.hpp"
+#include "algo/scene/lane_table.hpp"
+#include "algo/scene/relevance.hpp"
+#include "algo/scene/scene.hpp"
+
+namespace s4tp {
+namespace {
+
+constexpr std::int32_t kCoastMs = 500;  // CORE-030
+constexpr std::int32_t kFreshMs = 250;  // a pose older than this is not "seen" any more
+constexpr float kSameVehicleM = 2.0F;   // a new id this near a lost vehicle is that vehicle
+constexpr float kSameSpeedMps = 4.0F;
+constexpr float kJumpM = 8.0F;  // an id this far from where it should be is another vehicle
+constexpr std::uint16_t kPresentBit = 1U << (kHistorySamples - 1);
+
+// Signed, so that the 32-bit time may wrap and lists may lie a little in the future.
+std::int32_t elapsed_ms(std::uint32_t from_ms, std::uint32_t to_ms) {
+  return static_cast<std::int32_t>(to_ms - from_ms);
+}
+
+bool sound(const Track& track) {
+  return abs(track.centre.x_m) < 1e5F && abs(track.centre.y_m) < 1e5F &&
+         abs(track.centre.heading_rad) < 10.0F && is_finite(track.speed_mps) &&
+         is_finite(track.acceleration_mps2) && is_finite(track.yaw_rate_radps) && is_finite(track.length_m) &&
+         is_finite(track.width_m);
+}
+
+// Within the documented ranges of a track.
+Track limited(const Track& track) {
+  Track result = track;
+  result.centre.heading_rad = wrap_angle(track.centre.heading_rad);
+  result.speed_mps = clamp(track.speed_mps, 0.0F, 60.0F);
+  result.acceleration_mps2 = clamp(track.acceleration_mps2, -12.0F, 12.0F);
+  result.yaw_rate_radps = clamp(track.yaw_rate_radps, -1.3F, 1.3F);
+  result.length_m = clamp(track.length_m, 0.5F, 25.0F);
+  result.width_m = clamp(track.width_m, 0.3F, 3.0F);
+  return result;
+}
+
+bool sound(const EgoState& ego) {
+  return abs(ego.rear_axle.x_m) < 1e5F && abs(ego.rear_axle.y_m) < 1e5F &&
+         abs(ego.rear_axle.heading_rad) < 10.0F && is_finite(ego.speed_mps) &&
+         is_finite(ego.acceleration_mps2) && is_finite(ego.yaw_rate_radps) && is_finite(ego.steering_rad);
+}
+
+void shift(History& history, int steps) {
+  if (steps >= kHistorySamples) {
+    history.valid = 0;
+    return;
+  }
+  for (int i = 0; i + steps < kHistorySamples; ++i) history.samples[i] = history.samples[i + steps];
+  history.valid = static_cast<std::uint16_t>(history.valid >> steps);
+}
+
+void record(History& history, const Pose& pose, float speed_mps, bool seen) {
+  history.samples[kHistorySamples - 1] = {pose, speed_mps};
+  if (seen) {
+    history.valid = static_cast<std::uint16_t>(history.valid | kPresentBit);
+  } else {
+    history.valid = static_cast<std::uint16_t>(history.valid & ~kPresentBit);
+  }
+}
+
+// Where a vehicle last seen as `track` is `seconds` later, roughly.
+Point coasted(const Track& track, float seconds) {
+  return offset_point(track.centre, track.speed_mps * seconds, 0.0F);
+}
+
+}  // namespace
+
+void SceneBuilder::reset() {
+  past_.clear();
+  ego_history_ = History{};
+  last_ms_ = 0;
+  last_list_ms_ = 0;
+  started_ = false;
+  ego_lane_ = kNoLaneIndex;
+}
+
+void SceneBuilder::advance_time(std::uint32_t time_ms) {
+  const std::int32_t step_ms = started_ ? elapsed_ms(last_ms_, time_ms) : 0;
+  // Time that stands still or moves a whole history at once leaves nothing to keep; so does time running
+  // back.
+  const bool jump = step_ms < 0 || step_ms > kHistorySamples * kStepMs;
+  const int steps = jump ? kHistorySamples : (step_ms + kStepMs / 2) / kStepMs;
+  shift(ego_history_, steps);
+  for (Past& past : past_) shift(past.history, steps);
+  if (jump) past_.clear();
+  last_ms_ = time_ms;
+}
+
+int SceneBuilder::find_past(const Track& track, std::uint32_t list_time_ms) const {
+  for (int i = 0; i < past_.size(); ++i) {
+    if (past_[i].track.id == track.id) return i;
+  }
+  for (int i = 0; i < past_.size(); ++i) {
+    const Past& past = past_[i];
+    if (past.seen_ms == list_time_ms) continue;
+    const float seconds = 1e-3F * static_cast<float>(elapsed_ms(past.seen_ms, list_time_ms));
+    if (distance(coasted(past.track, seconds), position(track.centre)) < kSameVehicleM &&
+        abs(past.track.speed_mps - track.speed_mps) < kSameSpeedMps) {
+      return i;
+    }
+  }
+  return -1;
+}
+
+void SceneBuilder::take_list(const TrackList& tracks, std::uint32_t list_time_ms) {
+  // Known ids first, so that a new id cannot take the past of a vehicle that is still in the list.
+  for (int pass = 0; pass < 2; ++pass) {
+    for (const Track& given : tracks) {
+      if (!sound(given)) continue;
+      const Track track = limited(given);
+      const int index = find_past(track, list_time_ms);
+      const bool known = index >= 0 && past_[index].track.id == track.id;
+      if (known != (pass == 0)) continue;
+      if (index >= 0) {
+        Past& past = past_[index];
+        if (past.seen_ms == list_time_ms && known) continue;  // an id twice in one list
+        const float seconds = 1e-3F * static_cast<float>(elapsed_ms(past.seen_ms, list_time_ms));
+        if (distance(coasted(past.track, seconds), position(track.centre)) > kJumpM) {
+          past.history.valid = 0;
+          past.lane = kNoLaneIndex;
+        }
+        past.track = track;
+        past.seen_ms = list_time_ms;
+        continue;
+      }
+      if (past_.full()) {
+        int oldest = 0;
+        for (int i = 1; i < past_.size(); ++i) {
+          if (elapsed_ms(past_[i].seen_ms, past_[oldest].seen_ms) > 0) oldest = i;
+        }
+        if (past_[oldest].seen_ms == list_time_ms) continue;
+        past_.swap_remove(oldest);
+      }
+      Past past;
+      past.track = track;
+      past.seen_ms = list_time_ms;
+      (void)past_.push(past);
+    }
+  }
+  last_list_ms_ = list_time_ms;
+}
+
+Status SceneBuilder::build(std::uint32_t time_ms, const EgoState& ego, const TrackList& tracks,
+                           std::uint32_t list_time_ms, const LaneMap* map, const Parameters& parameters,
+                           Scene& scene) {
+  scene.time_ms = time_ms;
+  scene.ego_paths.clear();
+  scene.agents.clear();
+  scene.watched = 0;
+  scene.map = map;
+  scene.ego = EgoState{};
+  if (!sound(ego)) {
+    reset();
+    scene.ego_history = History{};
+    return Status::kInvalidInput;
+  }
+  scene.ego = ego;
+  advance_time(time_ms);
+  const bool newer = past_.empty() || !started_ || elapsed_ms(last_list_ms_, list_time_ms) > 0;
+  const std::int32_t list_age_ms = elapsed_ms(list_time_ms, time_ms);
+  if (newer && list_age_ms <= kCoastMs && list_age_ms >= -kCoastMs) take_list(tracks, list_time_ms);
+  started_ = true;
+
+  const LaneTable table(map);
+  LaneTable::Fits fits;
+  table.fit(ego.rear_axle, {ego_lane_, true}, fits);
+  ego_lane_ = fits.empty() ? table.lane_ahead(ego.rear_axle) : fits[0].lane;
+  if (ego_lane_ != kNoLaneIndex) build_ego_paths(table, ego_lane_, parameters, scene);
+  record(ego_history_, ego.rear_axle, ego.speed_mps, true);
+  scene.ego_history = ego_history_;
+
+  for (int i = past_.size() - 1; i >= 0; --i) {
+    if (elapsed_ms(past_[i].seen_ms, time_ms) > kCoastMs) past_.swap_remove(i);
+  }
+  for (Past& past : past_) {
+    const std::int32_t age_ms = elapsed_ms(past.seen_ms, time_ms) > 0 ? elapsed_ms(past.seen_ms, time_ms) : 0;
+    Agent agent;
+    agent.track = past.track;
+    agent.age_ms = static_cast<std::uint16_t>(age_ms);
+    agent.lane = past.lane;
+    build_agent_paths(table, agent);
+    past.lane = agent.lane;
+    bring_forward(map, 1e-3F * static_cast<float>(age_ms), agent);
+    record(past.history, agent.track.centre, agent.track.speed_mps, age_ms <= kFreshMs);
+    agent.history = past.history;
+    (void)scene.agents.push(agent);
+  }
+  rank_agents(relevance, parameters, scene);
+  return ego_lane_ != kNoLaneIndex ? Status::kOk : Status::kNoLane;
+}
+
+}  // namespace s4tp
