@@ -7,9 +7,12 @@
 
 namespace s4tp {
 
-/// Brakes to a stop along our lane (or the running plan's path, or the present curvature, whichever is
-/// known), with safety.minimum_risk_braking, harder up to vehicle.braking_max when a leader demands it; an
-/// ego already inside a conflict zone leaves it first when its way is free.
+/// Brakes to a stop along our lane, or the running plan's path, or the present curvature: the first of them
+/// that is known and can be followed (MRM-001). Deceleration safety.minimum_risk_braking; harder, up to
+/// vehicle.braking_max, when a leader or the road's end demands it (MRM-002), or up to 6 m/s^2 to stop before
+/// a conflict zone instead of in it (MRM-003). An ego already inside a zone leaves it first when its way is
+/// free (MRM-004). Every value is finite, speed never grows except to leave a zone, at rest the pose stays
+/// (MRM-005). The scene may be empty: no map, no paths (MRM-006).
 void minimum_risk(const Scene& scene, const TrajectoryPoint& start, const Plan& running,
                   std::uint32_t start_ms, const Parameters& parameters, Trajectory& trajectory);
 

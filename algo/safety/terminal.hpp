@@ -7,16 +7,27 @@
 
 namespace s4tp {
 
-/// For each conflict zone of the path not yet left at the trajectory's end: the end can still stop before it
-/// at comfortable deceleration, or has left it, or leaves it with safety.zone_margin_s to spare before any
-/// vehicle with right of way can reach it (at limit * safety.over_limit, accelerating). Also: the end can
-/// stop before the lane path ends and behind the leader in its lane (leader braking b_max). \param path index
-/// of the ego path the trajectory follows
+/// Safe for ever means, for each conflict zone of the path not yet left at the start:
+/// - the end can still stop before it (TERM-001), at comfortable deceleration or as hard as the start already
+///   demands; or
+/// - every vehicle that may reach it leaves it to us (TERM-002): where we yield, it comes
+/// safety.zone_margin_s
+///   after we have left, at limit * safety.over_limit and accelerating (TERM-003); where it owes us the way,
+///   it can stop with 4 m/s^2 or less, or comes later (TERM-004); or it has plainly gone before we come
+///   (TERM-005). First come: the other has right of way when it can be there first. Who could stop only with
+///   more than 5 m/s^2 is bound to go, and counts on others' present speeds;
+/// - the end does not stand in it (TERM-006). Who is inside already has to leave, unless a leader blocks the
+/// way
+///   (TERM-007).
+/// Also: the end can stop before the road ends, unless the goal comes first (TERM-008), and behind the leader
+/// in the lane of the path, which keeps its speed or braking for the horizon and then brakes with rss b_max
+/// (TERM-009); a lane change leaves the one behind a gap that asks for 2.5 m/s^2 at most (TERM-010).
+/// \param path index of the ego path the trajectory follows
 [[nodiscard]] bool terminal_safe(const Scene& scene, int path, const Trajectory& trajectory,
                                  const Parameters& parameters);
 
 /// Seconds until vehicle `agent`, free to accelerate, can reach `zone`'s part of its lane; 0 when inside,
-/// a large number (1e3) when it cannot reach it or has left it.
+/// a large number (1e3) when it cannot reach it or has left it (TERM-011).
 [[nodiscard]] float earliest_arrival_s(const Scene& scene, int agent, const ConflictZone& zone,
                                        const Parameters& parameters);
 

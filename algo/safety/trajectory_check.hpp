@@ -25,14 +25,18 @@ struct CheckReport {
 };
 
 /// Finite, feasible, no collision with the modes without plan, the conditioned modes, and "keeps doing what
-/// it does" over the first 1.5 s. A yielding mode counts only for a vehicle without right of way, or one
-/// already braking for us. `ego_path` as in terminal_safe.
+/// it does" over the first 1.5 s; then the terminal condition. A future that does not yield is forgiven to a
+/// vehicle that owes us the way, or is already braking to a stop before it, and can do so with 4 m/s^2
+/// (CHECK-006). Being hit from behind by who follows us in the lane we are in is no reason to reject
+/// (CHECK-007). `ego_path` as in terminal_safe.
 [[nodiscard]] CheckReport check_trajectory(const Scene& scene, int ego_path, const Trajectory& trajectory,
                                            const PredictionSet& unconditioned,
                                            const PredictionSet& conditioned, const KinematicSet& keep_going,
                                            const Parameters& parameters);
 
-/// First collision of `trajectory` with one future of one agent, or -1.
+/// First step whose boxes are nearer than `margin_m`, or -1. Who is nearer than that from the first step on
+/// counts when the gap has halved, or, touching already, when it is 0.3 m deeper: standing close is not a
+/// collision (CHECK-008).
 [[nodiscard]] int first_collision(const Trajectory& trajectory, const Mode& mode, const Track& track,
                                   int steps, float margin_m, const Parameters& parameters);
 

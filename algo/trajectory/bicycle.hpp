@@ -6,7 +6,9 @@
 
 namespace s4tp {
 
-/// One midpoint step of `duration_s` at constant acceleration and curvature rate; speed stops at 0.
+/// One midpoint step of `duration_s` at constant acceleration and curvature rate; speed stops at 0, and at
+/// rest the pose stays as it is, bit for bit (CAND-001). On a constant curvature k the path closes after
+/// 2 pi / k (CAND-002).
 [[nodiscard]] TrajectoryPoint bicycle_step(const TrajectoryPoint& state, float acceleration_mps2,
                                            float curvature_rate_1pms, float duration_s);
 
@@ -16,10 +18,13 @@ namespace s4tp {
 
 /// Our box when the rear axle stands at `rear_axle`.
 [[nodiscard]] Box ego_box(const Pose& rear_axle, const Parameters& parameters);
-/// Distance from the rear axle to the box centre [m].
+/// Distance from the rear axle to the box centre, and to the front bumper [m].
 [[nodiscard]] float rear_axle_to_centre_m(const Parameters& parameters);
+[[nodiscard]] float rear_axle_to_front_m(const Parameters& parameters);
 
-/// Curvature, lateral acceleration, steering angle and rate, acceleration within the vehicle's limits.
+/// Lateral acceleration, steering angle (hence curvature) and rate, acceleration within the vehicle's limits
+/// (CAND-003). A limit that points[0] itself violates is widened to that value: the past never makes every
+/// motion infeasible (CAND-004).
 [[nodiscard]] bool feasible(const Trajectory& trajectory, const Parameters& parameters);
 
 }  // namespace s4tp

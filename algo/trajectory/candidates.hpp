@@ -1,7 +1,8 @@
 #pragma once
-/// Motions worth considering (METHOD 4.1): target lane x longitudinal intent, each a quintic to the lane
-/// centre. A candidate is kept as its recipe (about 100 bytes) and rolled out to a trajectory where it is
-/// needed.
+/// Motions worth considering (METHOD 4.1): target lane x longitudinal intent. Where we drive and how fast are
+/// kept apart: a quintic d(s) to the lane centre, and a speed profile along it. So a car at rest has a pose,
+/// a heading and a curvature (CAND-005), and a plan that is re-timed stays on its path. A candidate is kept
+/// as its recipe and rolled out to a trajectory where it is needed.
 
 #include <cstdint>
 
@@ -19,19 +20,18 @@ enum class Intent : std::uint8_t {
   kPrevious = 3,    ///< the running plan, shifted
 };
 
-/// Lateral motion d(t) = sum c[i] t^i for t < duration, d_end afterwards; along: acceleration profile to a
-/// target. All relative to `path` of the scene's ego_paths.
+/// Relative to the smoothed centre line (reference_line.hpp) of `path` of the scene's ego_paths; s is that of
+/// our rear axle. Speed never exceeds [0, limit and curves ahead] on purpose: a start above is braked down.
 struct Candidate {
   std::uint8_t path = 0;  ///< index into Scene::ego_paths
   Intent intent = Intent::kAccelerate;
-  float acceleration_mps2 = 0.0F;  ///< kAccelerate
-  float stop_s_m = 0.0F;           ///< kStop: where the rear axle comes to rest
-  float lateral[6] = {};           ///< quintic coefficients
-  float lateral_duration_s = 0.0F;
-  float lateral_end_m = 0.0F;
-  float start_s_m = 0.0F;  ///< at plan start
-  float start_speed_mps = 0.0F;
-  float start_acceleration_mps2 = 0.0F;
+  float acceleration_mps2 = 0.0F;  ///< kAccelerate: held after a bounded jerk; kStop, kFollow: at most this
+  float target_s_m = 0.0F;         ///< kStop: where the rear axle comes to rest, not beyond (CAND-006);
+                                   ///< kFollow: where it would touch the leader, at plan start
+  float target_speed_mps = 0.0F;   ///< kFollow: the leader's, held
+  float lateral[6] = {};          ///< d = sum lateral[i] u^i, u = (s - start_s) / length in [0, 1], then d(1)
+  float lateral_length_m = 1.0F;  ///< > 0
+  float start_s_m = 0.0F;         ///< at plan start
 };
 
 /// Why a candidate was dropped; kNone: it was not.
@@ -45,20 +45,25 @@ enum class Rejection : std::uint8_t {
 
 using CandidateList = BoundedVector<Candidate, kMaxCandidates>;
 
+/// Whether `time_ms` lies within the plan's validity. False for a plan of kind none.
+[[nodiscard]] bool plan_covers(const Plan& plan, std::uint32_t time_ms);
+
 /// The state the next plan starts from (METHOD: the state predicted for the next boundary).
-/// The running plan's own state there when we are within 0.5 m sideways, 1 m along and 1 m/s of it, so that
-/// commands are continuous; else the measured state brought forward.
+/// The running plan's own state there when we are within 0.5 m sideways, 1 m along, 0.15 rad and 1 m/s of it,
+/// so that commands are continuous (CAND-007); else the measured state brought forward (CAND-008).
 [[nodiscard]] TrajectoryPoint plan_start(const EgoState& ego, std::uint32_t now_ms, const Plan& running,
                                          std::uint32_t start_ms, const Parameters& parameters);
 
-/// All feasible candidates from `start`, at most kMaxCandidates: diversity over (path, intent) first, then
-/// progress. \param left_out  receives how many feasible ones did not fit
+/// All feasible candidates from `start`, at most kMaxCandidates (CAND-009): diversity over (path, intent)
+/// first, then progress; two that move alike count once. The keep path's hard braking and stops are always
+/// among those tried first. \param left_out  receives how many feasible ones did not fit
 void generate_candidates(const Scene& scene, const TrajectoryPoint& start, const Plan& running,
                          std::uint32_t start_ms, const Parameters& parameters, CandidateList& candidates,
                          int& left_out);
 
-/// Rolls a candidate out. For kPrevious `running` is shifted and continued at constant acceleration to rest
-/// or the limit.
+/// Rolls a candidate out. points[0] is `start` itself; speeds >= 0; each point lies where its speed leads
+/// (CAND-010). For kPrevious `running` is shifted and continued along the path at its last acceleration, to
+/// rest or the limit.
 void roll_out(const Scene& scene, const Candidate& candidate, const TrajectoryPoint& start,
               const Plan& running, std::uint32_t start_ms, const Parameters& parameters,
               Trajectory& trajectory);

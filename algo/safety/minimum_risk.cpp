@@ -1,0 +1,178 @@
+#include "algo/safety/minimum_risk.hpp"
+
+#include "algo/core/math.hpp"
+#include "algo/trajectory/along_path.hpp"
+#include "algo/trajectory/bicycle.hpp"
+#include "algo/trajectory/path_walk.hpp"
+#include "algo/trajectory/roll_out.hpp"
+#include "algo/trajectory/speed_profile.hpp"
+
+namespace s4tp {
+namespace {
+
+constexpr float kGapM = 1.0F;         // left to a standing leader
+constexpr float kBeforeZoneM = 0.5F;  // stops in a zone become stops before it, if no harder than this:
+constexpr float kForZoneMps2 = 6.0F;
+constexpr float kBeyondZoneM = 0.5F;  // clear of a zone we leave
+constexpr float kLeavingMps2 = 1.5F;  // drive used to leave it
+constexpr float kBesideM = 0.4F;      // without a map: who is this near to our way ahead is in it
+constexpr float kStretch = 1.7F;
+constexpr int kStretches = 3;
+
+/// Braking that stops within `way_m`, at least `braking_mps2`, at most what the car can.
+float harder(float braking_mps2, float speed_mps, float way_m, const Parameters& parameters) {
+  const float needed = square(speed_mps) / (2.0F * max(way_m, 0.1F));
+  return clamp(needed, braking_mps2, max(braking_mps2, parameters.vehicle.braking_max_mps2));
+}
+
+/// Way until we must stand, behind somebody `gap_m` ahead who may brake as we do.
+float way_behind(float gap_m, float leader_mps, float leader_mps2, const Parameters& parameters) {
+  const float braking = max(parameters.safety.minimum_risk_braking_mps2, -leader_mps2);
+  return gap_m - kGapM + square(leader_mps) / (2.0F * braking);
+}
+
+/// Without a lane: whoever is straight ahead.
+float braking_straight_ahead(const Scene& scene, const TrajectoryPoint& start, const Parameters& parameters) {
+  const Pose front = shift_ahead(start.rear_axle, rear_axle_to_front_m(parameters));
+  float braking = parameters.safety.minimum_risk_braking_mps2;
+  for (const Agent& agent : scene.agents) {
+    const Track& track = agent.track;
+    const Point local = to_local(front, position(track.centre));
+    const float turned_rad = track.centre.heading_rad - front.heading_rad;
+    const float along = cos(turned_rad);
+    const float across = abs(sin(turned_rad));
+    const float half_length_m = 0.5F * (abs(along) * track.length_m + across * track.width_m);
+    const float half_width_m = 0.5F * (abs(along) * track.width_m + across * track.length_m);
+    if (abs(local.y_m) > 0.5F * parameters.vehicle.width_m + half_width_m + kBesideM) continue;
+    if (local.x_m < -half_length_m) continue;
+    const float way_m = way_behind(local.x_m - half_length_m, max(0.0F, track.speed_mps * along),
+                                   track.acceleration_mps2, parameters);
+    braking = max(braking, harder(braking, start.speed_mps, way_m, parameters));
+  }
+  return braking;
+}
+
+/// The ego path we are nearest to.
+int nearest_path(const Scene& scene) {
+  int best = 0;
+  for (int i = 1; i < scene.ego_paths.size(); ++i) {
+    if (abs(scene.ego_paths[i].frenet.d_m) < abs(scene.ego_paths[best].frenet.d_m)) best = i;
+  }
+  return best;
+}
+
+/// How to drive along the path: a stop beyond the zone we stand in, else braking.
+void shape_braking(const Scene& scene, const EgoPath& path, float s_m, float speed_mps,
+                   const Parameters& parameters, Candidate& candidate) {
+  const float centre_m = rear_axle_to_centre_m(parameters);
+  const float front_m = rear_axle_to_front_m(parameters);
+  const Leader leader = find_leader(scene, path, path.frenet.s_m, parameters);
+  const float free_m = leader.agent < 0 ? kNoDeadEndM : leader.gap_m - kGapM - (s_m - path.frenet.s_m);
+
+  float braking = parameters.safety.minimum_risk_braking_mps2;
+  if (leader.agent >= 0) {
+    const float way_m = way_behind(leader.gap_m, leader.speed_mps, leader.acceleration_mps2, parameters);
+    braking = harder(braking, speed_mps, way_m - (s_m - path.frenet.s_m), parameters);
+  }
+  const float end_m = dead_end_s_m(scene, path) - front_m - kGapM - s_m;
+  if (end_m > 0.0F) braking = harder(braking, speed_mps, end_m, parameters);
+
+  for (const ConflictZone& zone : path.zones) {
+    const float to_entry_m = zone.entry_s_m - centre_m - s_m;
+    const float to_exit_m = zone.exit_s_m - centre_m - s_m;
+    const float stop_m = square(speed_mps) / (2.0F * braking);
+    const float clear_m = to_exit_m + kBeyondZoneM;
+    if (to_entry_m < 0.0F && to_exit_m > 0.0F && clear_m < free_m && clear_m < max(end_m, 0.0F)) {
+      candidate.intent = Intent::kStop;
+      candidate.acceleration_mps2 = kLeavingMps2;
+      candidate.target_s_m = s_m + max(clear_m, stop_m);
+      return;
+    }
+    const float needed = square(speed_mps) / (2.0F * max(to_entry_m - kBeforeZoneM, 0.1F));
+    if (to_entry_m > 0.0F && stop_m > to_entry_m - kBeforeZoneM && stop_m < to_exit_m &&
+        needed < kForZoneMps2)
+      braking = max(braking, needed);
+  }
+  candidate.intent = Intent::kAccelerate;
+  candidate.acceleration_mps2 = -braking;
+}
+
+/// \return whether the motion is one the vehicle can follow
+bool along_lane(const Scene& scene, const TrajectoryPoint& start, const Parameters& parameters,
+                Trajectory& trajectory) {
+  const int index = nearest_path(scene);
+  const EgoPath& path = scene.ego_paths[index];
+  const Frenet frenet = project(*scene.map, path.path, position(start.rear_axle), path.frenet.s_m, 20.0F);
+  ReferenceLine line;
+  build_reference(*scene.map, path.path, frenet.s_m, start.speed_mps, parameters, line);
+  const ReferenceCoordinates where = locate_on(line, position(start.rear_axle), frenet.s_m);
+  Candidate candidate;
+  candidate.path = static_cast<std::uint8_t>(index);
+  shape_braking(scene, path, where.s_m, start.speed_mps, parameters, candidate);
+  float length_m = lateral_length_m(line, start, where, parameters);
+  const Plan none;
+  for (int i = 0; i < kStretches; ++i) {
+    shape_lateral(line, start, where, 0.0F, length_m, candidate);
+    roll_out_on(line, candidate, start, none, 0, parameters, trajectory);
+    if (feasible(trajectory, parameters)) return true;
+    length_m = kStretch * length_m;
+  }
+  return false;
+}
+
+void along_plan(const Scene& scene, const TrajectoryPoint& start, const Plan& running, std::uint32_t start_ms,
+                const Parameters& parameters, Trajectory& trajectory) {
+  const std::int32_t elapsed_ms = static_cast<std::int32_t>(start_ms - running.start_ms);
+  const TrajectoryPoint planned = sample(running, start_ms);
+  const Point from = position(start.rear_axle) - position(planned.rear_axle);
+  PathWalk walk(running.trajectory);
+  float way_m = 0.0F;  // of the plan, already driven
+  for (int i = 1; i <= elapsed_ms / kStepMs && i < kTrajectoryPoints; ++i) {
+    way_m = way_m + distance(position(running.trajectory.points[i - 1].rear_axle),
+                             position(running.trajectory.points[i].rear_axle));
+  }
+  way_m = way_m + distance(position(planned.rear_axle),
+                           position(running.trajectory.points[elapsed_ms / kStepMs].rear_axle));
+
+  const float braking = braking_straight_ahead(scene, start, parameters);
+  LongitudinalState state{0.0F, start.speed_mps, start.acceleration_mps2};
+  trajectory.points[0] = start;
+  for (int i = 1; i < kTrajectoryPoints; ++i) {
+    TrajectoryPoint& point = trajectory.points[i];
+    point = trajectory.points[i - 1];
+    const float step_m = advance(-braking, parameters, state);
+    if (step_m > 0.0F) {
+      way_m = way_m + step_m;
+      walk.place(way_m, point);
+      // We may stand a little beside the plan: its path is driven in parallel.
+      point.rear_axle.x_m = point.rear_axle.x_m + from.x_m;
+      point.rear_axle.y_m = point.rear_axle.y_m + from.y_m;
+    }
+    point.speed_mps = state.speed_mps;
+    point.acceleration_mps2 = state.acceleration_mps2;
+  }
+}
+
+void as_steered(const Scene& scene, const TrajectoryPoint& start, const Parameters& parameters,
+                Trajectory& trajectory) {
+  const float braking = braking_straight_ahead(scene, start, parameters);
+  trajectory.points[0] = start;
+  for (int i = 1; i < kTrajectoryPoints; ++i) {
+    trajectory.points[i] = bicycle_step(trajectory.points[i - 1], -braking, 0.0F, kStepS);
+  }
+}
+
+}  // namespace
+
+void minimum_risk(const Scene& scene, const TrajectoryPoint& start, const Plan& running,
+                  std::uint32_t start_ms, const Parameters& parameters, Trajectory& trajectory) {
+  const bool has_lane = scene.map != nullptr && !scene.ego_paths.empty();
+  if (has_lane && along_lane(scene, start, parameters, trajectory)) return;
+  if (plan_covers(running, start_ms)) {
+    along_plan(scene, start, running, start_ms, parameters, trajectory);
+  } else if (!has_lane) {
+    as_steered(scene, start, parameters, trajectory);
+  }
+}
+
+}  // namespace s4tp

@@ -1,0 +1,27 @@
+#pragma once
+/// Who may go first where our way crosses another: the shared judgement of terminal condition and check.
+
+#include "algo/core/parameters.hpp"
+#include "algo/scene/scene.hpp"
+
+namespace s4tp {
+
+/// A driver who owes us the way is trusted to brake up to this hard for it; one who would need more is not.
+inline constexpr float kTrustedBrakingMps2 = 4.0F;
+
+/// A vehicle on its way to a conflict zone, along the one of its paths that gets there first.
+struct Approach {
+  bool reaches = false;
+  float to_entry_m = 0.0F;  ///< of its box centre; <= 0: inside
+  float to_exit_m = 0.0F;   ///< > 0
+};
+[[nodiscard]] Approach approach_to(const Agent& agent, const ConflictZone& zone);
+
+/// Whether the vehicle can stop before the zone with kTrustedBrakingMps2.
+[[nodiscard]] bool can_stop_for_us(const Agent& agent, const Approach& approach);
+
+/// Whether, at every zone of `path` that it may reach, the vehicle owes us the way or is already braking to a
+/// stop before it, and can still do so. False when its way meets ours nowhere.
+[[nodiscard]] bool will_yield(const EgoPath& path, const Agent& agent);
+
+}  // namespace s4tp

@@ -1,0 +1,119 @@
+#include "algo/safety/trajectory_check.hpp"
+
+#include "algo/core/math.hpp"
+#include "algo/safety/right_of_way.hpp"
+#include "algo/safety/terminal.hpp"
+#include "algo/trajectory/along_path.hpp"
+#include "algo/trajectory/bicycle.hpp"
+
+namespace s4tp {
+namespace {
+
+constexpr int kKeepGoingSteps = 15;  // 1.5 s: longer nobody just keeps going
+constexpr float kInLaneM = 1.0F;  // nearer to a path's centre we are in that lane, and those behind follow us
+constexpr float kDeeperM = 0.3F;  // boxes that touch from the start count once this much deeper
+constexpr float kShareKept = 0.5F;  // of a gap that was below the margin from the start
+
+bool finite(const TrajectoryPoint& point) {
+  return is_finite(point.rear_axle.x_m) && is_finite(point.rear_axle.y_m) &&
+         is_finite(point.rear_axle.heading_rad) && is_finite(point.speed_mps) &&
+         is_finite(point.acceleration_mps2) && is_finite(point.curvature_1pm);
+}
+
+bool finite(const Trajectory& trajectory) {
+  for (const TrajectoryPoint& point : trajectory.points) {
+    if (!finite(point)) return false;
+  }
+  return true;
+}
+
+/// Who drives behind us in the lane we are in is to keep his distance: being hit from behind is no reason to
+/// stand in nobody's way by doing something worse.
+bool follows_us(const Scene& scene, const EgoPath& path, const Agent& agent, const Parameters& parameters) {
+  if (abs(path.frenet.d_m) > kInLaneM) return false;
+  bool known = false;
+  const OnPath seen = see_on_path(scene, path, agent, parameters, false, known);
+  if (!known || !seen.overlaps || seen.crossing || seen.along_mps < 0.0F) return false;
+  return seen.centre_s_m + seen.half_length_m < path.frenet.s_m + rear_axle_to_centre_m(parameters);
+}
+
+bool follows_us(const Scene& scene, int path, const Agent& agent, const Parameters& parameters) {
+  return follows_us(scene, scene.ego_paths[path], agent, parameters) ||
+         (path != 0 && follows_us(scene, scene.ego_paths[0], agent, parameters));
+}
+
+/// Looks through the futures of the watched vehicles.
+bool clear_of(const Scene& scene, int path, const Trajectory& trajectory, const PredictionSet& prediction,
+              const Parameters& parameters, CheckReport& report) {
+  for (const AgentPrediction& predicted : prediction.agents) {
+    const Agent& agent = scene.agents[predicted.agent];
+    for (const Mode& mode : predicted.modes) {
+      const int step = first_collision(trajectory, mode, agent.track, kHorizonSteps,
+                                       parameters.safety.margin_m, parameters);
+      if (step < 0) continue;
+      if (!mode.yields && will_yield(scene.ego_paths[path], agent)) continue;
+      if (follows_us(scene, path, agent, parameters)) break;
+      report = {CheckResult::kCollision, predicted.agent, static_cast<std::uint8_t>(step)};
+      return false;
+    }
+  }
+  return true;
+}
+
+bool clear_of(const Scene& scene, int path, const Trajectory& trajectory, const KinematicSet& keep_going,
+              const Parameters& parameters, CheckReport& report) {
+  const int count =
+      keep_going.agents.size() < scene.agents.size() ? keep_going.agents.size() : scene.agents.size();
+  for (int i = 0; i < count; ++i) {
+    const Agent& agent = scene.agents[i];
+    const int step = first_collision(trajectory, keep_going.agents[i], agent.track, kKeepGoingSteps,
+                                     parameters.safety.margin_m, parameters);
+    if (step < 0 || will_yield(scene.ego_paths[path], agent) || follows_us(scene, path, agent, parameters))
+      continue;
+    report = {CheckResult::kCollision, static_cast<std::uint8_t>(i), static_cast<std::uint8_t>(step)};
+    return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+int first_collision(const Trajectory& trajectory, const Mode& mode, const Track& track, int steps,
+                    float margin_m, const Parameters& parameters) {
+  const float reach_m =
+      0.5F * (parameters.vehicle.length_m + parameters.vehicle.width_m + track.length_m + track.width_m) +
+      margin_m;  // above both half diagonals
+  float least_m = margin_m;
+  for (int i = 0; i < steps && i < kHorizonSteps; ++i) {
+    const Box own = ego_box(trajectory.points[i + 1].rear_axle, parameters);
+    const Point apart = position(own.centre) - position(mode.steps[i]);
+    if (dot(apart, apart) > square(reach_m)) continue;
+    const float gap_m = separation(own, {mode.steps[i], track.length_m, track.width_m});
+    if (gap_m >= least_m) continue;
+    if (i > 0) return i;
+    // So near already, and nothing can be done about the first step: it must not get much worse.
+    least_m = gap_m > 0.0F ? kShareKept * gap_m : gap_m - kDeeperM;
+  }
+  return -1;
+}
+
+CheckReport check_trajectory(const Scene& scene, int ego_path, const Trajectory& trajectory,
+                             const PredictionSet& unconditioned, const PredictionSet& conditioned,
+                             const KinematicSet& keep_going, const Parameters& parameters) {
+  CheckReport report;
+  if (!finite(trajectory)) {
+    report.result = CheckResult::kNotFinite;
+  } else if (!feasible(trajectory, parameters)) {
+    report.result = CheckResult::kInfeasible;
+  } else if (ego_path < 0 || ego_path >= scene.ego_paths.size()) {
+    report.result = CheckResult::kTerminal;  // without a path nothing is known of the end
+  } else if (clear_of(scene, ego_path, trajectory, keep_going, parameters, report) &&
+             clear_of(scene, ego_path, trajectory, unconditioned, parameters, report) &&
+             clear_of(scene, ego_path, trajectory, conditioned, parameters, report) &&
+             !terminal_safe(scene, ego_path, trajectory, parameters)) {
+    report.result = CheckResult::kTerminal;
+  }
+  return report;
+}
+
+}  // namespace s4tp

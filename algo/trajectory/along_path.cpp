@@ -1,0 +1,106 @@
+#include "algo/trajectory/along_path.hpp"
+
+#include "algo/core/math.hpp"
+#include "algo/trajectory/bicycle.hpp"
+
+namespace s4tp {
+namespace {
+
+constexpr float kStripM = 0.2F;          // room on both sides of our width that a vehicle may not reach into
+constexpr float kInOwnLaneM = 0.6F;      // nearer to its own lane's centre it is not in ours
+constexpr float kCrossingCos = 0.7071F;  // 45 degrees
+constexpr float kMovingMps = 1.5F;
+constexpr float kFarM = 200.0F;
+constexpr float kAtGoalM = 2.0F;  // a goal at the very end of a road counts as on it
+
+/// Where lane `lane` begins along the path, or false.
+bool lane_start(const LanePath& path, LaneIndex lane, float& start_s_m) {
+  for (const PathLane& entry : path.lanes) {
+    if (entry.lane != lane) continue;
+    start_s_m = entry.start_s_m;
+    return true;
+  }
+  return false;
+}
+
+/// A vehicle near the centre of a plain lane that is none of the path's cannot be in its strip.
+bool clear_of(const Scene& scene, const EgoPath& path, const Agent& agent) {
+  if (agent.lane == kNoLaneIndex || agent.paths.empty()) return false;
+  if (scene.map->lanes[agent.lane].in_junction) return false;
+  float start_s_m = 0.0F;
+  return !lane_start(path.path, agent.lane, start_s_m) && abs(agent.frenet[0].d_m) < kInOwnLaneM &&
+         agent.track.length_m < 10.0F;
+}
+
+}  // namespace
+
+OnPath see_on_path(const Scene& scene, const EgoPath& path, const Agent& agent, const Parameters& parameters,
+                   bool whole_road, bool& known) {
+  OnPath seen;
+  known = false;
+  if (distance(position(agent.track.centre), position(scene.ego.rear_axle)) > kFarM) return seen;
+  if (!whole_road && clear_of(scene, path, agent)) return seen;
+  known = true;
+  const float guess_s_m = path.frenet.s_m;
+  const Frenet frenet = project(*scene.map, path.path, position(agent.track.centre), guess_s_m, -1.0F);
+  const float error_rad = wrap_angle(agent.track.centre.heading_rad - frenet.heading_rad);
+  const float cosine = cos(error_rad);
+  const float signed_sine = sin(error_rad);
+  const float sine = abs(signed_sine);
+  seen.centre_s_m = frenet.s_m;
+  seen.centre_d_m = frenet.d_m;
+  seen.half_length_m = 0.5F * (abs(cosine) * agent.track.length_m + sine * agent.track.width_m);
+  seen.half_width_m = 0.5F * (abs(cosine) * agent.track.width_m + sine * agent.track.length_m);
+  seen.along_mps = agent.track.speed_mps * cosine;
+  seen.left_mps = agent.track.speed_mps * signed_sine;
+  seen.crossing = abs(cosine) < kCrossingCos && agent.track.speed_mps > kMovingMps;
+  seen.overlaps = abs(seen.centre_d_m) < 0.5F * parameters.vehicle.width_m + seen.half_width_m + kStripM;
+  return seen;
+}
+
+Leader find_leader(const Scene& scene, const EgoPath& path, float rear_axle_s_m,
+                   const Parameters& parameters) {
+  const float centre_s_m = rear_axle_s_m + rear_axle_to_centre_m(parameters);
+  const float front_s_m = rear_axle_s_m + rear_axle_to_front_m(parameters);
+  Leader leader;
+  for (int i = 0; i < scene.agents.size(); ++i) {
+    bool known = false;
+    const OnPath seen = see_on_path(scene, path, scene.agents[i], parameters, false, known);
+    if (!known || !seen.overlaps || seen.crossing || seen.centre_s_m <= centre_s_m) continue;
+    const float gap_m = seen.centre_s_m - seen.half_length_m - front_s_m;
+    if (leader.agent >= 0 && gap_m >= leader.gap_m) continue;
+    leader = {i, gap_m, max(0.0F, seen.along_mps), scene.agents[i].track.acceleration_mps2};
+  }
+  return leader;
+}
+
+Leader find_follower(const Scene& scene, const EgoPath& path, float rear_axle_s_m,
+                     const Parameters& parameters) {
+  const float centre_s_m = rear_axle_s_m + rear_axle_to_centre_m(parameters);
+  const float rear_s_m = rear_axle_s_m - parameters.vehicle.rear_overhang_m;
+  Leader follower;
+  for (int i = 0; i < scene.agents.size(); ++i) {
+    bool known = false;
+    const OnPath seen = see_on_path(scene, path, scene.agents[i], parameters, false, known);
+    if (!known || !seen.overlaps || seen.crossing || seen.centre_s_m > centre_s_m) continue;
+    if (seen.along_mps < 0.0F) continue;
+    const float gap_m = rear_s_m - (seen.centre_s_m + seen.half_length_m);
+    if (follower.agent >= 0 && gap_m >= follower.gap_m) continue;
+    follower = {i, gap_m, seen.along_mps, scene.agents[i].track.acceleration_mps2};
+  }
+  return follower;
+}
+
+float dead_end_s_m(const Scene& scene, const EgoPath& path) {
+  const LanePath& way = path.path;
+  if (way.lanes.empty() || way.lanes.full()) return kNoDeadEndM;
+  const bool goal_on_it = path.changes_needed == 0 && path.goal_s_m <= way.length_m + kAtGoalM;
+  if (goal_on_it) return kNoDeadEndM;
+  const Lane& last = scene.map->lanes[way.lanes[way.lanes.size() - 1].lane];
+  for (const LaneIndex successor : last.successors) {
+    if (successor != kNoLaneIndex) return kNoDeadEndM;
+  }
+  return way.length_m;
+}
+
+}  // namespace s4tp

@@ -1,0 +1,47 @@
+#pragma once
+/// What lies along one of our paths: who leads, who follows, where the road ends. Geometry of the present
+/// only.
+
+#include "algo/core/parameters.hpp"
+#include "algo/scene/scene.hpp"
+
+namespace s4tp {
+
+/// A vehicle seen along one of our paths.
+struct OnPath {
+  bool overlaps = false;    ///< its box reaches into the strip a car of our width needs
+  float centre_s_m = 0.0F;  ///< of its box centre
+  float centre_d_m = 0.0F;
+  float half_length_m = 0.0F;  ///< of its box along the path, whatever its heading
+  float half_width_m = 0.0F;
+  float left_mps = 0.0F;   ///< speed across the path
+  float along_mps = 0.0F;  ///< speed along the path; negative: towards us
+  bool crossing = false;   ///< more than 45 degrees off the path's direction, and moving
+};
+
+/// \param whole_road  also vehicles that are plainly in another lane
+/// \param known  receives false for a vehicle far off, or safely in a lane that is none of the path's
+[[nodiscard]] OnPath see_on_path(const Scene& scene, const EgoPath& path, const Agent& agent,
+                                 const Parameters& parameters, bool whole_road, bool& known);
+
+/// The nearest vehicle ahead of us in the strip; crossing ones are the business of conflict zones.
+struct Leader {
+  int agent = -1;          ///< index into Scene::agents; -1: the way is free
+  float gap_m = 0.0F;      ///< bumper to bumper at the scene's time; may be negative
+  float speed_mps = 0.0F;  ///< along the path, >= 0
+  float acceleration_mps2 = 0.0F;
+};
+
+/// \param rear_axle_s_m  ours, along `path`, at the scene's time
+[[nodiscard]] Leader find_leader(const Scene& scene, const EgoPath& path, float rear_axle_s_m,
+                                 const Parameters& parameters);
+
+/// The nearest vehicle behind us in the strip, moving along; gap_m from its front to our rear bumper.
+[[nodiscard]] Leader find_follower(const Scene& scene, const EgoPath& path, float rear_axle_s_m,
+                                   const Parameters& parameters);
+
+/// Arc length where `path` ends for good, or kNoDeadEndM: not where only our knowledge ends, nor at the goal.
+inline constexpr float kNoDeadEndM = 1e6F;
+[[nodiscard]] float dead_end_s_m(const Scene& scene, const EgoPath& path);
+
+}  // namespace s4tp

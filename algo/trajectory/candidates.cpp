@@ -1,0 +1,199 @@
+#include "algo/trajectory/candidates.hpp"
+
+#include "algo/core/math.hpp"
+#include "algo/trajectory/along_path.hpp"
+#include "algo/trajectory/bicycle.hpp"
+#include "algo/trajectory/roll_out.hpp"
+
+namespace s4tp {
+namespace {
+
+/// What is tried, in this order, on every path: first one of each intent, then what adds most.
+struct Trial {
+  Intent intent;
+  float acceleration_mps2;  ///< kAccelerate
+  int line;                 ///< kStop: which stopping place, by nearness
+};
+constexpr Trial kTrials[] = {
+    {Intent::kPrevious, 0.0F, 0},    {Intent::kFollow, 0.0F, 0},      {Intent::kStop, 0.0F, 0},
+    {Intent::kAccelerate, 2.0F, 0},  {Intent::kAccelerate, -3.0F, 0}, {Intent::kAccelerate, 0.0F, 0},
+    {Intent::kAccelerate, -1.0F, 0}, {Intent::kAccelerate, -5.0F, 0}, {Intent::kAccelerate, 1.0F, 0},
+    {Intent::kAccelerate, 4.0F, 0},  {Intent::kStop, 0.0F, 1},        {Intent::kStop, 0.0F, 2},
+};
+constexpr int kTrialCount = static_cast<int>(sizeof(kTrials) / sizeof(kTrials[0]));
+constexpr int kFirstRound = 6;
+constexpr int kMaxStops = 3;
+
+constexpr float kStretch = 1.7F;  // a lateral motion that is infeasible is tried longer, twice
+constexpr int kStretches = 3;
+constexpr float kAlikeM = 0.05F;          // two roll-outs nearer than this at half time and end are one
+constexpr float kStopShortOfEndM = 1.0F;  // before the end of a road
+constexpr float kPassedM = 0.5F;          // a stopping place this far behind us is passed
+constexpr float kPlanOnPathM = 1.5F;      // the running plan belongs to the path its end is this near to
+constexpr float kOnPlanM = 0.01F;         // from where we start exactly on it
+
+/// One path with all that its candidates share.
+struct Course {
+  ReferenceLine line;
+  ReferenceCoordinates where;  ///< of the start
+  Leader leader;
+  float leader_touch_s_m = 0.0F;  ///< where our rear axle would be with our front at its rear, at scene time
+  float lateral_length_m = 0.0F;
+  int attempts = kStretches;   ///< lateral lengths still worth trying
+  float stops_s_m[kMaxStops];  ///< of the rear axle, nearest first
+  int stop_count = 0;
+};
+
+/// How far a roll-out comes [m]; two of one path that come equally far are twins.
+struct Reach {
+  std::uint8_t path;
+  float half_m;
+  float end_m;
+};
+
+void add_stop(float s_m, Course& course) {
+  if (s_m < course.where.s_m - kPassedM) return;
+  for (int k = 0; k < course.stop_count; ++k) {
+    if (abs(s_m - course.stops_s_m[k]) < kPassedM) return;
+  }
+  int i = course.stop_count < kMaxStops ? course.stop_count : kMaxStops - 1;
+  if (course.stop_count == kMaxStops && s_m >= course.stops_s_m[i]) return;
+  for (; i > 0 && s_m < course.stops_s_m[i - 1]; --i) course.stops_s_m[i] = course.stops_s_m[i - 1];
+  course.stops_s_m[i] = s_m;
+  if (course.stop_count < kMaxStops) ++course.stop_count;
+}
+
+void find_stops(const Scene& scene, const EgoPath& path, const Parameters& parameters, Course& course) {
+  const float front_m = rear_axle_to_front_m(parameters);
+  const float centre_m = rear_axle_to_centre_m(parameters);
+  for (const ConflictZone& zone : path.zones) {
+    // Beyond the stop line there is still the zone itself to stop before.
+    const float line_s_m = zone.stop_s_m - front_m;
+    const float edge_s_m = zone.entry_s_m - centre_m - kPassedM;
+    add_stop(line_s_m >= course.where.s_m - kPassedM ? line_s_m : edge_s_m, course);
+  }
+  const float end_s_m = dead_end_s_m(scene, path);
+  if (end_s_m < kNoDeadEndM) add_stop(end_s_m - front_m - kStopShortOfEndM, course);
+  if (path.changes_needed != 0) add_stop(path.route_end_s_m - front_m - kStopShortOfEndM, course);
+}
+
+void prepare(const Scene& scene, int index, const TrajectoryPoint& start, float lead_s,
+             const Parameters& parameters, Course& course) {
+  const EgoPath& path = scene.ego_paths[index];
+  const float guess_s_m = path.frenet.s_m + lead_s * scene.ego.speed_mps;
+  const Frenet frenet = project(*scene.map, path.path, position(start.rear_axle), guess_s_m, 10.0F);
+  build_reference(*scene.map, path.path, frenet.s_m, start.speed_mps, parameters, course.line);
+  course.where = locate_on(course.line, position(start.rear_axle), frenet.s_m);
+  course.leader = find_leader(scene, path, path.frenet.s_m, parameters);
+  course.leader_touch_s_m = path.frenet.s_m + course.leader.gap_m;
+  course.lateral_length_m = lateral_length_m(course.line, start, course.where, parameters);
+  course.attempts = kStretches;
+  course.stop_count = 0;
+  find_stops(scene, path, parameters, course);
+}
+
+/// Whether the running plan goes on from exactly here and stays on this path.
+bool continues(const Plan& running, const TrajectoryPoint& start, std::uint32_t start_ms,
+               const Course& course) {
+  if (running.kind != PlanKind::kDrive || !plan_covers(running, start_ms)) return false;
+  if (static_cast<std::int32_t>(start_ms - running.start_ms) % kStepMs != 0) return false;
+  const TrajectoryPoint planned = sample(running, start_ms);
+  if (distance(position(planned.rear_axle), position(start.rear_axle)) > kOnPlanM) return false;
+  const Point end = position(running.trajectory.points[kHorizonSteps].rear_axle);
+  const float guess_s_m = course.where.s_m + distance(end, position(start.rear_axle));
+  return abs(locate_on(course.line, end, guess_s_m).d_m) < kPlanOnPathM;
+}
+
+Reach reach_of(const Candidate& candidate, const Trajectory& trajectory) {
+  const Point start = position(trajectory.points[0].rear_axle);
+  return {candidate.path, distance(start, position(trajectory.points[kHorizonSteps / 2].rear_axle)),
+          distance(start, position(trajectory.points[kHorizonSteps].rear_axle))};
+}
+
+bool has_twin(const Reach* reaches, int count, const Reach& reach) {
+  for (int i = 0; i < count; ++i) {
+    if (reaches[i].path == reach.path && abs(reaches[i].half_m - reach.half_m) < kAlikeM &&
+        abs(reaches[i].end_m - reach.end_m) < kAlikeM)
+      return true;
+  }
+  return false;
+}
+
+/// The longitudinal half of a recipe. \return false when this path has no such thing
+bool shape_longitudinal(const Trial& trial, const Course& course, const TrajectoryPoint& start,
+                        const Plan& running, std::uint32_t start_ms, float lead_s,
+                        const Parameters& parameters, Candidate& candidate) {
+  candidate.intent = trial.intent;
+  candidate.acceleration_mps2 = parameters.comfort.acceleration_mps2;
+  switch (trial.intent) {
+    case Intent::kAccelerate:
+      candidate.acceleration_mps2 = min(trial.acceleration_mps2, parameters.vehicle.acceleration_max_mps2);
+      return true;
+    case Intent::kStop:
+      if (trial.line >= course.stop_count) return false;
+      candidate.target_s_m = course.stops_s_m[trial.line];
+      return square(start.speed_mps) <=
+             2.0F * parameters.vehicle.braking_max_mps2 * max(0.1F, candidate.target_s_m - course.where.s_m);
+    case Intent::kFollow:
+      if (course.leader.agent < 0) return false;
+      candidate.target_s_m = course.leader_touch_s_m + lead_s * course.leader.speed_mps;
+      candidate.target_speed_mps = course.leader.speed_mps;
+      return true;
+    case Intent::kPrevious:
+      return continues(running, start, start_ms, course);
+  }
+  return false;
+}
+
+/// Finds a lateral length with which the candidate can be driven. \return false when there is none
+bool make_feasible(const TrajectoryPoint& start, const Plan& running, std::uint32_t start_ms,
+                   const Parameters& parameters, Course& course, Candidate& candidate,
+                   Trajectory& trajectory) {
+  for (int i = 0; i < course.attempts; ++i) {
+    shape_lateral(course.line, start, course.where, 0.0F, course.lateral_length_m, candidate);
+    roll_out_on(course.line, candidate, start, running, start_ms, parameters, trajectory);
+    if (feasible(trajectory, parameters)) return true;
+    if (candidate.intent == Intent::kPrevious) return false;
+    if (i + 1 < course.attempts) course.lateral_length_m *= kStretch;
+  }
+  course.attempts = 1;
+  return false;
+}
+
+}  // namespace
+
+void generate_candidates(const Scene& scene, const TrajectoryPoint& start, const Plan& running,
+                         std::uint32_t start_ms, const Parameters& parameters, CandidateList& candidates,
+                         int& left_out) {
+  candidates.clear();
+  left_out = 0;
+  if (scene.map == nullptr) return;
+  const float lead_s = 0.001F * static_cast<float>(static_cast<std::int32_t>(start_ms - scene.time_ms));
+  Course course;
+  Trajectory trajectory;
+  Reach reaches[kMaxCandidates];
+  // Two rounds over the paths: a line is held for one path at a time, what matters most finds room first.
+  for (int round = 0; round < 2; ++round) {
+    const int first = round == 0 ? 0 : kFirstRound;
+    const int last = round == 0 ? kFirstRound : kTrialCount;
+    for (int path = 0; path < scene.ego_paths.size(); ++path) {
+      prepare(scene, path, start, lead_s, parameters, course);
+      for (int k = first; k < last; ++k) {
+        Candidate candidate;
+        candidate.path = static_cast<std::uint8_t>(path);
+        if (!shape_longitudinal(kTrials[k], course, start, running, start_ms, lead_s, parameters, candidate))
+          continue;
+        if (!make_feasible(start, running, start_ms, parameters, course, candidate, trajectory)) continue;
+        const Reach reach = reach_of(candidate, trajectory);
+        if (candidate.intent != Intent::kPrevious && has_twin(reaches, candidates.size(), reach)) continue;
+        if (candidates.push(candidate)) {
+          reaches[candidates.size() - 1] = reach;
+        } else {
+          ++left_out;
+        }
+      }
+    }
+  }
+}
+
+}  // namespace s4tp

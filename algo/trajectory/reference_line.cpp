@@ -1,0 +1,122 @@
+#include "algo/trajectory/reference_line.hpp"
+
+#include "algo/core/math.hpp"
+
+namespace s4tp {
+namespace {
+
+constexpr float kBehind = 4.0F;              // samples behind the start, for smoothing and its projection
+constexpr float kSpacingPerSpeed = 0.0625F;  // s: 72 samples are then 4.2 s of way
+constexpr float kGentle = 0.8F;      // share of comfortable braking used to arrive at a curve or limit
+constexpr float kTinyM = 0.01F;      // no division by less
+constexpr float kStraight = 1e-4F;   // sine of a turn between samples that counts as none
+constexpr float kSlowestMps = 1.0F;  // a cap never asks for standstill: stops are intents of their own
+
+/// Triangle of five: weights 1 2 3 2 1.
+void smooth(ReferenceLine& line) {
+  Point before2 = position(line.samples[0].pose);
+  Point before1 = position(line.samples[1].pose);
+  for (int i = 2; i + 2 < kReferenceSamples; ++i) {
+    Pose& pose = line.samples[i].pose;
+    const Point here = position(pose);
+    const Point after1 = position(line.samples[i + 1].pose);
+    const Point after2 = position(line.samples[i + 2].pose);
+    const Point sum = (before2 + after2) + 2.0F * (before1 + after1) + 3.0F * here;
+    pose.x_m = sum.x_m / 9.0F;
+    pose.y_m = sum.y_m / 9.0F;
+    before2 = before1;
+    before1 = here;
+  }
+}
+
+/// Headings by central, curvatures by second differences (the circle through three points).
+void differentiate(ReferenceLine& line) {
+  Point in = position(line.samples[1].pose) - position(line.samples[0].pose);
+  float in_m = max(norm(in), kTinyM);
+  float heading_rad = atan2(in.y_m, in.x_m);
+  line.samples[0].pose.heading_rad = heading_rad;
+  line.samples[0].curvature_1pm = 0.0F;
+  for (int i = 1; i + 1 < kReferenceSamples; ++i) {
+    ReferenceLine::Sample& sample = line.samples[i];
+    const Point out = position(line.samples[i + 1].pose) - position(sample.pose);
+    const float out_m = max(norm(out), kTinyM);
+    const float turn = cross(in, out) / (in_m * out_m);
+    sample.curvature_1pm = 2.0F * turn / (in_m + out_m);
+    if (abs(turn) > kStraight) {  // most samples are straight: no arc tangent for them
+      const Point along = in + out;
+      heading_rad = atan2(along.y_m, along.x_m);
+    }
+    sample.pose.heading_rad = heading_rad;
+    in = out;
+    in_m = out_m;
+    if (abs(turn) > kStraight) heading_rad = atan2(out.y_m, out.x_m);
+  }
+  line.samples[kReferenceSamples - 1].pose.heading_rad = heading_rad;
+  line.samples[kReferenceSamples - 1].curvature_1pm = 0.0F;
+}
+
+/// Caps by curves, then backwards: v^2 = v_next^2 + 2 b ds, so that each slower part is reached in time.
+void cap_speeds(const Parameters& parameters, ReferenceLine& line) {
+  const float gain_m2ps2 = 2.0F * kGentle * parameters.comfort.braking_mps2 * line.spacing_m;
+  float next_mps = line.samples[kReferenceSamples - 1].speed_cap_mps;
+  for (int i = kReferenceSamples - 1; i >= 0; --i) {
+    float& cap_mps = line.samples[i].speed_cap_mps;
+    const float bend_1pm = abs(line.samples[i].curvature_1pm);
+    if (bend_1pm * square(cap_mps) > parameters.comfort.lateral_mps2) {
+      cap_mps = sqrt(parameters.comfort.lateral_mps2 / bend_1pm);
+    }
+    cap_mps = max(cap_mps, kSlowestMps);
+    if (cap_mps > next_mps) cap_mps = min(cap_mps, sqrt(square(next_mps) + gain_m2ps2));
+    next_mps = cap_mps;
+  }
+}
+
+}  // namespace
+
+void build_reference(const LaneMap& map, const LanePath& path, float from_s_m, float speed_mps,
+                     const Parameters& parameters, ReferenceLine& line) {
+  line.spacing_m = max(1.0F, kSpacingPerSpeed * speed_mps);
+  // Samples lie on a fixed grid of the path: lines built from slightly different places agree.
+  line.start_s_m = (floor(from_s_m / line.spacing_m) - kBehind) * line.spacing_m;
+  PathCursor cursor(map, path);
+  for (int i = 0; i < kReferenceSamples; ++i) {
+    const PathPoint point = cursor.at(line.start_s_m + static_cast<float>(i) * line.spacing_m);
+    line.samples[i].pose = point.pose;
+    line.samples[i].speed_cap_mps = point.speed_limit_mps;
+  }
+  smooth(line);
+  differentiate(line);
+  cap_speeds(parameters, line);
+}
+
+ReferenceLine::Sample reference_at(const ReferenceLine& line, float s_m) {
+  const float place = (s_m - line.start_s_m) / line.spacing_m;
+  const int index =
+      to_int(floor(clamp(place, 0.0F, static_cast<float>(kReferenceSamples))), 0, kReferenceSamples - 2);
+  const ReferenceLine::Sample& a = line.samples[index];
+  const ReferenceLine::Sample& b = line.samples[index + 1];
+  const float t = place - static_cast<float>(index);
+  const float u = clamp(t, 0.0F, 1.0F);
+  ReferenceLine::Sample sample;
+  sample.pose.x_m = lerp(a.pose.x_m, b.pose.x_m, t);  // beyond the ends: straight on
+  sample.pose.y_m = lerp(a.pose.y_m, b.pose.y_m, t);
+  sample.pose.heading_rad = lerp_angle(a.pose.heading_rad, b.pose.heading_rad, u);
+  sample.curvature_1pm = lerp(a.curvature_1pm, b.curvature_1pm, u);
+  sample.speed_cap_mps = lerp(a.speed_cap_mps, b.speed_cap_mps, u);
+  return sample;
+}
+
+ReferenceCoordinates locate_on(const ReferenceLine& line, Point point, float guess_s_m) {
+  constexpr int kIterations = 4;  // Newton on a smooth line: each one squares the error over the radius
+  ReferenceCoordinates found{guess_s_m, 0.0F};
+  for (int i = 0; i < kIterations; ++i) {
+    const ReferenceLine::Sample sample = reference_at(line, found.s_m);
+    const Point local = to_local(sample.pose, point);
+    const float stretch = max(0.3F, 1.0F - sample.curvature_1pm * local.y_m);
+    found.s_m = found.s_m + local.x_m / stretch;
+    found.d_m = local.y_m;
+  }
+  return found;
+}
+
+}  // namespace s4tp

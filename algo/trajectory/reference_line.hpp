@@ -1,0 +1,48 @@
+#pragma once
+/// The centre line of a lane path as our motion follows it: sampled, smoothed, and with the speed that may be
+/// driven at each point.
+///
+/// \code
+///   polyline      ____/\__    kinks at every vertex: no steering could follow
+///   reference     ____/~~\__  the same, averaged over +-2 samples (a triangle): an arc of radius R moves
+///                             inwards by 0.67 m^2 / R, 6 cm at 10.7 m, and its curvature sets in over 5 m
+/// \endcode
+
+#include "algo/core/config.hpp"
+#include "algo/core/parameters.hpp"
+#include "algo/scene/lane_path.hpp"
+
+namespace s4tp {
+
+inline constexpr int kReferenceSamples = 72;
+
+/// Smoothed centre line over kReferenceSamples * spacing_m; beyond both ends it goes on straight.
+struct ReferenceLine {
+  struct Sample {
+    Pose pose;
+    float curvature_1pm = 0.0F;
+    float speed_cap_mps = 0.0F;  ///< speed limit and curves, ahead too: braked for in time, comfortably
+  };
+  float start_s_m = 0.0F;  ///< arc length of samples[0] along the path
+  float spacing_m = 1.0F;
+  Sample samples[kReferenceSamples];
+};
+
+/// Where a point lies relative to a reference line.
+struct ReferenceCoordinates {
+  float s_m = 0.0F;
+  float d_m = 0.0F;  ///< left positive
+};
+
+/// Samples `path` from a little behind `from_s_m` on. \param speed_mps  widens the spacing, so that 3 s and
+/// the way to brake fit at any speed. \pre the path has at least one lane
+void build_reference(const LaneMap& map, const LanePath& path, float from_s_m, float speed_mps,
+                     const Parameters& parameters, ReferenceLine& line);
+
+/// The line at `s_m`, interpolated.
+[[nodiscard]] ReferenceLine::Sample reference_at(const ReferenceLine& line, float s_m);
+
+/// Foot of `point` on the line, near `guess_s_m`.
+[[nodiscard]] ReferenceCoordinates locate_on(const ReferenceLine& line, Point point, float guess_s_m);
+
+}  // namespace s4tp

@@ -1,0 +1,177 @@
+#include "algo/trajectory/roll_out.hpp"
+
+#include "algo/core/math.hpp"
+#include "algo/trajectory/speed_profile.hpp"
+
+namespace s4tp {
+namespace {
+
+constexpr float kMaxSlope = 2.0F;         // tangent of the largest heading error a path can start with
+constexpr float kMinStretch = 0.2F;       // 1 - curvature d: beyond, the line's centre of curvature is near
+constexpr float kTailBrakingMps2 = 5.0F;  // bounds of what a continued plan may go on with
+constexpr float kTailDriveMps2 = 1.0F;
+
+constexpr float kShortestM = 4.0F;       // of a lateral motion
+constexpr float kGentleBend1pm = 0.09F;  // curvature of a slow lane change, under half of what we can steer
+constexpr float kLateralMps2 = 2.0F;     // peak lateral acceleration of a lane change at speed
+constexpr float kPeak = 5.77F;           // a quintic from rest to rest bends by 5.77 d / length^2
+constexpr float kSlopeShare = 2.0F;      // way / d at which a quintic goes on from a slope without a jerk
+
+/// d and its derivatives by s.
+struct Lateral {
+  float d_m;
+  float slope;
+  float bend_1pm;
+};
+
+Lateral lateral_at(const Candidate& candidate, float s_m) {
+  const float* c = candidate.lateral;
+  const float u = (s_m - candidate.start_s_m) / candidate.lateral_length_m;
+  if (u >= 1.0F) return {((((c[5] + c[4]) + c[3]) + c[2]) + c[1]) + c[0], 0.0F, 0.0F};
+  const float v = max(u, 0.0F);
+  const float per_m = 1.0F / candidate.lateral_length_m;
+  const float d = ((((c[5] * v + c[4]) * v + c[3]) * v + c[2]) * v + c[1]) * v + c[0];
+  const float d1 = (((5.0F * c[5] * v + 4.0F * c[4]) * v + 3.0F * c[3]) * v + 2.0F * c[2]) * v + c[1];
+  const float d2 = ((20.0F * c[5] * v + 12.0F * c[4]) * v + 6.0F * c[3]) * v + 2.0F * c[2];
+  return {d, d1 * per_m, d2 * per_m * per_m};
+}
+
+/// Slope of the line's curvature [1/m^2].
+float curvature_slope(const ReferenceLine& line, float s_m) {
+  const float h_m = line.spacing_m;
+  return (reference_at(line, s_m + h_m).curvature_1pm - reference_at(line, s_m - h_m).curvature_1pm) /
+         (2.0F * h_m);
+}
+
+/// Writes pose and curvature at `s_m`. \return ds per metre of our own way
+float place(const ReferenceLine& line, const Candidate& candidate, float s_m, TrajectoryPoint& point) {
+  const ReferenceLine::Sample centre = reference_at(line, s_m);
+  const Lateral lateral = lateral_at(candidate, s_m);
+  const float k = centre.curvature_1pm;
+  const float stretch = max(kMinStretch, 1.0F - k * lateral.d_m);
+  const float tangent = clamp(lateral.slope / stretch, -kMaxSlope, kMaxSlope);
+  const float cosine = 1.0F / sqrt(1.0F + square(tangent));
+  // kappa' d is left out while we are within a metre of a line: it is below 0.02 / m even in a tight turn.
+  const float k_slope = abs(lateral.d_m) > 1.0F ? curvature_slope(line, s_m) : 0.0F;
+  const float own_bend = lateral.bend_1pm + (k_slope * lateral.d_m + k * lateral.slope) * tangent;
+
+  const Point side = direction(centre.pose.heading_rad);
+  point.rear_axle.x_m = centre.pose.x_m - lateral.d_m * side.y_m;
+  point.rear_axle.y_m = centre.pose.y_m + lateral.d_m * side.x_m;
+  point.rear_axle.heading_rad = wrap_angle(centre.pose.heading_rad + atan(tangent));
+  point.curvature_1pm = (own_bend * square(cosine) / stretch + k) * cosine / stretch;
+  return cosine / stretch;
+}
+
+/// Marches from points[first], which is set, to the end.
+void march(const ReferenceLine& line, const Candidate& candidate, int first, const Parameters& parameters,
+           Trajectory& trajectory) {
+  const TrajectoryPoint& from = trajectory.points[first];
+  LongitudinalState state{candidate.start_s_m, from.speed_mps, from.acceleration_mps2};
+  TrajectoryPoint scratch;
+  float s_per_m = place(line, candidate, state.s_m, scratch);
+  for (int i = first + 1; i < kTrajectoryPoints; ++i) {
+    const float time_s = static_cast<float>(i - 1 - first) * kStepS;
+    const float wanted = wanted_acceleration(line, candidate, state, time_s, parameters);
+    const float way_m = advance(wanted, parameters, state);
+    TrajectoryPoint& point = trajectory.points[i];
+    point = trajectory.points[i - 1];  // at rest pose and curvature stay, bit for bit
+    if (way_m > 0.0F) {
+      state.s_m = state.s_m + way_m * s_per_m;
+      s_per_m = place(line, candidate, state.s_m, point);
+    }
+    point.speed_mps = state.speed_mps;
+    point.acceleration_mps2 = state.acceleration_mps2;
+  }
+}
+
+/// The running plan from `start_ms` on, then on along the line.
+void shift_plan(const ReferenceLine& line, const Candidate& candidate, const Plan& running,
+                std::uint32_t start_ms, const Parameters& parameters, Trajectory& trajectory) {
+  const std::int32_t elapsed_ms = static_cast<std::int32_t>(start_ms - running.start_ms);
+  const int shift = elapsed_ms / kStepMs < kHorizonSteps ? elapsed_ms / kStepMs : kHorizonSteps;
+  const int last = kHorizonSteps - shift;  // index of the plan's last point in the new one
+  for (int i = 1; i <= last; ++i) trajectory.points[i] = running.trajectory.points[i + shift];
+  if (shift == 0) return;
+
+  const TrajectoryPoint& end = trajectory.points[last];
+  Candidate tail = candidate;
+  tail.intent = Intent::kAccelerate;
+  tail.acceleration_mps2 = clamp(end.acceleration_mps2, -kTailBrakingMps2, kTailDriveMps2);
+  const float guess_s_m =
+      candidate.start_s_m + distance(position(trajectory.points[0].rear_axle), position(end.rear_axle));
+  const ReferenceCoordinates where = locate_on(line, position(end.rear_axle), guess_s_m);
+  shape_lateral(line, end, where, 0.0F, candidate.lateral_length_m, tail);
+  march(line, tail, last, parameters, trajectory);
+}
+
+}  // namespace
+
+float lateral_length_m(const ReferenceLine& line, const TrajectoryPoint& start, ReferenceCoordinates where,
+                       const Parameters& parameters) {
+  const float offset_m = abs(where.d_m);
+  const float change_s = parameters.comfort.lane_change_s;
+  const float at_speed_m =
+      start.speed_mps * clamp(sqrt(kPeak * offset_m / kLateralMps2), 0.4F * change_s, change_s);
+  const float slow_m = sqrt(kPeak * offset_m / kGentleBend1pm);
+  const float fresh_m = max(kShortestM, max(at_speed_m, slow_m));
+
+  const ReferenceLine::Sample centre = reference_at(line, where.s_m);
+  const float slope =
+      tan(clamp(wrap_angle(start.rear_axle.heading_rad - centre.pose.heading_rad), -1.0F, 1.0F));
+  const bool towards = slope * where.d_m < 0.0F && abs(slope) > 0.02F;
+  if (!towards) return fresh_m;
+  return clamp(kSlopeShare * offset_m / abs(slope), max(kShortestM, 0.5F * fresh_m), fresh_m);
+}
+
+void shape_lateral(const ReferenceLine& line, const TrajectoryPoint& start, ReferenceCoordinates where,
+                   float end_d_m, float length_m, Candidate& candidate) {
+  const ReferenceLine::Sample centre = reference_at(line, where.s_m);
+  const float k = centre.curvature_1pm;
+  const float stretch = max(kMinStretch, 1.0F - k * where.d_m);
+  const float error_rad = wrap_angle(start.rear_axle.heading_rad - centre.pose.heading_rad);
+  const float tangent = clamp(tan(clamp(error_rad, -1.2F, 1.2F)), -kMaxSlope, kMaxSlope);
+  const float cosine = 1.0F / sqrt(1.0F + square(tangent));
+  const float slope = tangent * stretch;
+  const float k_slope = abs(where.d_m) > 1.0F ? curvature_slope(line, where.s_m) : 0.0F;
+  // place() solved for d'': the path leaves with the curvature that is steered now.
+  const float bend = (start.curvature_1pm * stretch / cosine - k) * stretch / square(cosine) -
+                     (k_slope * where.d_m + k * slope) * tangent;
+
+  const float c0 = where.d_m;
+  const float c1 = slope * length_m;
+  const float c2 = 0.5F * bend * length_m * length_m;
+  const float h = end_d_m - ((c0 + c1) + c2);
+  const float g = -(c1 + 2.0F * c2);
+  const float f = -2.0F * c2;
+  candidate.lateral[0] = c0;
+  candidate.lateral[1] = c1;
+  candidate.lateral[2] = c2;
+  candidate.lateral[3] = (10.0F * h - 4.0F * g) + 0.5F * f;
+  candidate.lateral[4] = (-15.0F * h + 7.0F * g) - f;
+  candidate.lateral[5] = (6.0F * h - 3.0F * g) + 0.5F * f;
+  candidate.lateral_length_m = length_m;
+  candidate.start_s_m = where.s_m;
+}
+
+void roll_out_on(const ReferenceLine& line, const Candidate& candidate, const TrajectoryPoint& start,
+                 const Plan& running, std::uint32_t start_ms, const Parameters& parameters,
+                 Trajectory& trajectory) {
+  trajectory.points[0] = start;
+  if (candidate.intent == Intent::kPrevious && plan_covers(running, start_ms)) {
+    shift_plan(line, candidate, running, start_ms, parameters, trajectory);
+  } else {
+    march(line, candidate, 0, parameters, trajectory);
+  }
+}
+
+void roll_out(const Scene& scene, const Candidate& candidate, const TrajectoryPoint& start,
+              const Plan& running, std::uint32_t start_ms, const Parameters& parameters,
+              Trajectory& trajectory) {
+  ReferenceLine line;
+  build_reference(*scene.map, scene.ego_paths[candidate.path].path, candidate.start_s_m, start.speed_mps,
+                  parameters, line);
+  roll_out_on(line, candidate, start, running, start_ms, parameters, trajectory);
+}
+
+}  // namespace s4tp

@@ -1,0 +1,24 @@
+#pragma once
+/// The two halves of a roll-out, for those who roll out many candidates on one reference line.
+
+#include "algo/trajectory/candidates.hpp"
+#include "algo/trajectory/reference_line.hpp"
+
+namespace s4tp {
+
+/// Way a lateral motion to the centre takes: at speed by lateral acceleration, slow by what can be steered;
+/// one that is under way already goes on as fast as it is.
+[[nodiscard]] float lateral_length_m(const ReferenceLine& line, const TrajectoryPoint& start,
+                                     ReferenceCoordinates where, const Parameters& parameters);
+
+/// Writes start_s_m and the quintic of `candidate`: from `start` (offset, heading, curvature) to `end_d_m`,
+/// parallel to the line, over `length_m` of way.
+void shape_lateral(const ReferenceLine& line, const TrajectoryPoint& start, ReferenceCoordinates where,
+                   float end_d_m, float length_m, Candidate& candidate);
+
+/// As roll_out(), on a line built already.
+void roll_out_on(const ReferenceLine& line, const Candidate& candidate, const TrajectoryPoint& start,
+                 const Plan& running, std::uint32_t start_ms, const Parameters& parameters,
+                 Trajectory& trajectory);
+
+}  // namespace s4tp

@@ -1,0 +1,85 @@
+#pragma once
+/// Scenes for tests of motion and safety, made by hand on the maps of lane_maps.hpp: they do not depend on the
+/// scene builder.
+
+#include <vector>
+
+#include "algo/core/parameters.hpp"
+#include "algo/core/trajectory.hpp"
+#include "algo/satp/prediction.hpp"
+#include "algo/scene/scene.hpp"
+#include "tests/support/lane_maps.hpp"
+
+namespace s4tp::test {
+
+inline LanePath path_of(const LaneMap& map, const std::vector<LaneIndex>& lanes) {
+  LanePath path;
+  for (const LaneIndex lane : lanes) {
+    (void)path.lanes.push({lane, path.length_m});
+    path.length_m += map.lanes[lane].length_m;
+  }
+  return path;
+}
+
+/// Rear axle at arc length `s_m` of the path, `d_m` to the left of its centre.
+inline TrajectoryPoint state_on(const LaneMap& map, const LanePath& path, float s_m, float speed_mps,
+                                float d_m = 0.0F) {
+  const PathPoint centre = path_point(map, path, s_m);
+  TrajectoryPoint state;
+  state.rear_axle.x_m = centre.pose.x_m - d_m * std::sin(centre.pose.heading_rad);
+  state.rear_axle.y_m = centre.pose.y_m + d_m * std::cos(centre.pose.heading_rad);
+  state.rear_axle.heading_rad = centre.pose.heading_rad;
+  state.speed_mps = speed_mps;
+  return state;
+}
+
+inline void put_ego(Scene& scene, const TrajectoryPoint& state) {
+  scene.ego.rear_axle = state.rear_axle;
+  scene.ego.speed_mps = state.speed_mps;
+  scene.ego.acceleration_mps2 = state.acceleration_mps2;
+  for (EgoPath& path : scene.ego_paths) {
+    path.frenet = project(*scene.map, path.path, position(state.rear_axle), 0.0F, -1.0F);
+  }
+}
+
+/// A way we may go; the goal is far beyond its end unless said otherwise. \return it, for the zones
+inline EgoPath& add_way(Scene& scene, const LaneMap& map, const LanePath& path,
+                        Manoeuvre manoeuvre = Manoeuvre::kKeep) {
+  scene.map = &map;
+  EgoPath way;
+  way.manoeuvre = manoeuvre;
+  way.path = path;
+  way.route_end_s_m = path.length_m;
+  way.goal_s_m = path.length_m;
+  (void)scene.ego_paths.push(way);
+  return scene.ego_paths[scene.ego_paths.size() - 1];
+}
+
+/// Another vehicle (5.0 x 1.8 m) with its box centre at `s_m` of `path`.
+inline Agent& add_vehicle(Scene& scene, const LaneMap& map, const LanePath& path, float s_m, float speed_mps,
+                          float d_m = 0.0F) {
+  Agent agent;
+  agent.track.id = static_cast<std::uint8_t>(scene.agents.size() + 1);
+  agent.track.centre = state_on(map, path, s_m, 0.0F, d_m).rear_axle;
+  agent.track.speed_mps = speed_mps;
+  agent.track.length_m = 5.0F;
+  agent.track.width_m = 1.8F;
+  agent.lane = path_point(map, path, s_m).lane;
+  (void)agent.paths.push(path);
+  agent.frenet[0] = {s_m, d_m, agent.track.centre.heading_rad};
+  (void)scene.agents.push(agent);
+  return scene.agents[scene.agents.size() - 1];
+}
+
+/// The vehicle's motion along its path at constant speed, as a single future.
+inline Mode steady_future(const LaneMap& map, const Agent& agent) {
+  Mode mode;
+  mode.probability = 1.0F;
+  for (int i = 0; i < kHorizonSteps; ++i) {
+    const float s_m = agent.frenet[0].s_m + agent.track.speed_mps * kStepS * static_cast<float>(i + 1);
+    mode.steps[i] = state_on(map, agent.paths[0], s_m, 0.0F, agent.frenet[0].d_m).rear_axle;
+  }
+  return mode;
+}
+
+}  // namespace s4tp::test
