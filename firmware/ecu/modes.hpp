@@ -1,6 +1,16 @@
 #pragma once
-/// Modes of the ECU and the faults that move it between them; every transition stands in one table
-/// (modes.cpp).
+/// Modes of the ECU and the faults that move it between them. Every transition stands in one table
+/// (modes.cpp); nothing else changes the mode.
+///
+/// \code
+///                     +--------------------------- override, engage off ---------------------------+
+///                     v                                                                            |
+///   Fault <---- Standby <----> Ready ---- engage ----> Driving <----> Degraded                     |
+///     ^               ^                                   |              |                         |
+///     |               | engage off                        +-- lost ------+                         |
+///     +---- Stopped --+                                          v                                 |
+///              ^------------------ at rest ---------------- MinimumRisk ---------------------------+
+/// \endcode
 
 #include <cstdint>
 
@@ -11,13 +21,13 @@ enum class Mode : std::uint8_t {
   kReady = 1,        ///< ECU-002 all inputs whole, a plan is at hand, waiting to be engaged
   kDriving = 2,      ///< ECU-003 following plans
   kDegraded = 3,     ///< ECU-004 driving with something missing: slower, no lane change
-  kMinimumRisk = 4,  ///< ECU-005 stopping safely
+  kMinimumRisk = 4,  ///< ECU-005 stopping safely along the last plan's path, without the planner
   kStopped = 5,      ///< ECU-006 at rest after a minimum-risk manoeuvre, held until released
   kFault = 6,        ///< ECU-007 cannot drive: self-test or internal fault
 };
 inline constexpr int kModeCount = 7;
 
-/// Bits of the status frame's fault field.
+/// Bits of the status frame's fault field. The exact conditions stand in supervision.hpp.
 enum class FaultBit : std::uint16_t {
   kMotionMissing = 1U << 0,    ///< ECU-010 no valid motion frame for 3 ticks
   kMotionTiming = 1U << 1,     ///< ECU-011 interval outside 8 .. 12 ms for 3 ticks, early or late
@@ -36,5 +46,66 @@ enum class FaultBit : std::uint16_t {
   kGateDenied = 1U << 14,      ///< ECU-024 the gate denied a command while driving
   kDriverOverride = 1U << 15,  ///< ECU-025 the driver took over
 };
+
+using Faults = std::uint16_t;
+constexpr Faults bit(FaultBit fault) {
+  return static_cast<Faults>(fault);
+}
+
+/// Faults that let the car drive on, degraded.
+inline constexpr Faults kDegradingFaults =
+    static_cast<Faults>(bit(FaultBit::kMotionTiming) | bit(FaultBit::kTracksStale) |
+                        bit(FaultBit::kMapStale) | bit(FaultBit::kPlanLate));
+/// Faults that end the drive; all others but the driver's override.
+inline constexpr Faults kEndingFaults =
+    static_cast<Faults>(~(kDegradingFaults | bit(FaultBit::kDriverOverride)) & 0xFFFF);
+
+/// What transitions are decided by.
+struct Situation {
+  Faults faults = 0;
+  bool version_known = false;  ///< the world's version arrived and fits
+  bool plan_at_hand = false;
+  bool engage = false;          ///< switch on; after an override, on again
+  bool engage_released = true;  ///< switch off
+  bool at_rest = false;         ///< by a valid motion frame
+  bool well = false;            ///< no fault for 1 s (ECU-026)
+};
+
+/// One id a row; also the reason in the mode record.
+enum class TransitionId : std::uint8_t {
+  kNone = 0,
+  kStandbyFault = 30,         ///< ECU-030 self-test refused
+  kStandbyReady = 31,         ///< ECU-031 no fault at all, version known, a plan at hand
+  kReadyFault = 32,           ///< ECU-032 self-test refused
+  kReadyStandby = 33,         ///< ECU-033 any fault, or the plan is gone
+  kReadyDriving = 34,         ///< ECU-034 engage
+  kDrivingStandby = 35,       ///< ECU-035 driver override or engage released
+  kDrivingMinimumRisk = 36,   ///< ECU-036 an ending fault
+  kDrivingDegraded = 37,      ///< ECU-037 a degrading fault
+  kDegradedStandby = 38,      ///< ECU-038 driver override or engage released
+  kDegradedMinimumRisk = 39,  ///< ECU-039 an ending fault
+  kDegradedDriving = 40,      ///< ECU-040 no fault for 1 s
+  kMinimumRiskStandby = 41,   ///< ECU-041 driver override
+  kMinimumRiskStopped = 42,   ///< ECU-042 at rest
+  kStoppedFault = 43,         ///< ECU-043 self-test refused
+  kStoppedStandby = 44,       ///< ECU-044 driver override or engage released
+};
+
+struct Transition {
+  Mode from;
+  bool (*condition)(const Situation& situation);
+  Mode to;
+  TransitionId id;
+};
+
+inline constexpr int kTransitionCount = 15;
+/// Row `index` of the table, in order of precedence. \pre 0 <= index < kTransitionCount
+[[nodiscard]] const Transition& transition(int index);
+
+/// The first row that applies. \return nullptr: the mode stays
+[[nodiscard]] const Transition* find_transition(Mode from, const Situation& situation);
+
+/// Whether commands of this mode may reach the actuators.
+[[nodiscard]] bool may_command(Mode mode);
 
 }  // namespace s4tp::ecu

@@ -1,0 +1,107 @@
+#pragma once
+/// The ECU application without its planner: everything that does not depend on the planner's type.
+
+#include <cstdint>
+
+#include "firmware/ecu/cycle.hpp"
+#include "firmware/ecu/event_ring.hpp"
+#include "firmware/ecu/inputs.hpp"
+#include "firmware/ecu/modes.hpp"
+#include "firmware/ecu/records.hpp"
+#include "firmware/ecu/reports.hpp"
+#include "firmware/ecu/supervision.hpp"
+#include "firmware/ecu/tracker.hpp"
+#include "firmware/ecu/triple_buffer.hpp"
+#include "firmware/gate/command_gate.hpp"
+#include "hal/can.hpp"
+#include "hal/clock.hpp"
+#include "hal/cycle_counter.hpp"
+#include "hal/telemetry.hpp"
+#include "hal/watchdog.hpp"
+
+namespace s4tp::ecu {
+
+/// What the ECU stands on. Clock and telemetry may be null: the application's time is vehicle time, so that a
+/// log replays to the bit; the clock is there for tick sources and telemetry of a platform.
+struct Ports {
+  hal::Can* can = nullptr;
+  hal::Clock* clock = nullptr;
+  hal::CycleCounter* cycles = nullptr;
+  hal::Watchdog* watchdog = nullptr;
+  hal::Telemetry* telemetry = nullptr;
+};
+
+enum class UpdateResult : std::uint8_t {
+  kTaken = 0,     ///< ECU-090 in force for control at once, for planning from the next boundary
+  kNotNow = 1,    ///< ECU-091 neither at start nor in standby: nothing changed
+  kWrongCrc = 2,  ///< ECU-092 damaged on its way: nothing changed
+  kInvalid = 3,   ///< ECU-093 a field is outside its range: nothing changed
+};
+
+inline constexpr int kMaxFramesPerTick = 256;  ///< the rest of a burst is taken in the next tick
+
+class EcuCore {
+ public:
+  void init(const Parameters& parameters, const Ports& ports, bool refused);
+  [[nodiscard]] UpdateResult update_parameters(const Parameters& parameters, std::uint32_t crc);
+
+  void control_tick();
+  void inject_deadline_miss() { miss_injected_ = true; }
+
+  [[nodiscard]] bool planning_due() const { return snapshots_.front() != nullptr; }
+  /// Planning context: the snapshot, and where its result goes. \pre planning_due()
+  [[nodiscard]] const Snapshot& begin_cycle(CycleResult*& result);
+  void end_cycle();
+
+  [[nodiscard]] Mode mode() const { return mode_; }
+  [[nodiscard]] Faults faults() const { return faults_; }
+  [[nodiscard]] std::uint32_t now_ms() const { return inputs_.now_ms(); }
+  [[nodiscard]] const Inputs& inputs() const { return inputs_; }
+  [[nodiscard]] const Plan& plan() const { return plan_; }
+  [[nodiscard]] const CycleStatistics& statistics() const { return statistics_; }
+
+ private:
+  void take_frames();
+  void take_result();
+  void give_snapshot();
+  void supervise();
+  void change_mode();
+  [[nodiscard]] bool following() const { return mode_ == Mode::kDriving || mode_ == Mode::kDegraded; }
+  [[nodiscard]] gate::Command ask();
+  void report(const gate::Command& command);
+  void publish(RecordKind kind, const void* record, std::uint32_t size);
+
+  Ports ports_;
+  Parameters parameters_;
+  std::uint32_t parameters_crc_ = 0;
+
+  // Shared with the planning context, and nothing else is.
+  EventRing<Snapshot, 1> snapshots_;
+  TripleBuffer<CycleResult> results_;
+
+  // Of the control context.
+  Inputs inputs_;
+  gate::CommandGate gate_{gate::Limits{}};
+  Tracker tracker_;
+  Reporter reporter_;
+  Plan plan_;  ///< in force
+  Explanation explanation_;
+  Status planner_status_ = Status::kNotInitialized;
+  CycleStatistics statistics_;
+  std::uint32_t plan_since_ms_ = 0;
+  std::uint32_t plan_sequence_ = 0;
+  std::uint32_t boundary_ = 0;  ///< vehicle time / 100 ms
+  std::uint32_t ticks_ = 0;
+  std::uint32_t well_ticks_ = 0;
+  Mode mode_ = Mode::kStandby;
+  Faults faults_ = 0;
+  bool boundary_known_ = false;
+  bool planning_idle_ = false;  ///< as of the last boundary
+  bool miss_injected_ = false;
+  bool plan_late_ = false;
+  bool refused_ = false;
+  bool gate_denied_ = false;
+  bool engage_armed_ = true;
+};
+
+}  // namespace s4tp::ecu

@@ -1,0 +1,231 @@
+#include "firmware/ecu/inputs.hpp"
+
+#include "algo/core/math.hpp"
+#include "firmware/wire/version.hpp"
+
+namespace s4tp::ecu {
+namespace {
+
+constexpr std::uint32_t kListAgeMaxMs = 1000;
+constexpr std::uint32_t kMapAgeMaxMs = 5000;
+constexpr std::int32_t kIntervalMinMs = 8;
+constexpr std::int32_t kIntervalMaxMs = 12;
+constexpr float kSecondsPerMs = 0.001F;
+
+Track to_track(const wire::Track& from) {
+  Track to;
+  to.id = from.id;
+  to.centre = {from.x_m, from.y_m, wrap_angle(from.heading_rad)};
+  to.speed_mps = clamp(from.speed_mps, 0.0F, 60.0F);
+  to.acceleration_mps2 = clamp(from.acceleration_mps2, -12.0F, 12.0F);
+  to.yaw_rate_radps = clamp(from.yaw_rate_radps, -1.3F, 1.3F);
+  to.length_m = clamp(from.length_m, 0.5F, 25.0F);
+  to.width_m = clamp(from.width_m, 0.3F, 3.0F);
+  return to;
+}
+
+std::uint32_t age(bool seen, std::uint32_t seen_ms, std::uint32_t now_ms) {
+  return seen ? now_ms - seen_ms : kNeverMs;
+}
+
+}  // namespace
+
+bool Silence::period_missed() {
+  ++ticks_;  // the tick in which a frame came counts as the first
+  if (ticks_ <= period_ticks_ + period_ticks_ / 2) return false;
+  ticks_ = static_cast<std::uint16_t>(ticks_ - period_ticks_);
+  return true;
+}
+
+bool PeriodicReceiver::trusts(const wire::Frame& frame) {
+  silence_.heard();
+  return wire::E2eReceiver::trusted(receiver_.check(frame));
+}
+
+void PeriodicReceiver::tick() {
+  if (silence_.period_missed()) static_cast<void>(receiver_.nothing_arrived());
+}
+
+void Inputs::accept(const wire::Frame& frame) {
+  ++accepted_;
+  switch (frame.id) {
+    case wire::kMotionId:
+      return accept_motion(frame);
+    case wire::kSteeringId:
+      return accept_steering(frame);
+    case wire::kPoseId:
+      return accept_pose(frame);
+    case wire::kTickId: {
+      wire::Tick tick;
+      const bool taken = tick_receiver_.trusts(frame) && wire::decode(frame, tick);
+      if (taken) {
+        tick_number_ = tick.tick;
+      } else {
+        ++rejected_;
+      }
+      return;
+    }
+    case wire::kTrackListId:
+    case wire::kTrackPoseId:
+    case wire::kTrackMotionId:
+      return accept_tracks(frame);
+    case wire::kVersionWorldId:
+      return accept_version(frame);
+    default:
+      if (frame.id >= wire::kMapHeaderId && frame.id <= wire::kConflictSecondId) accept_map(frame);
+  }
+}
+
+void Inputs::accept_motion(const wire::Frame& frame) {
+  wire::Motion motion;
+  if (!motion_receiver_.trusts(frame) || !wire::decode(frame, motion)) {
+    ++rejected_;
+    return;
+  }
+  const std::int32_t interval_ms = clock_.update(motion.vehicle_time_ms);
+  const bool timely = interval_ms >= kIntervalMinMs && interval_ms <= kIntervalMaxMs;
+  motion_mistimed_ticks_ = timely ? 0 : motion_mistimed_ticks_ + 1;
+  ego_.speed_mps = clamp(motion.speed_mps, 0.0F, 60.0F);
+  ego_.acceleration_mps2 = clamp(motion.acceleration_mps2, -12.0F, 12.0F);
+  ego_.yaw_rate_radps = clamp(motion.yaw_rate_radps, -2.0F, 2.0F);
+  motion_new_ = true;
+  motion_seen_ = true;
+}
+
+void Inputs::accept_steering(const wire::Frame& frame) {
+  wire::Steering steering;
+  if (!steering_receiver_.trusts(frame) || !wire::decode(frame, steering)) {
+    ++rejected_;
+    return;
+  }
+  ego_.steering_rad = clamp(steering.steering_rad, -0.8F, 0.8F);
+  engage_ = steering.engage != 0;
+  driver_override_ = steering.driver_override != 0;
+  steering_new_ = true;
+}
+
+void Inputs::accept_pose(const wire::Frame& frame) {
+  if (!pose_receiver_.trusts(frame) || !wire::decode(frame, pose_)) {
+    ++rejected_;
+    return;
+  }
+  pose_new_ = true;
+}
+
+void Inputs::accept_tracks(const wire::Frame& frame) {
+  if (frame.id == wire::kTrackListId) list_silence_.heard();
+  if (track_receiver_.accept(frame)) tracks_new_ = true;
+}
+
+void Inputs::accept_map(const wire::Frame& frame) {
+  const std::uint16_t rejected = map_receiver_.rejected_frames();
+  const bool whole = map_receiver_.accept(frame);
+  if (whole) {
+    ++map_revision_;
+    map_confirmed_ = true;
+  }
+  if (frame.id != wire::kMapHeaderId || map_receiver_.rejected_frames() != rejected) return;
+  map_silence_.heard();
+  // A repeated header is no news of the map, whatever the one before said.
+  const auto counter = static_cast<std::uint8_t>(frame.data[1] & 0x0FU);
+  if (counter != map_counter_ && map_receiver_.confirmed()) map_confirmed_ = true;
+  map_counter_ = counter;
+}
+
+void Inputs::accept_version(const wire::Frame& frame) {
+  wire::VersionWorld version;
+  if (!version_receiver_.trusts(frame) || !wire::decode(frame, version)) {
+    ++rejected_;
+    return;
+  }
+  const bool fits =
+      version.wire_version == wire::wire_version() && version.layout_hash == wire::layout_hash();
+  version_ = fits ? Version::kFits : Version::kDiffers;
+}
+
+void Inputs::close_tick() {
+  if (motion_new_) {
+    motion_missing_ticks_ = 0;
+  } else {
+    clock_.coast();
+    if (motion_missing_ticks_ != kNeverMs) ++motion_missing_ticks_;
+  }
+  const std::uint32_t now_ms = clock_.now_ms();
+  if (pose_new_) {
+    ego_.rear_axle = {pose_.x_m, pose_.y_m, wrap_angle(pose_.heading_rad)};
+    move_ego(pose_.age_10ms * 10U);
+    pose_seen_ms_ = now_ms;
+    pose_seen_ = true;
+  } else {
+    move_ego(now_ms - last_close_ms_);
+  }
+  if (steering_new_) {
+    steering_seen_ms_ = now_ms;
+    steering_seen_ = true;
+  }
+  if (tracks_new_) take_tracks();
+  if (map_confirmed_) {
+    map_seen_ms_ = now_ms;
+    map_seen_ = true;
+  }
+  last_close_ms_ = now_ms;
+
+  motion_receiver_.tick();
+  steering_receiver_.tick();
+  pose_receiver_.tick();
+  tick_receiver_.tick();
+  version_receiver_.tick();
+  if (list_silence_.period_missed()) track_receiver_.nothing_arrived();
+  if (map_silence_.period_missed()) map_receiver_.nothing_arrived();
+  motion_new_ = pose_new_ = steering_new_ = tracks_new_ = map_confirmed_ = false;
+}
+
+void Inputs::take_tracks() {
+  const wire::Tracks& list = track_receiver_.tracks();
+  const std::uint32_t list_ms = clock_.extend(list.vehicle_time_ms);
+  const std::uint32_t now_ms = clock_.now_ms();
+  const bool plausible = list_ms <= now_ms + kTickMs && list_ms + kListAgeMaxMs > now_ms;
+  const bool newer = !tracks_seen_ || list_ms > tracks_ms_;
+  if (!clock_.started() || !plausible || !newer) {
+    ++rejected_;
+    return;
+  }
+  tracks_.clear();
+  for (int i = 0; i < list.count; ++i) static_cast<void>(tracks_.push(to_track(list.items[i])));
+  tracks_ms_ = list_ms;
+  tracks_seen_ms_ = now_ms;
+  tracks_seen_ = true;
+}
+
+void Inputs::move_ego(std::uint32_t duration_ms) {
+  const float duration_s = static_cast<float>(duration_ms) * kSecondsPerMs;
+  const float turned_rad = ego_.yaw_rate_radps * duration_s;
+  const float middle_rad = ego_.rear_axle.heading_rad + 0.5F * turned_rad;
+  const float mean_mps = max(0.0F, ego_.speed_mps - 0.5F * ego_.acceleration_mps2 * duration_s);
+  const float way_m = mean_mps * duration_s;
+  ego_.rear_axle.x_m += way_m * cos(middle_rad);
+  ego_.rear_axle.y_m += way_m * sin(middle_rad);
+  ego_.rear_axle.heading_rad = wrap_angle(ego_.rear_axle.heading_rad + turned_rad);
+}
+
+const wire::Map* Inputs::map() const {
+  const bool lost = age(map_seen_, map_seen_ms_, now_ms()) >= kMapAgeMaxMs;
+  return lost ? nullptr : &map_receiver_.map();
+}
+
+std::uint32_t Inputs::rejected_frames() const {
+  return rejected_ + track_receiver_.rejected_frames() + map_receiver_.rejected_frames();
+}
+
+void Inputs::observe(Observations& observed) const {
+  observed.motion_missing_ticks = motion_missing_ticks_;
+  observed.motion_mistimed_ticks = motion_mistimed_ticks_;
+  observed.pose_age_ms = age(pose_seen_, pose_seen_ms_, now_ms());
+  observed.steering_age_ms = age(steering_seen_, steering_seen_ms_, now_ms());
+  observed.tracks_age_ms = age(tracks_seen_, tracks_seen_ms_, now_ms());
+  observed.map_age_ms = age(map_seen_, map_seen_ms_, now_ms());
+  observed.version_mismatch = version_ == Version::kDiffers;
+  observed.driver_override = driver_override_;
+}
+
+}  // namespace s4tp::ecu

@@ -1,0 +1,46 @@
+#pragma once
+/// The frames the ECU sends, each with its own protection.
+
+#include <cstdint>
+
+#include "algo/planner/explanation.hpp"
+#include "firmware/ecu/cycle.hpp"
+#include "firmware/ecu/modes.hpp"
+#include "firmware/gate/command_gate.hpp"
+#include "firmware/wire/e2e.hpp"
+#include "hal/can.hpp"
+
+namespace s4tp::ecu {
+
+struct StatusReport {
+  Mode mode = Mode::kStandby;
+  Faults faults = 0;
+  Status planner = Status::kNotInitialized;
+  PlanKind plan_kind = PlanKind::kNone;
+  std::uint32_t plan_age_ms = 0;
+  std::uint32_t deadline_misses = 0;  ///< low 8 bits are sent
+  std::uint32_t rejected_frames = 0;  ///< low 8 bits are sent
+};
+
+/// A frame that does not go out (queue full, bus off) is counted by the CAN port; the next one is on its way.
+class Reporter {
+ public:
+  /// ECU-065 Each tick; echoes the low 12 bits of the tick's number and of the count of frames taken.
+  void command(hal::Can& can, const gate::Command& command, Mode mode, std::uint32_t tick,
+               std::uint32_t accepted);
+  void status(hal::Can& can, const StatusReport& report);         ///< ECU-066 every 100 ms
+  void statistics(hal::Can& can, const CycleStatistics& cycles);  ///< ECU-067 every 1000 ms
+  void version(hal::Can& can);                                    ///< ECU-068 every 1000 ms
+  /// ECU-069 When a plan takes effect: its digest, and why it was chosen.
+  void plan(hal::Can& can, std::uint32_t sequence, std::uint32_t digest, const Explanation& explanation);
+
+ private:
+  wire::E2eSender command_;
+  wire::E2eSender status_;
+  wire::E2eSender statistics_;
+  wire::E2eSender version_;
+  wire::E2eSender digest_;
+  wire::E2eSender reason_;
+};
+
+}  // namespace s4tp::ecu

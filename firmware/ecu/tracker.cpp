@@ -1,0 +1,157 @@
+#include "firmware/ecu/tracker.hpp"
+
+#include "algo/core/math.hpp"
+
+namespace s4tp::ecu {
+namespace {
+
+constexpr float kTickS = 0.01F;
+constexpr float kRestartJerkMps3 = 10.0F;
+constexpr float kFeedbackMaxMps2 = 3.0F;
+constexpr float kTrimMaxMps2 = 1.0F;
+constexpr float kTrimMax1pm = 0.01F;  // 0.03 rad of steering at a 2.9 m wheelbase
+constexpr float kBesideMaxM = 3.0F;
+constexpr float kStandingMps = 0.05F;  // a plan this slow stands
+constexpr float kHoldBelowMps = 0.2F;  // the brake may take over from here
+constexpr float kTrimRate1ps3 = 0.1F;  // along: a third of the limit of stability, speed_gain * station_gain
+constexpr float kCurvatureTrimShare = 0.1F;  // across: of that limit, 2 / w^3
+
+/// Where the car is on a plan's path: the nearest point, and its place in the plan as a fractional index.
+struct Place {
+  TrajectoryPoint point;
+  float index = 0.0F;
+};
+
+TrajectoryPoint at_index(const Trajectory& trajectory, float index) {
+  const float inside = clamp(index, 0.0F, static_cast<float>(kHorizonSteps));
+  const int i = to_int(floor(inside), 0, kHorizonSteps - 1);
+  const TrajectoryPoint& a = trajectory.points[i];
+  const TrajectoryPoint& b = trajectory.points[i + 1];
+  const float t = inside - static_cast<float>(i);
+  TrajectoryPoint point;
+  point.rear_axle.x_m = lerp(a.rear_axle.x_m, b.rear_axle.x_m, t);
+  point.rear_axle.y_m = lerp(a.rear_axle.y_m, b.rear_axle.y_m, t);
+  point.rear_axle.heading_rad = lerp_angle(a.rear_axle.heading_rad, b.rear_axle.heading_rad, t);
+  point.speed_mps = lerp(a.speed_mps, b.speed_mps, t);
+  point.acceleration_mps2 = lerp(a.acceleration_mps2, b.acceleration_mps2, t);
+  point.curvature_1pm = lerp(a.curvature_1pm, b.curvature_1pm, t);
+  return point;
+}
+
+Place nearest(const Trajectory& trajectory, Point car) {
+  float best_index = 0.0F;
+  float best =
+      dot(car - position(trajectory.points[0].rear_axle), car - position(trajectory.points[0].rear_axle));
+  for (int i = 0; i < kHorizonSteps; ++i) {
+    const Point from = position(trajectory.points[i].rear_axle);
+    const Point way = position(trajectory.points[i + 1].rear_axle) - from;
+    const float length_squared = dot(way, way);
+    if (length_squared < 1e-6F) continue;
+    const float t = clamp(dot(car - from, way) / length_squared, 0.0F, 1.0F);
+    const Point apart = car - (from + t * way);
+    const float squared = dot(apart, apart);
+    if (squared < best) {
+      best = squared;
+      best_index = static_cast<float>(i) + t;
+    }
+  }
+  return {at_index(trajectory, best_index), best_index};
+}
+
+float steering_for_curvature(float curvature_1pm, const Parameters& parameters) {
+  const float bound = parameters.vehicle.steering_max_rad;
+  return clamp(atan(parameters.vehicle.wheelbase_m * curvature_1pm), -bound, bound);
+}
+
+}  // namespace
+
+void Tracker::reset(float acceleration_mps2) {
+  *this = Tracker{};
+  acceleration_mps2_ = acceleration_mps2;
+}
+
+gate::Command Tracker::follow(const Plan& plan, std::uint32_t now_ms, const EgoState& ego,
+                              const Parameters& parameters) {
+  const auto elapsed_ms = static_cast<std::int32_t>(now_ms - plan.start_ms);
+  if (plan.kind == PlanKind::kNone || elapsed_ms > kHorizonSteps * kStepMs)
+    return stop(plan, ego, parameters);
+  const TrajectoryPoint now = sample(plan, now_ms);
+  const Point offset = to_local(now.rear_axle, position(ego.rear_axle));
+  error_ = {offset.x_m, offset.y_m, norm(offset)};
+  gate::Command command;
+  command.steering_rad = steer(plan, ego, parameters);
+  command.acceleration_mps2 = drive(plan, now_ms, ego, parameters);
+  acceleration_mps2_ = command.acceleration_mps2;
+  return command;
+}
+
+gate::Command Tracker::stop(const Plan& last, const EgoState& ego, const Parameters& parameters) {
+  error_ = {};
+  acceleration_trim_mps2_ = 0.0F;
+  gate::Command command{-parameters.safety.minimum_risk_braking_mps2, ego.steering_rad};
+  if (last.kind != PlanKind::kNone) {
+    const Place place = nearest(last.trajectory, position(ego.rear_axle));
+    const float beside_m = abs(to_local(place.point.rear_axle, position(ego.rear_axle)).y_m);
+    if (beside_m <= kBesideMaxM) {
+      command.steering_rad = steer(last, ego, parameters);
+      command.acceleration_mps2 = min(command.acceleration_mps2, place.point.acceleration_mps2);
+    }
+  }
+  if (ego.speed_mps < kHoldBelowMps) command.acceleration_mps2 = -parameters.tracking.hold_braking_mps2;
+  acceleration_mps2_ = command.acceleration_mps2;
+  holding_ = ego.speed_mps < kHoldBelowMps;
+  return command;
+}
+
+float Tracker::steer(const Plan& plan, const EgoState& ego, const Parameters& parameters) {
+  const Place place = nearest(plan.trajectory, position(ego.rear_axle));
+  const float cross_m = to_local(place.point.rear_axle, position(ego.rear_axle)).y_m;
+  const float turned_rad = wrap_angle(ego.rear_axle.heading_rad - place.point.rear_axle.heading_rad);
+  const float way_m =
+      max(parameters.tracking.convergence_m, ego.speed_mps * parameters.tracking.convergence_s);
+  const float ahead = parameters.tracking.steering_delay_s / kStepS;
+  const float planned_1pm = at_index(plan.trajectory, place.index + ahead).curvature_1pm;
+  const float feedback_1pm = -(cross_m / way_m + 2.0F * turned_rad) / way_m;
+  const float curvature_1pm = planned_1pm + feedback_1pm + curvature_trim_1pm_;
+  const float steering_rad = steering_for_curvature(curvature_1pm, parameters);
+
+  const bool saturated = abs(steering_rad) >= parameters.vehicle.steering_max_rad;
+  if (!saturated && ego.speed_mps > 1.0F && abs(cross_m) < 1.0F) {
+    const float rate = kCurvatureTrimShare * 2.0F / (way_m * way_m * way_m);
+    curvature_trim_1pm_ =
+        clamp(curvature_trim_1pm_ - rate * cross_m * ego.speed_mps * kTickS, -kTrimMax1pm, kTrimMax1pm);
+  }
+  return steering_rad;
+}
+
+float Tracker::drive(const Plan& plan, std::uint32_t now_ms, const EgoState& ego,
+                     const Parameters& parameters) {
+  const TrajectoryPoint now = sample(plan, now_ms);
+  const std::uint32_t delay_ms =
+      static_cast<std::uint32_t>(to_int(1000.0F * parameters.tracking.drive_delay_s, 0, 1000));
+  const TrajectoryPoint next = sample(plan, now_ms + delay_ms);
+  const bool plan_stands = now.speed_mps < kStandingMps && next.speed_mps < kStandingMps;
+  holding_ = plan_stands && (holding_ || ego.speed_mps < kHoldBelowMps);
+  if (holding_) {
+    acceleration_trim_mps2_ = 0.0F;
+    return -parameters.tracking.hold_braking_mps2;
+  }
+
+  const float behind_m = -error_.along_m;
+  const float slower_mps = now.speed_mps - ego.speed_mps;
+  const float feedback_mps2 =
+      clamp(parameters.tracking.station_gain * behind_m + parameters.tracking.speed_gain * slower_mps,
+            -kFeedbackMaxMps2, kFeedbackMaxMps2);
+  const float wanted_mps2 = next.acceleration_mps2 + feedback_mps2 + acceleration_trim_mps2_;
+  const float highest_mps2 =
+      min(parameters.vehicle.acceleration_max_mps2, acceleration_mps2_ + kRestartJerkMps3 * kTickS);
+  const float asked_mps2 = clamp(wanted_mps2, -parameters.vehicle.braking_max_mps2,
+                                 max(highest_mps2, -parameters.vehicle.braking_max_mps2));
+  if (asked_mps2 == wanted_mps2 && ego.speed_mps > 1.0F) {
+    acceleration_trim_mps2_ =
+        clamp(acceleration_trim_mps2_ + kTrimRate1ps3 * behind_m * kTickS, -kTrimMaxMps2, kTrimMaxMps2);
+  }
+  return asked_mps2;
+}
+
+}  // namespace s4tp::ecu
