@@ -70,7 +70,7 @@ def check_frame(frame):
         require(signal.is_little_endian and not signal.is_multiplexer and signal.multiplex is None
                 and not signal.is_float and signal.offset == 0 and signal.factor > 0,
                 f"{label}: only plain little-endian signals without offset")
-        require(signal.size <= (24 + 2 if is_scaled(signal) else 32), f"{label}: too wide")
+        require(signal.size <= (24 if is_scaled(signal) else 32), f"{label}: more bits than its field is exact in")
         if signal.name in PROTECTION:
             require((signal.start_bit, signal.size) == PROTECTION[signal.name], f"{label}: not in its place")
         raw_range(signal)

@@ -115,6 +115,27 @@ def source(frames):
     return lines
 
 
+def field_visitor(frame):
+    """A function template that shows a visitor every field of a message, with what the DBC says of it."""
+    lines = ["template <typename Visitor>", f"void for_each_field({frame.name}& message, Visitor&& visit) {{"]
+    lines += [f'  visit(FieldInfo{{"{signal.name}", {float(signal.min)!r}, {float(signal.max)!r}, '
+              f"{float(signal.factor)!r}}}, message.{signal.name});" for signal in dbc.fields(frame)]
+    return lines + ["}", ""]
+
+
+def fields_header(frames):
+    lines = [NOTE, "#pragma once", "/// Walks over messages and their fields by name: for tests and host tools.", "",
+             '#include "firmware/wire/generated/s4tp_codec.hpp"', "", "namespace s4tp::wire {", "",
+             "struct FieldInfo {", "  const char* name;", "  double minimum;", "  double maximum;",
+             "  double step;", "};", ""]
+    for frame in frames:
+        lines += field_visitor(frame)
+    lines += ["/// Shows a visitor a default message of every kind.", "template <typename Visitor>",
+              "void for_each_message(Visitor&& visit) {"]
+    lines += [f"  visit({frame.name}{{}});" for frame in frames]
+    return lines + ["}", "", "}  // namespace s4tp::wire"]
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("dbc", type=pathlib.Path)
@@ -122,7 +143,8 @@ def main():
     arguments = parser.parse_args()
     frames, version = dbc.load(arguments.dbc)
     arguments.output.mkdir(parents=True, exist_ok=True)
-    for name, lines in (("s4tp_codec.hpp", header(frames, version)), ("s4tp_codec.cpp", source(frames))):
+    for name, lines in (("s4tp_codec.hpp", header(frames, version)), ("s4tp_codec.cpp", source(frames)),
+                        ("s4tp_fields.hpp", fields_header(frames))):
         (arguments.output / name).write_text("\n".join(lines) + "\n", encoding="utf-8")
 
 
