@@ -217,7 +217,7 @@ void exact_risk(const Scene& scene, const DrivableArea& area, const PredictionSe
                 const KinematicSet& others, const Trajectory& trajectory, const Parameters& parameters,
                 RiskProfile& profile) {
   const Futures futures = all_modes(scene, prediction, others);
-  road_risk(area, trajectory, parameters, 1, profile.road);
+  road_risk(area, trajectory, parameters, 1, 1, profile.road);
   profile.dominating_agent = 255;
   profile.dominating_step = 0;
   float largest = 0.0F;
@@ -237,11 +237,12 @@ void exact_risk(const Scene& scene, const DrivableArea& area, const PredictionSe
 float rank_risk(const Scene& scene, const DrivableArea& area, const PredictionSet& prediction,
                 const KinematicSet& others, const Trajectory& trajectory, const Parameters& parameters) {
   constexpr int kStride = 3;
+  constexpr int kMiddle = 1;  // of three steps: their sum is three times it to first order
   const Futures futures = likeliest(all_modes(scene, prediction, others));
   float road[kHorizonSteps] = {};
-  road_risk(area, trajectory, parameters, kStride, road);
+  road_risk(area, trajectory, parameters, kMiddle + 1, kStride, road);
   float sum = 0.0F;
-  for (int i = kStride - 1; i < kHorizonSteps; i += kStride) {
+  for (int i = kMiddle; i < kHorizonSteps; i += kStride) {
     const StepRisk risk = risk_at(scene, futures, trajectory, i, BoxLines::kCoarse, parameters);
     sum += instant(risk.obstacle, road[i], risk.social, parameters);
   }

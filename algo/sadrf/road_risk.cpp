@@ -45,18 +45,20 @@ float cost_at(const Station& station, float x) {
   return max(a + x * (b + x * c), 0.0F);
 }
 
-/// The path of the trajectory from its start, every `stride` points, and its continuation.
-void place_stations(const Trajectory& trajectory, int stride, float beyond_m,
+/// The path of the trajectory at the points asked for, and its continuation.
+void place_stations(const Trajectory& trajectory, int first, int stride, float beyond_m,
                     BoundedVector<Pose, kMaxStations>& poses, Stations& stations) {
   float path_m = 0.0F;
   bool room = true;
-  for (int i = 0; i < kTrajectoryPoints; i += stride) {
+  int last = first;
+  for (int i = first; i < kTrajectoryPoints; i += stride) {
+    last = i;
     const Pose& pose = trajectory.points[i].rear_axle;
     if (!poses.empty()) path_m += distance(position(poses[poses.size() - 1]), position(pose));
     room = room && poses.push(pose) && stations.push({path_m, {}});
   }
   const float step_m = beyond_m / static_cast<float>(kExtension);
-  const float turn_rad = trajectory.points[kHorizonSteps].curvature_1pm * step_m;
+  const float turn_rad = trajectory.points[last].curvature_1pm * step_m;
   for (int i = 0; i < kExtension; ++i) {
     Pose pose = poses[poses.size() - 1];
     pose.heading_rad = wrap_angle(pose.heading_rad + 0.5F * turn_rad);
@@ -94,7 +96,7 @@ float along(const Stations& stations, int first, float look_ahead_m, float furth
 }  // namespace
 
 void road_risk(const DrivableArea& area, const Trajectory& trajectory, const Parameters& parameters,
-               int stride, float (&road)[kHorizonSteps]) {
+               int first, int stride, float (&road)[kHorizonSteps]) {
   if (area.map == nullptr) {
     for (float& value : road) value = 0.0F;
     return;
@@ -107,11 +109,15 @@ void road_risk(const DrivableArea& area, const Trajectory& trajectory, const Par
     return max(trajectory.points[point].speed_mps * t_la_s, 1.0F);
   };
   float furthest_m = 0.0F;
-  for (int i = stride; i < kTrajectoryPoints; i += stride) furthest_m = max(furthest_m, look_ahead_m(i));
+  int last = first;
+  for (int i = first; i < kTrajectoryPoints; i += stride) {
+    furthest_m = max(furthest_m, look_ahead_m(i));
+    last = i;
+  }
 
   BoundedVector<Pose, kMaxStations> poses;
   Stations stations;
-  place_stations(trajectory, stride, look_ahead_m(kHorizonSteps), poses, stations);
+  place_stations(trajectory, first, stride, look_ahead_m(last), poses, stations);
 
   // erf is 1 in float from 4 on: beyond, ground costs nothing.
   constexpr float kNothingBeyond = 5.7F;
@@ -128,9 +134,8 @@ void road_risk(const DrivableArea& area, const Trajectory& trajectory, const Par
       stations[j].cost[k] = cost_across(section, sigma_m, parameters);
     }
   }
-  for (int point = stride; point < kTrajectoryPoints; point += stride) {
-    road[point - 1] =
-        along(stations, point / stride, look_ahead_m(point), furthest_m, parameters.risk.steepness);
+  for (int point = first, j = 0; point < kTrajectoryPoints; point += stride, ++j) {
+    road[point - 1] = along(stations, j, look_ahead_m(point), furthest_m, parameters.risk.steepness);
   }
 }
 

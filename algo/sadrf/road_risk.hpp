@@ -9,10 +9,10 @@
 
 namespace s4tp {
 
-/// Road risk of every `stride`-th step: road[i] for step i + 1, where i + 1 is a multiple of `stride`; the
-/// others stay as they are. Beyond the last point the path goes on with its last curvature, for the last
-/// point's look-ahead distance. \pre stride divides kHorizonSteps
+/// Road risk at points `first`, `first` + `stride`, ... of the trajectory, written to road[point - 1]; the
+/// other elements stay as they are. Beyond its last one the path goes on with its last curvature, for the
+/// look-ahead distance there. Without a map: 0. \pre 1 <= first, 1 <= stride
 void road_risk(const DrivableArea& area, const Trajectory& trajectory, const Parameters& parameters,
-               int stride, float (&road)[kHorizonSteps]);
+               int first, int stride, float (&road)[kHorizonSteps]);
 
 }  // namespace s4tp
