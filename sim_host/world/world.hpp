@@ -6,22 +6,37 @@
 #include <vector>
 
 #include "firmware/wire/frame.hpp"
+#include "sim_host/world/perception.hpp"
 #include "sim_host/world/recording.hpp"
 #include "sim_host/world/scenario.hpp"
+#include "sim_host/world/vehicle_node.hpp"
 
 namespace s4tp::world {
 
 struct WorldOptions {
   std::uint64_t seed = 0;
   double pre_roll_s = 3.0;
+  SensorOptions sensors;
+  PerceptionOptions perception;
 };
 
+/// One episode. In the pre-roll every node publishes while the world itself moves the ego along its lane,
+/// extended straight backwards, at entry speed; from time 0 on the ECU drives. WORLD-032 At entry nobody is
+/// left within 1.5 s headway of the ego on its lane; a draw in which the ego would be touched within the
+/// first second without doing anything is replaced by the next seed's, and counted.
+///
+/// Endings: WORLD-033 goal, the centre passes the goal on the goal's lane; WORLD-034 collision, own-size
+/// boxes touch (the world goes on for 1 s to see whether the competition's smaller ones do as well);
+/// WORLD-035 off the road; WORLD-036 time-out, the route's end passed on another lane included; WORLD-037
+/// dead ECU, 200 ticks without a command frame.
 class World {
  public:
+  /// \param scenario  must outlive the world
   World(const Scenario& scenario, const WorldOptions& options);
   ~World();
 
-  /// Advances 10 ms and appends this tick's frames, the TICK frame last.
+  /// Advances 10 ms and appends this tick's frames: motion, steering, pose, track list, map, versions, and
+  /// the TICK frame last. WORLD-030 The map takes 3 frames a tick, 7 until it has been shown whole.
   void tick(std::vector<wire::Frame>& frames);
   /// A frame from the ECU: taken only if its protection is right; it acts from the next tick on.
   void receive(const wire::Frame& frame);
