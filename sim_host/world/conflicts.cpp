@@ -13,8 +13,9 @@ namespace s4tp::world {
 namespace {
 
 constexpr double kStep_m = 0.25;
-constexpr double kHalfLength_m = 0.5 * 5.0 + 0.1;  // the box of a usual car and 0.1 m all around
-constexpr double kHalfWidth_m = 0.5 * 1.8 + 0.1;
+constexpr double kHalfLength_m = 0.5 * 5.0;  // the box of a usual car
+constexpr double kHalfWidth_m = 0.5 * 1.8;
+constexpr double kSpare_m = 0.1;  // all around it, between links the network calls foes
 constexpr double kReach_m = 4.0;  ///< before and after the junction: a car's nose or tail is still inside
 
 struct Box {
@@ -31,17 +32,19 @@ struct Place {
 };
 
 /// Separating axes: do not touch if the boxes are apart along any of their four sides' normals.
-bool touch(const Box& a, const Box& b) {
+bool touch(const Box& a, const Box& b, double spare_m) {
+  const double half_length = kHalfLength_m + spare_m;
+  const double half_width = kHalfWidth_m + spare_m;
   const double dx = b.centre.x - a.centre.x;
   const double dy = b.centre.y - a.centre.y;
-  const double diagonal = 2.0 * std::hypot(kHalfLength_m, kHalfWidth_m);
+  const double diagonal = 2.0 * std::hypot(half_length, half_width);
   if (dx * dx + dy * dy > diagonal * diagonal) {
     return false;
   }
   const double cosine = std::abs(a.cos_heading * b.cos_heading + a.sin_heading * b.sin_heading);
   const double sine = std::abs(a.cos_heading * b.sin_heading - a.sin_heading * b.cos_heading);
-  const double along = kHalfLength_m + kHalfLength_m * cosine + kHalfWidth_m * sine;
-  const double across = kHalfWidth_m + kHalfLength_m * sine + kHalfWidth_m * cosine;
+  const double along = half_length + half_length * cosine + half_width * sine;
+  const double across = half_width + half_length * sine + half_width * cosine;
   for (const Box& frame : {a, b}) {
     if (std::abs(dx * frame.cos_heading + dy * frame.sin_heading) > along ||
         std::abs(dy * frame.cos_heading - dx * frame.sin_heading) > across) {
@@ -51,9 +54,20 @@ bool touch(const Box& a, const Box& b) {
   return true;
 }
 
+/// So many places further on the boxes cannot touch yet, as a place is at most a step from the next.
+std::size_t steps_apart(const Box& a, const Box& b) {
+  const double gap_m = std::hypot(b.centre.x - a.centre.x, b.centre.y - a.centre.y) -
+                       2.0 * std::hypot(kHalfLength_m + kSpare_m, kHalfWidth_m + kSpare_m);
+  return gap_m > 0.0 ? static_cast<std::size_t>(gap_m / kStep_m) : 0;
+}
+
+const NetworkLane& lane_at(const std::vector<NetworkLane>& lanes, LaneId lane) {
+  return lanes[static_cast<std::size_t>(lane)];
+}
+
 void append_places(const std::vector<NetworkLane>& lanes, LaneId lane, double from_m, double to_m,
                    std::vector<Place>& places) {
-  const Polyline& centre = lanes[static_cast<std::size_t>(lane)].centre;
+  const Polyline& centre = lane_at(lanes, lane).centre;
   const int steps = std::max(1, static_cast<int>(std::ceil((to_m - from_m) / kStep_m)));
   for (int i = 0; i <= steps; ++i) {
     const double s = from_m + (to_m - from_m) * i / steps;
@@ -64,13 +78,17 @@ void append_places(const std::vector<NetworkLane>& lanes, LaneId lane, double fr
 
 std::vector<Place> places_along(const std::vector<NetworkLane>& lanes, const Link& link) {
   std::vector<Place> places;
-  const auto length = [&](LaneId lane) { return lanes[static_cast<std::size_t>(lane)].centre.length_m(); };
+  const auto length = [&](LaneId lane) { return lane_at(lanes, lane).centre.length_m(); };
   append_places(lanes, link.from, std::max(0.0, length(link.from) - kReach_m), length(link.from), places);
   for (const LaneId inside : link.inside) {
     append_places(lanes, inside, 0.0, length(inside), places);
   }
   append_places(lanes, link.to, 0.0, std::min(length(link.to), kReach_m), places);
   return places;
+}
+
+bool foes(const Link& first, std::size_t second_index) {
+  return second_index < first.foes.size() && first.foes[second_index];
 }
 
 Rule rule_of(const Link& first, std::size_t first_index, const Link& second, std::size_t second_index) {
@@ -87,16 +105,14 @@ Rule rule_of(const Link& first, std::size_t first_index, const Link& second, std
 
 /// Cars that follow each other or drive side by side keep apart by themselves: no conflict.
 bool follow_or_accompany(const std::vector<NetworkLane>& lanes, const Link& first, const Link& second) {
-  const auto edge = [&](LaneId lane) -> const std::string& {
-    return lanes[static_cast<std::size_t>(lane)].edge;
-  };
+  const auto edge = [&](LaneId lane) -> const std::string& { return lane_at(lanes, lane).edge; };
   return first.from == second.from || (edge(first.from) == edge(second.from) &&
                                        edge(first.to) == edge(second.to) && first.to != second.to);
 }
 
 bool joined(const std::vector<NetworkLane>& lanes, LaneId first, LaneId second) {
   const auto leads_to = [&](LaneId from, LaneId to) {
-    const std::vector<LaneId>& successors = lanes[static_cast<std::size_t>(from)].successors;
+    const std::vector<LaneId>& successors = lane_at(lanes, from).successors;
     return std::find(successors.begin(), successors.end(), to) != successors.end();
   };
   return first == second || leads_to(first, second) || leads_to(second, first);
@@ -162,12 +178,14 @@ std::vector<NetworkConflict> find_conflicts(const std::vector<NetworkLane>& lane
           continue;
         }
         const Rule rule = rule_of(first, i, second, j);
+        // Ways that merely graze each other with room to spare are no conflict unless the network says so.
+        const double spare_m = foes(first, j) || foes(second, i) ? kSpare_m : 0.0;
         Found of_pair;
         for (const Place& a : places[i]) {
-          for (const Place& b : places[j]) {
-            if (!touch(a.box, b.box) || joined(lanes, a.lane, b.lane) ||
-                (!lanes[static_cast<std::size_t>(a.lane)].in_junction &&
-                 !lanes[static_cast<std::size_t>(b.lane)].in_junction)) {
+          for (std::size_t k = 0; k < places[j].size(); k += 1 + steps_apart(a.box, places[j][k].box)) {
+            const Place& b = places[j][k];
+            if (!touch(a.box, b.box, spare_m) || joined(lanes, a.lane, b.lane) ||
+                !(lane_at(lanes, a.lane).in_junction || lane_at(lanes, b.lane).in_junction)) {
               continue;
             }
             a.lane < b.lane ? add_touch(of_pair, a, b, rule)

@@ -15,6 +15,7 @@ struct Link {
   std::vector<LaneId> inside;  ///< two or more where SUMO lets a car wait inside the junction
   LaneId to = kNoLane;
   std::vector<bool> yields_to;  ///< by index of the other link; empty: the network does not say
+  std::vector<bool> foes;       ///< the same, of those that SUMO holds to share ground
 };
 
 struct Junction {

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
 #include <limits>
-#include <numbers>
 #include <set>
+
+#include "sim_host/world/lane_roles.hpp"
 
 namespace s4tp::world {
 namespace {
@@ -25,11 +25,6 @@ double distance_to(const Polyline& line, Vec2 point) {
   const double s = std::clamp(line.project(point).s_m, 0.0, line.length_m());
   const Vec2 nearest = line.at(s).point;
   return std::hypot(nearest.x - point.x, nearest.y - point.y);
-}
-
-bool turns_round(const NetworkLane& from, const NetworkLane& to) {
-  const double turn = to.centre.at(0.0).heading_rad - from.centre.at(from.centre.length_m()).heading_rad;
-  return std::cos(turn) < std::cos(150.0 / 180.0 * std::numbers::pi);
 }
 
 /// Keeps the slots of those still wanted, frees the others, and gives the new ones the lowest free slots.
@@ -54,7 +49,6 @@ void reassign(std::map<int, int>& slots, const std::vector<int>& wanted, int slo
 MapNode::MapNode(const Network& network, const RouteGuide& guide, Vec2 origin, double horizon_m)
     : network_(network), guide_(guide), origin_(origin), horizon_m_(horizon_m) {
   split_into_parts();
-  rank_parts();
   split_conflicts();
 }
 
@@ -65,7 +59,8 @@ const wire::Map& MapNode::update(Vec2 position) {
 }
 
 void MapNode::split_into_parts() {
-  const std::vector<bool> ours = lanes_of_ours();
+  const std::vector<bool> ours = lanes_of_ours(network_, guide_);
+  const std::vector<int> ranks = lane_ranks(network_, guide_);
   for (std::size_t i = 0; i < network_.lanes.size(); ++i) {
     const Polyline& centre = network_.lanes[i].centre;
     std::vector<Polyline> lines;
@@ -91,6 +86,7 @@ void MapNode::split_into_parts() {
       part.to_m = part.from_m + step_m;
       part.scale = lines[k].length_m() / step_m;
       part.line = lines[k];
+      part.rank = ranks[i];
       fill_record(part, ours[i], k + 1 == lines.size());
       parts_.push_back(std::move(part));
     }
@@ -114,102 +110,13 @@ void MapNode::fill_record(Part& part, bool ours, bool last) const {
   record.width_m = static_cast<float>(std::min(lane.width_m, kMaxWidth_m));
   record.route_remaining_m = left_over(advice.remaining_m);
   record.goal_distance_m = left_over(advice.goal_distance_m);
-  if (last && yields_at_end(part.lane)) {
+  if (last && yields_at_end(network_, guide_, part.lane)) {
     record.stop_line_m = static_cast<float>(part.line.length_m());
   }
   for (const Vec2& point : part.line.points()) {
     record.x_m[record.point_count] = static_cast<float>(point.x - origin_.x);
     record.y_m[record.point_count] = static_cast<float>(point.y - origin_.y);
     ++record.point_count;
-  }
-}
-
-std::vector<bool> MapNode::lanes_of_ours() const {
-  std::vector<bool> ours(network_.lanes.size(), false);
-  std::deque<LaneId> open;
-  const auto reach = [&](LaneId lane) {
-    if (lane != kNoLane && !ours[index(lane)]) {
-      ours[index(lane)] = true;
-      open.push_back(lane);
-    }
-  };
-  for (std::size_t i = 0; i < network_.lanes.size(); ++i) {
-    if (guide_.advice(static_cast<LaneId>(i)).on_route) {
-      reach(static_cast<LaneId>(i));
-    }
-  }
-  while (!open.empty()) {
-    const NetworkLane& lane = network_.lanes[index(open.front())];
-    open.pop_front();
-    reach(lane.left);
-    reach(lane.right);
-    for (const LaneId next : lane.successors) {
-      LaneId after = next;
-      for (std::size_t hops = 0; network_.lanes[index(after)].in_junction && hops < network_.lanes.size() &&
-                                 !network_.lanes[index(after)].successors.empty();
-           ++hops) {
-        after = network_.lanes[index(after)].successors.front();
-      }
-      if (lane.in_junction || !turns_round(lane, network_.lanes[index(after)])) {
-        reach(next);
-      }
-    }
-  }
-  return ours;
-}
-
-bool MapNode::yields(LaneId lane) const {
-  return std::any_of(network_.conflicts.begin(), network_.conflicts.end(), [&](const NetworkConflict& each) {
-    return (each.first == lane && each.rule == Rule::kFirstYields) ||
-           (each.second == lane && each.rule == Rule::kFirstHasPriority);
-  });
-}
-
-/// On the route only the way it takes counts.
-bool MapNode::yields_at_end(LaneId lane) const {
-  const LaneId next = guide_.advice(lane).next;
-  const std::vector<LaneId>& all = network_.lanes[index(lane)].successors;
-  const auto must = [&](LaneId after) { return network_.lanes[index(after)].in_junction && yields(after); };
-  return next != kNoLane ? must(next) : std::any_of(all.begin(), all.end(), must);
-}
-
-void MapNode::rank_parts() {
-  enum Rank { kRoute, kConflicting, kNeighbour, kRest };
-  std::vector<int> rank(network_.lanes.size(), kRest);
-  const auto improve = [&](LaneId lane, int to) {
-    if (lane != kNoLane) {
-      rank[index(lane)] = std::min(rank[index(lane)], to);
-    }
-  };
-  for (std::size_t i = 0; i < rank.size(); ++i) {
-    if (guide_.advice(static_cast<LaneId>(i)).on_route) {
-      rank[i] = kRoute;
-    }
-  }
-  const auto conflicting = [&](LaneId lane) {
-    improve(lane, kConflicting);
-    for (LaneId at = lane;
-         network_.lanes[index(at)].in_junction && !network_.lanes[index(at)].predecessors.empty();) {
-      at = network_.lanes[index(at)].predecessors.front();
-      improve(at, kConflicting);
-    }
-  };
-  for (const NetworkConflict& each : network_.conflicts) {
-    if (rank[index(each.first)] == kRoute) {
-      conflicting(each.second);
-    }
-    if (rank[index(each.second)] == kRoute) {
-      conflicting(each.first);
-    }
-  }
-  for (std::size_t i = 0; i < rank.size(); ++i) {
-    if (rank[i] <= kConflicting) {
-      improve(network_.lanes[i].left, kNeighbour);
-      improve(network_.lanes[i].right, kNeighbour);
-    }
-  }
-  for (Part& part : parts_) {
-    part.rank = rank[index(part.lane)];
   }
 }
 

@@ -1,9 +1,6 @@
 #pragma once
 /// The map node: shows the ECU the lanes within the horizon, as wire records with stable slots.
-///
-/// What the kinds mean here: `ours` is every lane that the ego can come to from its route by driving forward
-/// and changing lanes, without turning round (a missed turn still leads onto lanes of ours); every other lane
-/// is `opposite`: it leads against us, or only others can be on it.
+/// The kinds `ours` and `opposite` are those of lane_roles.hpp.
 
 #include <cstdint>
 #include <map>
@@ -22,11 +19,14 @@ class MapNode {
   MapNode(const Network& network, const RouteGuide& guide, Vec2 origin, double horizon_m = 150.0);
 
   /// Chooses the lanes around `position` (network coordinates) and fills the wire map.
+  ///
   /// MAP-001 A lane keeps its slot while it stays within the horizon; it leaves it 10 m later than it came.
+  ///
   /// MAP-002 Lanes that 12 vertices cannot show within 0.03 m, or longer than 250 m, are sent in parts, each
-  /// the successor of the one before; all arc lengths are those of the vertices sent. MAP-003 Over 64: the
-  /// route, then lanes in conflict with it and those leading there, then neighbours, then the rest, nearest
-  /// first; those left out are counted.
+  /// the successor of the one before; all arc lengths are those of the vertices sent.
+  ///
+  /// MAP-003 Over 64: the route, then lanes in conflict with it and those leading there, then neighbours, then
+  /// the rest, nearest first; those left out are counted.
   const wire::Map& update(Vec2 position);
 
  private:
@@ -50,11 +50,7 @@ class MapNode {
 
   void split_into_parts();
   void fill_record(Part& part, bool ours, bool last) const;
-  void rank_parts();
   void split_conflicts();
-  [[nodiscard]] std::vector<bool> lanes_of_ours() const;
-  [[nodiscard]] bool yields_at_end(LaneId lane) const;
-  [[nodiscard]] bool yields(LaneId lane) const;
   void choose_lanes(Vec2 position);
   void choose_conflicts();
   [[nodiscard]] wire::Lane linked(int part) const;

@@ -241,19 +241,26 @@ class Reader {
         const auto lane = lane_of_.find(name);
         junction.links.push_back(lane == lane_of_.end() ? Link{} : link_through(lane->second));
       }
+      if (junction.links.empty()) {
+        continue;  // built without lanes inside junctions: ways are known, conflicts are not
+      }
       for (const pugi::xml_node request : node.children("request")) {
         const std::string where = "junction \"" + std::string(node.attribute("id").value()) + "\"";
         const std::size_t index = request.attribute("index").as_uint(~0U);
-        const std::string response = request.attribute("response").value();
-        if (index >= junction.links.size() || response.find_first_not_of("01") != std::string::npos) {
-          fail(where, "request index=\"" + std::string(request.attribute("index").value()) +
-                          "\": expected an index below the number of intLanes and a response of 0s and 1s");
-        }
-        // The string's last character is link 0.
-        junction.links[index].yields_to.resize(response.size());
-        for (std::size_t i = 0; i < response.size(); ++i) {
-          junction.links[index].yields_to[i] = response[response.size() - 1 - i] == '1';
-        }
+        const auto bits = [&](const char* name) {
+          const std::string text = request.attribute(name).value();
+          if (index >= junction.links.size() || text.find_first_not_of("01") != std::string::npos) {
+            fail(where, "request index=\"" + std::string(request.attribute("index").value()) +
+                            "\": expected an index below the number of intLanes, and " + name +
+                            " of 0s and 1s");
+          }
+          std::vector<bool> found(text.size());
+          std::transform(text.rbegin(), text.rend(), found.begin(), [](char c) { return c == '1'; });
+          return found;  // the text's last character is link 0
+        };
+        const std::vector<bool> yields_to = bits("response");
+        junction.links[index].yields_to = yields_to;
+        junction.links[index].foes = bits("foes");
       }
       junctions.push_back(std::move(junction));
     }
