@@ -9,7 +9,7 @@ function(s4tp_core_target target)
   target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR})
   target_compile_options(${target} PRIVATE
     ${S4TP_ARITHMETIC} ${S4TP_WARNINGS} -Wconversion -Wshadow -Wdouble-promotion
-    -fno-exceptions -fno-rtti -fno-threadsafe-statics -ffunction-sections -fdata-sections)
+    -fno-exceptions -fno-rtti -fno-threadsafe-statics -ffunction-sections -fdata-sections -fstack-usage)
   target_compile_definitions(${target} PRIVATE EIGEN_DONT_VECTORIZE EIGEN_MAX_ALIGN_BYTES=0)
 endfunction()
 

@@ -1,6 +1,8 @@
 #pragma once
 /// What an image that reads a log needs of the machine under it: semihosting on bare metal, stdio elsewhere.
 
+#include <cstdint>
+
 namespace s4tp::targets {
 
 /// \return a handle, or -1
@@ -9,9 +11,12 @@ namespace s4tp::targets {
 [[nodiscard]] int read(int handle, void* buffer, int size);
 void print(const char* text);
 /// Highest use of the stack so far [bytes]; 0 where it is not known.
-[[nodiscard]] int stack_used();
+[[nodiscard]] std::int32_t stack_used();
+void start_counting();
+/// SysTick counts, wrapping; 0 where there is none.
+[[nodiscard]] std::uint32_t counts_now();
 
-/// The image itself. \param argument  first word of the command line, or null \return the exit code
-[[nodiscard]] int run(const char* argument);
+/// The image itself. \param log  path, or null \return the exit code
+[[nodiscard]] int run(const char* log, bool stages);
 
 }  // namespace s4tp::targets

@@ -16,8 +16,8 @@ int read(int handle, void* buffer, int size) {
 void print(const char* text) {
   semihosting::print(text);
 }
-int stack_used() {
-  return static_cast<int>(hal::mps::stack_used());
+std::int32_t stack_used() {
+  return static_cast<std::int32_t>(hal::mps::stack_used());
 }
 
 }  // namespace s4tp::targets
@@ -31,8 +31,18 @@ void s4tp::assertion_failed(const char* expression, const char* file, int) {
   semihosting::exit(3);
 }
 
-extern "C" void image_main() {
-  static char argument[512];
-  const bool given = semihosting::command_line(argument, sizeof argument);
-  semihosting::exit(s4tp::targets::run(given ? argument : nullptr));
+void image_main() {
+  s4tp::targets::start_counting();
+  static char words[512];
+  const char* log = nullptr;
+  bool stages = false;
+  if (semihosting::command_line(words, sizeof words)) {
+    log = words;
+    for (char* c = words; *c != '\0'; ++c) {
+      if (*c != ' ') continue;
+      *c = '\0';
+      stages = c[1] == '-';  // --stages is the only option
+    }
+  }
+  semihosting::exit(s4tp::targets::run(log, stages));
 }

@@ -3,6 +3,7 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 
 #include "algo/core/check.hpp"
 #include "firmware/targets/platform.hpp"
@@ -18,7 +19,7 @@ int read(int handle, void* buffer, int size) {
 void print(const char* text) {
   std::fputs(text, stdout);
 }
-int stack_used() {
+std::int32_t stack_used() {
   return 0;
 }
 
@@ -31,5 +32,6 @@ void s4tp::assertion_failed(const char* expression, const char* file, int line) 
 }
 
 int main(int argc, char** argv) {
-  return s4tp::targets::run(argc > 1 ? argv[1] : nullptr);
+  const bool stages = argc > 2 && std::strcmp(argv[2], "--stages") == 0;
+  return s4tp::targets::run(argc > 1 ? argv[1] : nullptr, stages);
 }

@@ -1,0 +1,96 @@
+#!/usr/bin/env python3
+"""Who may include whom: fails on any include that DESIGN's table does not allow.
+
+    check_includes.py [ROOT]
+"""
+
+import pathlib
+import re
+import sys
+
+# Room (longest prefix wins) -> prefixes of project headers it may include, besides its own.
+ALLOWED = {
+    "algo/": [],
+    "hal/": [],  # the interfaces: the files directly in hal/
+    "hal/linux/": ["hal/"],
+    "hal/mps/": ["hal/"],
+    "hal/sim/": ["hal/"],
+    "firmware/wire/": [],
+    "firmware/gate/": ["firmware/wire/"],
+    "firmware/ecu/": ["algo/", "firmware/gate/", "firmware/wire/", "hal/"],
+    "firmware/targets/": ["algo/", "firmware/", "hal/"],
+    "sim_host/world/": ["firmware/wire/"],
+    "sim_host/metrics/": ["sim_host/world/"],
+    **{f"sim_host/{room}/": ["algo/", "firmware/ecu/", "firmware/gate/", "firmware/wire/", "hal/", "sim_host/"]
+       for room in ("baselines", "replay", "train", "view", "campaign")},
+    "sim_host/": ["algo/", "firmware/", "hal/", "sim_host/"],  # main.cpp and its commands
+    "tests/": ["algo/", "firmware/", "hal/", "sim_host/", "tests/"],
+}
+# May not even be reached through a directory that is allowed: interfaces know no platform, nor does the ECU.
+FORBIDDEN = {
+    "firmware/ecu/": ["hal/linux/", "hal/mps/", "hal/sim/"],
+    "hal/linux/": ["hal/mps/", "hal/sim/"],
+    "hal/mps/": ["hal/linux/", "hal/sim/"],
+    "hal/sim/": ["hal/linux/", "hal/mps/"],
+}
+# The core, the firmware and the interfaces: no library but the C++ headers that need none, and Eigen in algo's .cpp.
+FREESTANDING = ("algo/", "hal/", "firmware/")
+STANDARD = {"cstdint", "cstddef", "cstring", "climits", "limits", "type_traits", "utility", "atomic", "array", "new",
+            "stdint.h", "stddef.h"}
+HOSTED_FILES = ("firmware/targets/platform_stdio.cpp", "hal/linux/")
+ROOTS = ("algo", "hal", "firmware", "sim_host", "tests")
+
+INCLUDE = re.compile(r'^\s*#\s*include\s*(["<])([^">]+)[">]')
+
+
+def room_of(path):
+    room = max((prefix for prefix in ALLOWED if path.startswith(prefix)), key=len, default=None)
+    return room
+
+
+def judge(path, quote, header):
+    """The reason why `path` may not include `header`, or None."""
+    room = room_of(path)
+    if room is None:
+        return "stands in no room of the table"
+    if quote == '"':
+        if header.split("/")[0] not in ROOTS:
+            return "project headers are named from the root"
+        if any(header.startswith(prefix) for prefix in FORBIDDEN.get(room, [])):
+            return f"{room} knows no platform"
+        if room_of(header) == room or any(header.startswith(prefix) for prefix in ALLOWED[room]):
+            return None
+        return f"{room} may include only {', '.join([room] + ALLOWED[room])}"
+    if not room.startswith(FREESTANDING) or path.startswith(HOSTED_FILES) or header in STANDARD:
+        return None
+    if header.split("/")[0] in ("Eigen", "unsupported"):
+        if room == "algo/" and path.endswith(".cpp"):
+            return None
+        return "Eigen only in .cpp files of algo"
+    return "the core uses no such library"
+
+
+def findings(root):
+    result = []
+    for folder in ROOTS:
+        for file in sorted((root / folder).rglob("*")):
+            if file.suffix not in (".hpp", ".cpp", ".h", ".c", ".def"):
+                continue
+            path = file.relative_to(root).as_posix()
+            for number, line in enumerate(file.read_text(encoding="utf-8").splitlines(), 1):
+                match = INCLUDE.match(line)
+                reason = match and judge(path, match[1], match[2])
+                if reason:
+                    result.append(f"{path}:{number}: includes {match[2]}: {reason}")
+    return result
+
+
+def main(arguments):
+    root = pathlib.Path(arguments[0] if arguments else pathlib.Path(__file__).parent.parent)
+    found = findings(root)
+    print("\n".join(found) if found else "includes: all allowed by the table")
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
