@@ -16,8 +16,8 @@ namespace s4tp::world {
 struct WorldOptions {
   std::uint64_t seed = 0;
   double pre_roll_s = 3.0;
-  SensorOptions sensors;
-  PerceptionOptions perception;
+  SensorOptions sensors = {};
+  PerceptionOptions perception = {};
 };
 
 /// One episode. In the pre-roll every node publishes while the world itself moves the ego along its lane,
