@@ -34,10 +34,10 @@ class Ecu {
     if (ports.can == nullptr || ports.cycles == nullptr || ports.watchdog == nullptr) {
       return Status::kInvalidInput;
     }
-    const Status status = planner_.init(parameters);
+    planner_ready_ = planner_.init(parameters);
     planner_crc_ = parameters_crc(parameters);
-    core_.init(parameters, ports, status != Status::kOk);
-    return status;
+    core_.init(parameters, ports, planner_ready_ != Status::kOk);
+    return planner_ready_;
   }
 
   /// Control context, between ticks. \param crc  parameters_crc() as the sender computed it
@@ -54,12 +54,12 @@ class Ecu {
     if (!core_.planning_due()) return;
     CycleResult* result = nullptr;
     const Snapshot& snapshot = core_.begin_cycle(result);
-    result->status = Status::kOk;
     if (snapshot.parameters_crc != planner_crc_) {
-      result->status = planner_.init(snapshot.parameters);
+      planner_ready_ = planner_.init(snapshot.parameters);
       planner_crc_ = snapshot.parameters_crc;
     }
-    if (result->status == Status::kOk) {
+    result->status = planner_ready_;
+    if (planner_ready_ == Status::kOk) {
       result->status = planner_.plan(snapshot.input, result->plan, result->explanation);
     }
     core_.end_cycle();
@@ -78,7 +78,8 @@ class Ecu {
  private:
   EcuCore core_;
   PlannerT planner_;
-  std::uint32_t planner_crc_ = 0;  ///< of the parameters the planner has; planning context
+  Status planner_ready_ = Status::kNotInitialized;  ///< answer of its last init(); planning context
+  std::uint32_t planner_crc_ = 0;                   ///< of the parameters it has; planning context
 };
 
 /// All static memory but the planner: 128 KiB less planner 64, heat map 8, bus buffers 4 (DESIGN: budgets).

@@ -1,0 +1,235 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "firmware/gate/command_gate.hpp"
+#include "firmware/wire/codec.hpp"
+#include "firmware/wire/e2e.hpp"
+
+namespace s4tp::gate {
+namespace {
+
+/// A gate that hears a motion frame before each command.
+class Bench {
+ public:
+  explicit Bench(const Limits& limits = {}) : gate(limits) {}
+
+  void motion(float speed_mps, float acceleration_mps2 = 0.0F) {
+    gate.observe(frame(speed_mps, acceleration_mps2));
+  }
+  wire::Frame frame(float speed_mps, float acceleration_mps2 = 0.0F) {
+    wire::Motion message;
+    message.speed_mps = speed_mps;
+    message.acceleration_mps2 = acceleration_mps2;
+    wire::Frame out;
+    EXPECT_TRUE(wire::encode(message, out));
+    sender.protect(out);
+    return out;
+  }
+  /// Asks at a speed the gate has just heard of.
+  Command ask(Command command, float speed_mps = 5.0F) {
+    motion(speed_mps);
+    violations = gate.apply(true, command);
+    return command;
+  }
+  /// Asks until rise and rate no longer matter.
+  Command settle(Command command, float speed_mps = 5.0F) {
+    Command out;
+    for (int i = 0; i < 200; ++i) out = ask(command, speed_mps);
+    return out;
+  }
+
+  CommandGate gate;
+  wire::E2eSender sender;
+  Violations violations = 0;
+};
+
+// GATE-001: 3.5 m/s^2 of drive pass as they are, a little more does not.
+TEST(Gate, LimitsDrive) {
+  Bench bench;
+  EXPECT_EQ(bench.settle({3.5F, 0.0F}).acceleration_mps2, 3.5F);
+  EXPECT_EQ(bench.violations, 0);
+  EXPECT_EQ(bench.ask({3.51F, 0.0F}).acceleration_mps2, 3.5F);
+  EXPECT_EQ(bench.violations, kAccelerationLimited);
+}
+
+// GATE-002: 9 m/s^2 of braking pass at once, a little more does not.
+TEST(Gate, LimitsBraking) {
+  Bench bench;
+  EXPECT_EQ(bench.ask({-9.0F, 0.0F}).acceleration_mps2, -9.0F);
+  EXPECT_EQ(bench.violations, 0);
+  EXPECT_EQ(bench.ask({-9.01F, 0.0F}).acceleration_mps2, -9.0F);
+  EXPECT_EQ(bench.violations, kBrakingLimited);
+}
+
+// GATE-003: 20 m/s^3 * 0.01 s = 0.2 m/s^2 a tick upwards; downwards no limit.
+TEST(Gate, LimitsRiseOfAccelerationOnly) {
+  Bench bench;
+  (void)bench.settle({0.0F, 0.0F});
+  EXPECT_FLOAT_EQ(bench.ask({1.0F, 0.0F}).acceleration_mps2, 0.2F);
+  EXPECT_EQ(bench.violations, kJerkLimited);
+  EXPECT_FLOAT_EQ(bench.ask({0.39F, 0.0F}).acceleration_mps2, 0.39F);
+  EXPECT_EQ(bench.violations, 0);
+  EXPECT_EQ(bench.ask({-8.0F, 0.0F}).acceleration_mps2, -8.0F);
+  EXPECT_FLOAT_EQ(bench.ask({0.0F, 0.0F}).acceleration_mps2, -7.8F);
+}
+
+// GATE-004: 0.55 rad to either side.
+TEST(Gate, LimitsSteeringAngle) {
+  Bench bench;
+  EXPECT_EQ(bench.settle({0.0F, 0.55F}, 1.0F).steering_rad, 0.55F);
+  EXPECT_EQ(bench.violations, 0);
+  EXPECT_EQ(bench.ask({0.0F, 0.56F}, 1.0F).steering_rad, 0.55F);
+  EXPECT_EQ(bench.violations, kSteeringLimited);
+  EXPECT_EQ(bench.settle({0.0F, -0.7F}, 1.0F).steering_rad, -0.55F);
+  EXPECT_EQ(bench.violations, kSteeringLimited);
+}
+
+// GATE-005: 0.7 rad/s * 0.01 s = 0.007 rad a tick.
+TEST(Gate, LimitsSteeringRate) {
+  Bench bench;
+  EXPECT_FLOAT_EQ(bench.ask({0.0F, 0.0069F}).steering_rad, 0.0069F);
+  EXPECT_EQ(bench.violations, 0);
+  EXPECT_FLOAT_EQ(bench.ask({0.0F, 0.1F}).steering_rad, 0.0139F);
+  EXPECT_EQ(bench.violations, kSteeringRateLimited);
+  EXPECT_FLOAT_EQ(bench.ask({0.0F, -0.1F}).steering_rad, 0.0069F);
+  EXPECT_EQ(bench.violations, kSteeringRateLimited);
+}
+
+// GATE-006: at 15 m/s 6 m/s^2 allow atan(6 * 2.9 / 225) = 0.0772 rad; the bound is never above, at most 2 %
+// below.
+TEST(Gate, LimitsLateralAcceleration) {
+  for (const float speed_mps : {6.0F, 8.0F, 10.0F, 15.0F, 25.0F, 40.0F}) {
+    Bench bench;
+    const double steering_rad = bench.settle({0.0F, 0.5F}, speed_mps).steering_rad;
+    const double lateral_mps2 = double{speed_mps} * speed_mps * std::tan(steering_rad) / 2.9;
+    EXPECT_LE(lateral_mps2, 6.0 + 1e-4) << speed_mps;
+    if (double{speed_mps} * speed_mps * std::tan(0.5) / 2.9 > 6.0) {
+      EXPECT_GE(lateral_mps2, 5.85) << speed_mps;
+      EXPECT_NE(bench.violations & kLateralLimited, 0);
+    } else {
+      EXPECT_NEAR(steering_rad, 0.5, 1e-6);
+    }
+  }
+  // To the right as to the left.
+  Bench left;
+  Bench right;
+  EXPECT_EQ(left.settle({0.0F, 0.5F}, 15.0F).steering_rad, -right.settle({0.0F, -0.5F}, 15.0F).steering_rad);
+}
+
+// GATE-005 before GATE-006: turning in at 5 m/s, then suddenly 20 m/s: the steering goes back 0.007 rad a
+// tick.
+TEST(Gate, SteersBackAtTheRateWhenTheSpeedJumps) {
+  Bench bench;
+  (void)bench.settle({0.0F, 0.4F}, 5.0F);
+  EXPECT_NEAR(bench.ask({0.0F, 0.4F}, 20.0F).steering_rad, 0.393F, 1e-6F);
+  EXPECT_EQ(bench.violations, kLateralLimited | kSteeringRateLimited);
+}
+
+// GATE-007: at 40 m/s drive passes, a bit faster it does not, braking always does.
+TEST(Gate, NoDriveAboveTopSpeed) {
+  Bench bench;
+  EXPECT_EQ(bench.settle({1.0F, 0.0F}, 40.0F).acceleration_mps2, 1.0F);
+  EXPECT_EQ(bench.violations, 0);
+  EXPECT_EQ(bench.ask({1.0F, 0.0F}, 40.01F).acceleration_mps2, 0.0F);
+  EXPECT_EQ(bench.violations, kSpeedLimited);
+  EXPECT_EQ(bench.ask({-2.0F, 0.0F}, 60.0F).acceleration_mps2, -2.0F);
+  EXPECT_EQ(bench.violations, 0);
+}
+
+// GATE-008: ten ticks without a motion frame pass, the eleventh brakes with 3 m/s^2 and holds the steering.
+TEST(Gate, BrakesWithoutMotionFrames) {
+  Bench bench;
+  (void)bench.settle({1.0F, 0.1F});
+  for (int i = 0; i < 10; ++i) {
+    Command command{1.0F, 0.1F};
+    EXPECT_EQ(bench.gate.apply(true, command), 0) << i;
+    EXPECT_EQ(command.acceleration_mps2, 1.0F);
+  }
+  Command command{1.0F, 0.2F};
+  EXPECT_EQ(bench.gate.apply(true, command), kMotionStale);
+  EXPECT_EQ(command.acceleration_mps2, -3.0F);
+  EXPECT_FLOAT_EQ(command.steering_rad, 0.1F);
+  // Harder braking passes, and the next motion frame ends it.
+  command = {-6.0F, 0.2F};
+  EXPECT_EQ(bench.gate.apply(true, command), kMotionStale);
+  EXPECT_EQ(command.acceleration_mps2, -6.0F);
+  EXPECT_FLOAT_EQ(bench.ask({-6.0F, 0.1F}).acceleration_mps2, -6.0F);
+  EXPECT_EQ(bench.violations, 0);
+}
+
+// GATE-008: a gate that never heard a motion frame brakes, whatever is permitted.
+TEST(Gate, DeniedByDefault) {
+  CommandGate gate{Limits{}};
+  Command command{2.0F, 0.3F};
+  EXPECT_EQ(gate.apply(true, command), kMotionStale);
+  EXPECT_EQ(command.acceleration_mps2, -3.0F);
+  EXPECT_EQ(command.steering_rad, 0.0F);
+}
+
+// GATE-009: not permitted means gentle braking with the steering held, however good the command.
+TEST(Gate, DeniedBrakesGently) {
+  Bench bench;
+  (void)bench.settle({0.0F, 0.2F});
+  bench.motion(5.0F);
+  Command command{-8.0F, 0.21F};
+  EXPECT_EQ(bench.gate.apply(false, command), kDenied);
+  EXPECT_EQ(command.acceleration_mps2, -3.0F);
+  EXPECT_FLOAT_EQ(command.steering_rad, 0.2F);
+}
+
+// GATE-010: NaN or infinity in either field is treated as denied and does not come out.
+TEST(Gate, TreatsNotFiniteAsDenied) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const float infinite = std::numeric_limits<float>::infinity();
+  for (const Command bad : {Command{nan, 0.0F}, Command{0.0F, nan}, Command{infinite, 0.0F},
+                            Command{0.0F, -infinite}, Command{-infinite, nan}}) {
+    Bench bench;
+    (void)bench.settle({0.0F, 0.1F});
+    const Command out = bench.ask(bad);
+    EXPECT_EQ(bench.violations, kDenied | kNotFinite);
+    EXPECT_EQ(out.acceleration_mps2, -3.0F);
+    EXPECT_FLOAT_EQ(out.steering_rad, 0.1F);
+  }
+}
+
+// GATE-011: a damaged, a repeated or a foreign frame is no news: the motion goes stale as without it.
+TEST(Gate, ReadsTheMotionFrameItself) {
+  Bench bench;
+  const wire::Frame once = bench.frame(5.0F);
+  wire::Frame damaged = bench.frame(5.0F);
+  damaged.data[4] ^= 1U;
+  wire::Frame foreign = bench.frame(5.0F);
+  foreign.id = wire::kMotionId + 1;
+  wire::e2e_seal(foreign);
+  bench.gate.observe(once);
+  for (int i = 0; i < 11; ++i) {
+    Command command;
+    EXPECT_EQ(bench.gate.apply(true, command) & kMotionStale, 0) << i;
+    bench.gate.observe(once);
+    bench.gate.observe(damaged);
+    bench.gate.observe(foreign);
+  }
+  Command command;
+  EXPECT_EQ(bench.gate.apply(true, command) & kMotionStale, kMotionStale);
+}
+
+// GATE-012: taking over at 0.3 rad and -2 m/s^2 goes on from there: next at most 0.307 rad and -1.8 m/s^2.
+TEST(Gate, TakesOverFromWhatIsThere) {
+  Bench bench;
+  bench.motion(5.0F, -2.0F);
+  bench.gate.reset(0.3F);
+  Command command{1.0F, 0.5F};
+  EXPECT_EQ(bench.gate.apply(true, command), kJerkLimited | kSteeringRateLimited);
+  EXPECT_FLOAT_EQ(command.acceleration_mps2, -1.8F);
+  EXPECT_FLOAT_EQ(command.steering_rad, 0.307F);
+  bench.gate.reset(std::numeric_limits<float>::quiet_NaN());
+  bench.motion(5.0F);
+  command = {};
+  (void)bench.gate.apply(true, command);
+  EXPECT_EQ(command.steering_rad, 0.0F);
+}
+
+}  // namespace
+}  // namespace s4tp::gate
