@@ -18,8 +18,8 @@ struct Mode {
 
 /// The futures of one vehicle. Probabilities of the modes add up to 1.
 struct AgentPrediction {
-  std::uint8_t agent = 0;  ///< index into Scene::agents
-  BoundedVector<Mode, kMaxModes> modes;
+  std::uint8_t agent = 0;                ///< index into Scene::agents
+  BoundedVector<Mode, kMaxModes> modes;  ///< the likeliest first
 };
 
 /// Futures of the watched vehicles, in the order of Scene::agents.

@@ -6,6 +6,7 @@
 #include "algo/core/parameters.hpp"
 #include "algo/core/trajectory.hpp"
 #include "algo/satp/prediction.hpp"
+#include "algo/satp/way.hpp"
 #include "algo/scene/scene.hpp"
 
 namespace s4tp {
@@ -16,20 +17,27 @@ class Predictor {
   /// \param start_ms  plan start: the predictions' time zero; scene.time_ms <= start_ms
   void encode(const Scene& scene, const Parameters& parameters, std::uint32_t start_ms);
 
-  /// Futures of the watched vehicles. \param plan  our motion from start_ms, or null: do not depend on us
-  /// (we are then taken to keep our lane and speed only as far as we are already in their way).
+  /// Futures of the watched vehicles. A future brakes for us (Mode::yields) where our way and its way cross.
+  /// CORE-040 Every pose is finite; each vehicle's probabilities add up to 1 and it has at least one mode.
+  /// CORE-041 A vehicle behind whose lane our plan enters slows down for us.
+  /// CORE-042 Without plan we are taken to keep lane and speed only as far as we are in their way already,
+  /// or have the right of way at a zone we are coming to.
+  /// \param plan  our motion from start_ms, or null
   void decode(const Trajectory* plan, PredictionSet& prediction) const;
 
-  /// "Keeps doing what it does": every agent along its likeliest path at constant speed.
+  /// CORE-043 "Keeps doing what it does": every agent along its likeliest path at constant speed; one without
+  /// a path at constant yaw rate.
   void keep_going(KinematicSet& prediction) const;
 
-  /// Work done since encode(), in agent-mode-steps (the unit of the stage's allowance).
+  /// Work done since encode(), in agent-mode-steps (the unit of the stage's allowance). At most
+  /// kMaxAgents * (2 * kPathsPerAgent) * kHorizonSteps a decode.
   [[nodiscard]] int work() const { return work_; }
 
  private:
   const Scene* scene_ = nullptr;
   const Parameters* parameters_ = nullptr;
   float lead_s_ = 0.0F;  ///< plan start minus scene time
+  Way ways_[kMaxAgents][kPathsPerAgent];
   mutable int work_ = 0;
 };
 

@@ -212,17 +212,35 @@ void bring_forward(const LaneMap* map, float seconds, Agent& agent) {
   }
   const float off_rad = wrap_angle(track.centre.heading_rad - agent.frenet[0].heading_rad);
   const SinCos off = sin_cos(off_rad);
+  const LaneIndex lane_before = agent.lane;
   for (int i = 0; i < agent.paths.size(); ++i) {
     Frenet& frenet = agent.frenet[i];
     frenet.s_m += travel_m * off.cos;
     frenet.d_m += travel_m * off.sin;
     const PathPoint point = path_point(*map, agent.paths[i], frenet.s_m);
     frenet.heading_rad = point.pose.heading_rad;
+    const bool same_lane = agent.paths[i].lanes[0].lane == lane_before && agent.lane == lane_before;
+    if (same_lane) agent.lane = point.lane;
     if (i > 0) continue;
     const Point centre = offset_point(point.pose, 0.0F, frenet.d_m);
     track.centre = {centre.x_m, centre.y_m, wrap_angle(point.pose.heading_rad + off_rad)};
-    agent.lane = point.lane;
   }
+}
+
+bool arc_length_on(const LanePath& path, const Agent& agent, float& s_m) {
+  for (int i = 0; i < agent.paths.size(); ++i) {
+    const LanePath& own = agent.paths[i];
+    for (int k = 0; k < own.lanes.size(); ++k) {
+      // The lane it is on, or the one it is changing to: there its way begins.
+      if (own.lanes[k].lane != agent.lane && k > 0) continue;
+      for (const PathLane& part : path.lanes) {
+        if (part.lane != own.lanes[k].lane) continue;
+        s_m = part.start_s_m + agent.frenet[i].s_m - own.lanes[k].start_s_m;
+        return true;
+      }
+    }
+  }
+  return false;
 }
 
 }  // namespace s4tp

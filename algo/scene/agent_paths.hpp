@@ -13,4 +13,8 @@ void build_agent_paths(const LaneTable& table, Agent& agent);
 /// Moves the agent along its likeliest way by `seconds`; off the map on the arc it drives.
 void bring_forward(const LaneMap* map, float seconds, Agent& agent);
 
+/// Arc length of an agent's centre along somebody's path. \return false when its lane is not one of the
+/// path's
+[[nodiscard]] bool arc_length_on(const LanePath& path, const Agent& agent, float& s_m);
+
 }  // namespace s4tp

@@ -1,6 +1,7 @@
 #include "algo/scene/ego_paths.hpp"
 
 #include "algo/core/math.hpp"
+#include "algo/scene/conflict_view.hpp"
 
 namespace s4tp {
 namespace {
@@ -56,24 +57,6 @@ float stop_line(const LaneTable& table, const LanePath& path, int index, float e
   return 1e6F;
 }
 
-bool sound(const Conflict& conflict) {
-  return is_finite(conflict.first_entry_m) && is_finite(conflict.first_exit_m) &&
-         is_finite(conflict.second_entry_m) && is_finite(conflict.second_exit_m) &&
-         conflict.first_entry_m <= conflict.first_exit_m && conflict.second_entry_m <= conflict.second_exit_m;
-}
-
-Priority seen_from(Priority priority, bool from_second) {
-  switch (priority) {
-    case Priority::kFirstYields:
-      return from_second ? Priority::kFirstHasPriority : Priority::kFirstYields;
-    case Priority::kFirstHasPriority:
-      return from_second ? Priority::kFirstYields : Priority::kFirstHasPriority;
-    case Priority::kFirstCome:
-      break;
-  }
-  return Priority::kFirstCome;
-}
-
 // Which zone to keep when there is no room for all: where we must give way, then the nearer one.
 bool matters_more(const ConflictZone& a, const ConflictZone& b) {
   const bool yields_a = a.priority != Priority::kFirstHasPriority;
@@ -111,23 +94,24 @@ void find_zones(const LaneTable& table, const Parameters& parameters, EgoPath& e
   const float half_length_m = 0.5F * parameters.vehicle.length_m;
   const float centre_s_m = ego_path.frenet.s_m + half_length_m - parameters.vehicle.rear_overhang_m;
   for (const Conflict& conflict : table.map().conflicts) {
-    if (!table.valid(conflict.first) || !table.valid(conflict.second) || !sound(conflict)) continue;
+    if (!sound(conflict) || !table.valid(conflict.first) || !table.valid(conflict.second)) continue;
     const bool second_ours = place[conflict.second] >= 0;
     if ((place[conflict.first] >= 0) == second_ours) continue;  // none of our business, or our own way
-    const LaneIndex ours = second_ours ? conflict.second : conflict.first;
-    const float start_s_m = path.lanes[place[ours]].start_s_m;
+    const ConflictView view = view_from(conflict, second_ours);
+    const int index = place[view.own];
+    const float start_s_m = path.lanes[index].start_s_m;
     // The map's zones are for a usual box; ours may be longer or shorter.
     const float longer_m = half_length_m - kUsualHalfLengthM;
     ConflictZone zone;
-    zone.entry_s_m = start_s_m + (second_ours ? conflict.second_entry_m : conflict.first_entry_m) - longer_m;
-    zone.exit_s_m = start_s_m + (second_ours ? conflict.second_exit_m : conflict.first_exit_m) + longer_m;
+    zone.entry_s_m = start_s_m + view.own_entry_m - longer_m;
+    zone.exit_s_m = start_s_m + view.own_exit_m + longer_m;
     if (zone.exit_s_m < centre_s_m) continue;
-    zone.other_lane = second_ours ? conflict.first : conflict.second;
-    zone.other_entry_m = second_ours ? conflict.first_entry_m : conflict.second_entry_m;
-    zone.other_exit_m = second_ours ? conflict.first_exit_m : conflict.second_exit_m;
-    zone.priority = seen_from(conflict.priority, second_ours);
+    zone.other_lane = view.other;
+    zone.other_entry_m = view.other_entry_m;
+    zone.other_exit_m = view.other_exit_m;
+    zone.priority = view.priority;
     const float edge_s_m = zone.entry_s_m + half_length_m - kStopMarginM;
-    const float line_s_m = stop_line(table, path, place[ours], zone.entry_s_m);
+    const float line_s_m = stop_line(table, path, index, zone.entry_s_m);
     const bool passed = centre_s_m + half_length_m > line_s_m + kPassedLineM;
     zone.stop_s_m = passed ? edge_s_m : min(edge_s_m, line_s_m);
     add_zone(ego_path, zone);

@@ -1,6 +1,7 @@
 #include "algo/scene/relevance.hpp"
 
 #include "algo/core/math.hpp"
+#include "algo/scene/agent_paths.hpp"
 
 namespace s4tp {
 namespace {
@@ -8,21 +9,6 @@ namespace {
 constexpr float kSlowestMps = 2.0F;    // who stands may start: times are taken at no less than this speed
 constexpr float kElsewhereS = 100.0F;  // who shares neither zone nor lane comes after all who do
 constexpr float kOtherWayS = 1.0F;     // handicap of what concerns only a lane we are not on yet
-
-// Arc length of an agent along one of our paths, when it is on one of its lanes.
-bool place_on(const EgoPath& ego_path, const Agent& agent, float& s_m) {
-  if (agent.lane == kNoLaneIndex || agent.paths.empty()) return false;
-  float lane_start_s_m = 0.0F;  // where the agent's lane begins on the agent's own path
-  for (const PathLane& part : agent.paths[0].lanes) {
-    if (part.lane == agent.lane) lane_start_s_m = part.start_s_m;
-  }
-  for (const PathLane& part : ego_path.path.lanes) {
-    if (part.lane != agent.lane) continue;
-    s_m = part.start_s_m + agent.frenet[0].s_m - lane_start_s_m;
-    return true;
-  }
-  return false;
-}
 
 // Where our path begins on the agent's, when our first lane lies ahead of it.
 bool leads_to_us(const EgoPath& ego_path, const LanePath& path, float& start_s_m) {
@@ -63,7 +49,7 @@ float interaction_time_s(const Scene& scene, const Agent& agent) {
   for (const EgoPath& ego_path : scene.ego_paths) {
     const float handicap_s = ego_path.manoeuvre == Manoeuvre::kKeep ? 0.0F : kOtherWayS;
     float s_m = 0.0F;
-    if (place_on(ego_path, agent, s_m)) {
+    if (arc_length_on(ego_path.path, agent, s_m)) {
       const float headway = headway_s(s_m - ego_path.frenet.s_m, ego_mps, agent.track.speed_mps);
       time_s = min(time_s, headway + handicap_s);
     }

@@ -1,0 +1,157 @@
+#include "algo/satp/predictor.hpp"
+
+#include "algo/core/math.hpp"
+#include "algo/satp/way_motion.hpp"
+
+namespace s4tp {
+namespace {
+
+constexpr float kZoneMarginS = 0.5F;
+constexpr float kZoneMarginM = 1.0F;
+constexpr float kCertain = 0.95F;
+
+// Straight on, or on the arc it drives.
+void place_on_arc(const Track& track, float lead_s, Mode& mode) {
+  Pose pose = track.centre;
+  const auto advance = [&](float seconds) {
+    const float half_turn_rad = 0.5F * track.yaw_rate_radps * seconds;
+    pose.heading_rad = wrap_angle(pose.heading_rad + half_turn_rad);
+    pose = shift_ahead(pose, track.speed_mps * seconds);
+    pose.heading_rad = wrap_angle(pose.heading_rad + half_turn_rad);
+  };
+  advance(lead_s);
+  for (Pose& step : mode.steps) {
+    advance(kStepS);
+    step = pose;
+  }
+}
+
+// Chance that the driver brakes for us at a crossing, by the braking it takes: 1 up to `easy`, 0 from `hard`.
+float willingness(float braking_mps2, float easy, float hard) {
+  return clamp((hard - braking_mps2) / (hard - easy), 0.0F, 1.0F);
+}
+
+// Whether the driver lets us pass somewhere along its way, and where it then waits.
+float yielding(const EgoMotion& ego, const Way& way, const WayMotion& undisturbed, Hold& hold) {
+  float chance = 0.0F;
+  for (const Crossing& crossing : way.crossings) {
+    const Passage ours = ego.passage(crossing);
+    if (ours.entry_s > ours.exit_s) continue;
+    const float their_entry_s = time_at(way, undisturbed, crossing.entry_s_m);
+    const float their_exit_s = time_at(way, undisturbed, crossing.exit_s_m);
+    const bool meet =
+        ours.entry_s < their_exit_s + kZoneMarginS && their_entry_s < ours.exit_s + kZoneMarginS;
+    const float room_m = crossing.entry_s_m - kZoneMarginM - way.start_s_m;
+    if (!meet || room_m <= 0.0F) continue;
+    const float braking_mps2 = 0.5F * square(way.speed_mps) / max(room_m, 0.3F);
+    const bool we_first = ours.entry_s < their_entry_s;
+    float here = 0.0F;
+    if (ego.inside(crossing) || crossing.priority == Priority::kFirstYields) {
+      here = willingness(braking_mps2, 3.0F, 7.0F);
+    } else if (ego.conditioned() && we_first) {
+      const bool has_priority = crossing.priority == Priority::kFirstHasPriority;
+      here =
+          has_priority ? 0.6F * willingness(braking_mps2, 1.5F, 4.0F) : willingness(braking_mps2, 2.0F, 5.0F);
+    }
+    if (here <= chance) continue;
+    chance = here;
+    hold = {way.start_s_m + room_m, ours.exit_s};
+  }
+  return chance;
+}
+
+void likeliest_first(AgentPrediction& futures) {
+  int best = 0;
+  for (int i = 1; i < futures.modes.size(); ++i) {
+    if (futures.modes[i].probability > futures.modes[best].probability) best = i;
+  }
+  if (best == 0) return;
+  const Mode first = futures.modes[0];
+  futures.modes[0] = futures.modes[best];
+  futures.modes[best] = first;
+}
+
+}  // namespace
+
+void Predictor::encode(const Scene& scene, const Parameters& parameters, std::uint32_t start_ms) {
+  scene_ = &scene;
+  parameters_ = &parameters;
+  const std::int32_t lead_ms = static_cast<std::int32_t>(start_ms - scene.time_ms);
+  lead_s_ = clamp(1e-3F * static_cast<float>(lead_ms), 0.0F, 1.0F);
+  work_ = 0;
+  for (int i = 0; i < scene.watched; ++i) {
+    for (int k = 0; k < scene.agents[i].paths.size(); ++k) ways_[i][k] = read_way(scene, i, k, lead_s_);
+  }
+}
+
+void Predictor::decode(const Trajectory* plan, PredictionSet& prediction) const {
+  S4TP_ASSERT(scene_ != nullptr);
+  prediction.conditioned = plan != nullptr;
+  prediction.agents.clear();
+  const EgoMotion ego(*scene_, *parameters_, lead_s_, plan);
+  for (int i = 0; i < scene_->watched; ++i) {
+    const Agent& agent = scene_->agents[i];
+    AgentPrediction futures;
+    futures.agent = static_cast<std::uint8_t>(i);
+    const int paths = agent.paths.size();
+    int room = kMaxModes - paths;  // for second futures along the same path
+    Mode mode;
+    if (paths == 0) {
+      mode.probability = 1.0F;
+      place_on_arc(agent.track, lead_s_, mode);
+      (void)futures.modes.push(mode);
+      work_ += kHorizonSteps;
+    }
+    for (int k = 0; k < paths; ++k) {
+      const Way& way = ways_[i][k];
+      const EgoOnPath on_path = ego.on_path(agent.paths[k], agent.track);
+      WayMotion motion;
+      drive(way, agent.track, on_path, Hold{}, motion);
+      work_ += kHorizonSteps;
+      Hold hold;
+      float yields = yielding(ego, way, motion, hold);
+      const bool both = room > 0 && yields > 1.0F - kCertain && yields < kCertain;
+      if (!both) yields = yields >= 0.5F ? 1.0F : 0.0F;
+      if (yields < 1.0F) {
+        mode.probability = agent.path_probability[k] * (1.0F - yields);
+        mode.yields = false;
+        place(*scene_->map, agent.paths[k], agent.frenet[k], agent.track, motion, mode);
+        (void)futures.modes.push(mode);
+      }
+      if (yields > 0.0F) {
+        drive(way, agent.track, on_path, hold, motion);
+        work_ += kHorizonSteps;
+        mode.probability = agent.path_probability[k] * yields;
+        mode.yields = true;
+        place(*scene_->map, agent.paths[k], agent.frenet[k], agent.track, motion, mode);
+        (void)futures.modes.push(mode);
+      }
+      if (both) --room;
+    }
+    likeliest_first(futures);
+    (void)prediction.agents.push(futures);
+  }
+}
+
+void Predictor::keep_going(KinematicSet& prediction) const {
+  S4TP_ASSERT(scene_ != nullptr);
+  prediction.agents.clear();
+  for (const Agent& agent : scene_->agents) {
+    Mode mode;
+    mode.probability = 1.0F;
+    if (agent.paths.empty()) {
+      place_on_arc(agent.track, lead_s_, mode);
+    } else {
+      WayMotion motion;
+      for (int i = 0; i < kHorizonSteps; ++i) {
+        const float time_s = lead_s_ + kStepS * static_cast<float>(i + 1);
+        motion.s_m[i] = agent.frenet[0].s_m + agent.track.speed_mps * time_s;
+      }
+      place(*scene_->map, agent.paths[0], agent.frenet[0], agent.track, motion, mode);
+    }
+    (void)prediction.agents.push(mode);
+    work_ += kHorizonSteps;
+  }
+}
+
+}  // namespace s4tp

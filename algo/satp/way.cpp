@@ -1,0 +1,176 @@
+#include "algo/satp/way.hpp"
+
+#include "algo/core/math.hpp"
+#include "algo/satp/car_following.hpp"
+#include "algo/scene/agent_paths.hpp"
+#include "algo/scene/conflict_view.hpp"
+
+namespace s4tp {
+namespace {
+
+constexpr float kLateralMps2 = 2.5F;   // what sets the speed in turns
+constexpr float kSlowDownMps2 = 2.0F;  // on the way to them
+constexpr float kSlowAheadM = 60.0F;
+constexpr float kStartingMps = 6.0F;  // below this a vehicle is on its way to the limit
+constexpr float kStandingMps = 0.5F;
+constexpr float kUnlikely = 0.2F;         // ways of others less likely than this make nobody wait
+constexpr float kZoneMarginM = 1.0F;      // how far before a zone a vehicle waits
+constexpr float kZoneMarginS = 1.0F;      // between others leaving and entering
+constexpr float kFirmBrakingMps2 = 4.0F;  // who would have to brake harder goes through
+constexpr float kLongestWaitS = 6.0F;
+constexpr float kUsualMps = 4.0F;  // arrival times are taken at no less than this speed
+constexpr int kReadZones = 6;
+
+// Speed it wants on an open road: what it has, unless it is only starting or gaining speed.
+float desired_speed(const Track& track, float limit_mps) {
+  const bool gaining = track.speed_mps < kStartingMps || track.acceleration_mps2 > 0.4F;
+  const float wanted_mps = gaining ? limit_mps : min(limit_mps, track.speed_mps + 1.0F);
+  return max(wanted_mps, track.speed_mps);
+}
+
+float turn_speed(const Lane& lane, float length_m) {
+  if (lane.point_count < 3) return lane.speed_limit_mps;
+  const Point first = lane.points[1] - lane.points[0];
+  const Point last = lane.points[lane.point_count - 1] - lane.points[lane.point_count - 2];
+  const float turn_rad = abs(atan2(cross(first, last), dot(first, last)));
+  if (turn_rad < 0.1F) return lane.speed_limit_mps;
+  // The chords at the ends stand for all but half a chord each.
+  const float curvature_1pm = turn_rad / max(length_m - 0.5F * (norm(first) + norm(last)), 1.0F);
+  return min(lane.speed_limit_mps, sqrt(kLateralMps2 / curvature_1pm));
+}
+
+void read_slow_stretch(const LaneMap& map, const LanePath& path, Way& way) {
+  way.slow_mps = way.desired_mps;
+  float most_binding_mps = 1e3F;
+  for (int i = 0; i < path.lanes.size(); ++i) {
+    const float from_s_m = path.lanes[i].start_s_m;
+    const float to_s_m = i + 1 < path.lanes.size() ? path.lanes[i + 1].start_s_m : path.length_m;
+    if (to_s_m < way.start_s_m) continue;
+    if (from_s_m > way.start_s_m + kSlowAheadM) break;
+    const float speed_mps = max(turn_speed(map.lanes[path.lanes[i].lane], to_s_m - from_s_m), 2.0F);
+    if (speed_mps >= way.desired_mps) continue;
+    const float distance_m = max(from_s_m - way.start_s_m, 0.0F);
+    const float now_mps = sqrt(square(speed_mps) + 2.0F * kSlowDownMps2 * distance_m);
+    if (now_mps >= most_binding_mps) continue;
+    most_binding_mps = now_mps;
+    way.slow_from_s_m = from_s_m;
+    way.slow_to_s_m = to_s_m;
+    way.slow_mps = speed_mps;
+  }
+}
+
+void read_leader(const Scene& scene, int index, const LanePath& path, float s_m, float lead_s, Way& way) {
+  const Agent& agent = scene.agents[index];
+  float nearest_m = 1e6F;
+  for (int other = 0; other < scene.agents.size(); ++other) {
+    if (other == index) continue;
+    const Agent& ahead = scene.agents[other];
+    float other_s_m = 0.0F;
+    if (!arc_length_on(path, ahead, other_s_m)) continue;
+    const float gap_m = other_s_m - s_m - 0.5F * (agent.track.length_m + ahead.track.length_m);
+    if (other_s_m <= s_m || gap_m >= nearest_m) continue;
+    nearest_m = gap_m;
+    way.follows = true;
+    way.leader_mps = ahead.track.speed_mps;
+    way.leader_rear_s_m = other_s_m - 0.5F * ahead.track.length_m + ahead.track.speed_mps * lead_s;
+    way.headway_s = kept_headway_s(gap_m, agent.track.speed_mps);
+  }
+}
+
+// Until when other vehicles are in the way at a zone it has to give way at; 0: nobody comes.
+float busy_until_s(const Scene& scene, int index, const ConflictView& view, float in_s, float out_s) {
+  float until_s = 0.0F;
+  for (int other = 0; other < scene.agents.size(); ++other) {
+    if (other == index) continue;
+    const Agent& agent = scene.agents[other];
+    const float speed_mps = agent.track.speed_mps;
+    for (int k = 0; k < agent.paths.size(); ++k) {
+      if (agent.path_probability[k] < kUnlikely) continue;
+      for (const PathLane& part : agent.paths[k].lanes) {
+        if (part.lane != view.other) continue;
+        const float to_entry_m = part.start_s_m + view.other_entry_m - agent.frenet[k].s_m;
+        const float to_exit_m = part.start_s_m + view.other_exit_m - agent.frenet[k].s_m;
+        if (to_exit_m < 0.0F || (speed_mps < kStandingMps && to_entry_m > 0.0F)) break;
+        const float there_s = max(to_entry_m, 0.0F) / max(speed_mps, 1.0F);
+        const float gone_s = to_exit_m / max(speed_mps, 1.0F);
+        if (there_s < out_s + kZoneMarginS && gone_s > in_s) until_s = max(until_s, gone_s);
+        break;
+      }
+    }
+  }
+  return min(until_s, kLongestWaitS);
+}
+
+void add_crossing(const ConflictView& view, float lane_start_s_m, Way& way) {
+  const Crossing crossing{view.other,
+                          view.priority,
+                          lane_start_s_m + view.own_entry_m,
+                          lane_start_s_m + view.own_exit_m,
+                          view.other_entry_m,
+                          view.other_exit_m};
+  if (way.crossings.full()) {
+    if (crossing.entry_s_m >= way.crossings[kMaxCrossings - 1].entry_s_m) return;
+    way.crossings.truncate(kMaxCrossings - 1);
+  }
+  int place = way.crossings.size();
+  (void)way.crossings.push(crossing);
+  for (; place > 0 && crossing.entry_s_m < way.crossings[place - 1].entry_s_m; --place) {
+    way.crossings[place] = way.crossings[place - 1];
+  }
+  way.crossings[place] = crossing;
+}
+
+void read_zones(const Scene& scene, int index, const LanePath& path, Way& way) {
+  std::int8_t place[kMaxLanes];
+  for (std::int8_t& entry : place) entry = -1;
+  for (int i = 0; i < path.lanes.size(); ++i) place[path.lanes[i].lane] = static_cast<std::int8_t>(i);
+  bool ours[kMaxLanes] = {};
+  for (const EgoPath& ego_path : scene.ego_paths) {
+    for (const PathLane& part : ego_path.path.lanes) ours[part.lane] = true;
+  }
+
+  int waits_read = 0;
+  for (const Conflict& conflict : scene.map->conflicts) {
+    if (!sound(conflict)) continue;
+    const bool from_second = place[conflict.second] >= 0;
+    if ((place[conflict.first] >= 0) == from_second) continue;
+    const ConflictView view = view_from(conflict, from_second);
+    const float lane_start_s_m = path.lanes[place[view.own]].start_s_m;
+    const float to_entry_m = lane_start_s_m + view.own_entry_m - way.start_s_m;
+    const float to_exit_m = lane_start_s_m + view.own_exit_m - way.start_s_m;
+    if (to_exit_m < 0.0F) continue;
+    if (ours[view.other]) add_crossing(view, lane_start_s_m, way);
+    if (view.priority == Priority::kFirstHasPriority || waits_read >= kReadZones) continue;
+    const float room_m = to_entry_m - kZoneMarginM;
+    if (room_m < 0.0F || square(way.speed_mps) > 2.0F * kFirmBrakingMps2 * room_m) continue;
+    const float pace_mps = max(way.speed_mps, kUsualMps);
+    const float until_s = busy_until_s(scene, index, view, to_entry_m / pace_mps, to_exit_m / pace_mps);
+    ++waits_read;
+    if (until_s <= 0.0F) continue;
+    const float hold_s_m = way.start_s_m + room_m;
+    if (way.hold_until_s <= 0.0F || hold_s_m < way.hold_s_m) way.hold_s_m = hold_s_m;
+    way.hold_until_s = max(way.hold_until_s, until_s);
+  }
+}
+
+}  // namespace
+
+Way read_way(const Scene& scene, int index, int path_index, float lead_s) {
+  const Agent& agent = scene.agents[index];
+  const LanePath& path = agent.paths[path_index];
+  const float s_m = agent.frenet[path_index].s_m;
+  Way way;
+  way.speed_mps = agent.track.speed_mps;
+  way.start_s_m = s_m + way.speed_mps * lead_s;
+  const LaneIndex first = agent.lane != kNoLaneIndex ? agent.lane : path.lanes[0].lane;
+  way.desired_mps = desired_speed(agent.track, scene.map->lanes[first].speed_limit_mps);
+  read_slow_stretch(*scene.map, path, way);
+  read_leader(scene, index, path, s_m, lead_s, way);
+  read_zones(scene, index, path, way);
+  // Who stands though nothing is in its way has a reason we do not see.
+  const bool standing = way.speed_mps < kStandingMps && agent.track.acceleration_mps2 < 0.2F;
+  if (standing && !way.follows && way.hold_until_s <= 0.0F && way.crossings.empty()) way.desired_mps = 0.0F;
+  return way;
+}
+
+}  // namespace s4tp

@@ -1,0 +1,102 @@
+#include "algo/satp/way_motion.hpp"
+
+#include "algo/core/math.hpp"
+#include "algo/satp/car_following.hpp"
+
+namespace s4tp {
+namespace {
+
+constexpr int kStepsPerUpdate = 2;  // drivers are updated every 0.2 s
+constexpr float kUpdateS = kStepsPerUpdate * kStepS;
+constexpr float kHardestMps2 = 6.0F;
+constexpr float kSlowDownMps2 = 2.0F;
+constexpr float kReturnS = 2.5F;  // to the lane centre
+constexpr float kReturnM = 10.0F;
+constexpr float kSlopeMax = 0.3F;
+static_assert(kHorizonSteps % kStepsPerUpdate == 0, "updates span the horizon");
+
+float desired_at(const Way& way, float s_m) {
+  if (s_m >= way.slow_to_s_m) return way.desired_mps;
+  if (s_m >= way.slow_from_s_m) return min(way.desired_mps, way.slow_mps);
+  return min(way.desired_mps, sqrt(square(way.slow_mps) + 2.0F * kSlowDownMps2 * (way.slow_from_s_m - s_m)));
+}
+
+float hold_braking(const Hold& hold, float time_s, float s_m, float speed_mps) {
+  if (time_s >= hold.until_s || s_m > hold.s_m + 0.5F) return 0.0F;
+  return leader_braking(speed_mps, hold.s_m - s_m + kStandstillGapM, 0.0F, 0.5F);
+}
+
+float ego_braking(const EgoOnPath& ego, float time_s, float s_m, float speed_mps, float half_length_m) {
+  if (!ego.ever) return 0.0F;
+  const float knot = time_s / kEgoKnotS;
+  const int index = to_int(floor(knot), 0, kEgoKnots - 2);
+  if (!ego.present[index]) return 0.0F;
+  const float part = clamp(knot - static_cast<float>(index), 0.0F, 1.0F);
+  if (lerp(ego.centre_s_m[index], ego.centre_s_m[index + 1], part) <= s_m) return 0.0F;
+  const float rear_s_m = lerp(ego.rear_s_m[index], ego.rear_s_m[index + 1], part);
+  const float ego_mps = lerp(ego.speed_mps[index], ego.speed_mps[index + 1], part);
+  float headway_s = kUsualHeadwayS;
+  if (ego.from_start) headway_s = kept_headway_s(ego.rear_s_m[0] - s_m - half_length_m, speed_mps);
+  return leader_braking(speed_mps, rear_s_m - s_m - half_length_m, ego_mps, headway_s);
+}
+
+}  // namespace
+
+void drive(const Way& way, const Track& track, const EgoOnPath& ego, const Hold& hold, WayMotion& motion) {
+  const float half_length_m = 0.5F * track.length_m;
+  const Hold own_hold{way.hold_s_m, way.hold_until_s};
+  float s_m = way.start_s_m;
+  float speed_mps = way.speed_mps;
+  for (int step = 0; step < kHorizonSteps; step += kStepsPerUpdate) {
+    const float time_s = kStepS * static_cast<float>(step);
+    float braking =
+        max(hold_braking(own_hold, time_s, s_m, speed_mps), hold_braking(hold, time_s, s_m, speed_mps));
+    if (way.follows) {
+      const float gap_m = way.leader_rear_s_m + way.leader_mps * time_s - s_m - half_length_m;
+      braking = max(braking, leader_braking(speed_mps, gap_m, way.leader_mps, way.headway_s));
+    }
+    braking = max(braking, ego_braking(ego, time_s, s_m, speed_mps, half_length_m));
+    const float acceleration =
+        max(free_acceleration(speed_mps, desired_at(way, s_m)) - braking, -kHardestMps2);
+    for (int part = 0; part < kStepsPerUpdate; ++part) {
+      const float next_mps = max(speed_mps + kStepS * acceleration, 0.0F);
+      s_m += 0.5F * kStepS * (speed_mps + next_mps);
+      speed_mps = next_mps;
+      motion.s_m[step + part] = s_m;
+    }
+  }
+  motion.end_mps = speed_mps;
+}
+
+float time_at(const Way& way, const WayMotion& motion, float goal_s_m) {
+  if (way.start_s_m >= goal_s_m) return 0.0F;
+  float before_s_m = way.start_s_m;
+  for (int i = 0; i < kHorizonSteps; ++i) {
+    if (motion.s_m[i] >= goal_s_m) {
+      const float part = (goal_s_m - before_s_m) / max(motion.s_m[i] - before_s_m, 1e-3F);
+      return kStepS * (static_cast<float>(i) + clamp(part, 0.0F, 1.0F));
+    }
+    before_s_m = motion.s_m[i];
+  }
+  return kStepS * kHorizonSteps + (goal_s_m - before_s_m) / max(motion.end_mps, 0.5F);
+}
+
+void place(const LaneMap& map, const LanePath& path, const Frenet& start, const Track& track,
+           const WayMotion& motion, Mode& mode) {
+  const float turn_rad =
+      clamp(wrap_angle(track.centre.heading_rad - start.heading_rad), -kSlopeMax, kSlopeMax);
+  const float span_m = max(track.speed_mps * kReturnS, kReturnM);
+  PathCursor cursor(map, path);
+  for (int i = 0; i < kHorizonSteps; ++i) {
+    const PathPoint centre = cursor.at(motion.s_m[i]);
+    // Cubic from the present offset and slope to the centre line.
+    const float u = clamp((motion.s_m[i] - start.s_m) / span_m, 0.0F, 1.0F);
+    const float rest = 1.0F - u;
+    const float d_m = square(rest) * (start.d_m * (1.0F + 2.0F * u) + turn_rad * span_m * u);
+    const float slope = rest * (turn_rad * (1.0F - 3.0F * u) - 6.0F * u * start.d_m / span_m);
+    const Point point = offset_point(centre.pose, 0.0F, d_m);
+    mode.steps[i] = {point.x_m, point.y_m, wrap_angle(centre.pose.heading_rad + clamp(slope, -1.0F, 1.0F))};
+  }
+}
+
+}  // namespace s4tp
