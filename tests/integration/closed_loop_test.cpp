@@ -1,0 +1,109 @@
+// The whole loop on the in-process bus: world, frames, ECU, planner, frames, vehicle.
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "sim_host/campaign/campaign.hpp"
+#include "sim_host/campaign/driver.hpp"
+#include "sim_host/campaign/episode.hpp"
+
+namespace s4tp::campaign {
+namespace {
+
+world::Scenario shipped(const std::string& name) {
+  return world::load_scenario(std::filesystem::path(S4TP_SOURCE_DIR) / "sim_host" / "scenarios" / name);
+}
+
+EpisodeResult drive(const std::string& scenario, std::uint64_t seed, const std::filesystem::path& log = {}) {
+  EpisodeOptions options;
+  options.seed = seed;
+  options.trace = true;
+  if (!log.empty()) options.log = log;
+  return run_episode(shipped(scenario), options);
+}
+
+std::string content(const std::filesystem::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file).rdbuf();
+  return text.str();
+}
+
+// An empty straight road would be too easy to fail: with traffic, seed 1 of cruise reaches its goal.
+TEST(ClosedLoop, CruiseReachesTheGoal) {
+  const EpisodeResult result = drive("cruise", 1);
+  EXPECT_EQ(result.recording.ending, world::Ending::kGoal);
+  EXPECT_TRUE(result.recording.collisions.empty());
+}
+
+// The ECU is engaged at take-over and drives all the way: no other mode than driving once it has begun.
+TEST(ClosedLoop, DrivesFromTakeOverToTheGoal) {
+  const EpisodeResult result = drive("cruise", 2);
+  ASSERT_FALSE(result.trace->modes.empty());
+  EXPECT_EQ(result.trace->modes.back().to, ecu::Mode::kDriving);
+  EXPECT_EQ(result.trace->controls.back().faults, 0);
+}
+
+// The same seed gives the same bus log, byte for byte; another seed another one.
+TEST(ClosedLoop, IsDeterministicInItsSeed) {
+  const auto folder = std::filesystem::temp_directory_path();
+  (void)drive("left_turn", 3, folder / "s4tp_loop_a.log");
+  (void)drive("left_turn", 3, folder / "s4tp_loop_b.log");
+  (void)drive("left_turn", 4, folder / "s4tp_loop_c.log");
+  EXPECT_EQ(content(folder / "s4tp_loop_a.log"), content(folder / "s4tp_loop_b.log"));
+  EXPECT_NE(content(folder / "s4tp_loop_a.log"), content(folder / "s4tp_loop_c.log"));
+}
+
+// Perception silent for good from 1 s on: tracks are stale after 0.3 s, lost after 1 s, and the car comes to
+// rest without ever leaving its lane.
+TEST(ClosedLoop, StopsWhenPerceptionDies) {
+  EpisodeOptions options;
+  options.seed = 5;
+  options.trace = true;
+  options.passes = [](double time_s, const wire::Frame& frame) {
+    return time_s < 1.0 || frame.id < 0x14 || frame.id > 0x16;
+  };
+  const EpisodeResult result = run_episode(shipped("cruise"), options);
+  bool degraded = false;
+  bool minimum_risk = false;
+  for (const ecu::ModeRecord& change : result.trace->modes) {
+    degraded = degraded || change.to == ecu::Mode::kDegraded;
+    minimum_risk = minimum_risk || change.to == ecu::Mode::kMinimumRisk;
+  }
+  EXPECT_TRUE(degraded);
+  EXPECT_TRUE(minimum_risk);
+  EXPECT_LT(result.recording.snapshots.back().ego.speed_mps, 0.1);
+  EXPECT_NE(result.recording.ending, world::Ending::kOffRoad);
+}
+
+// Rows come in the order planner, scenario, seed, whatever the number of threads.
+TEST(Campaign, RowsDoNotDependOnThreads) {
+  CampaignOptions options;
+  options.planners = {"constant_speed"};
+  options.episodes = 3;
+  const std::vector<world::Scenario> scenarios{shipped("overtake")};
+  options.threads = 1;
+  const auto one = run_campaign(scenarios, options);
+  options.threads = 3;
+  const auto three = run_campaign(scenarios, options);
+  ASSERT_EQ(one.size(), three.size());
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    EXPECT_EQ(one[i].metrics.seed, three[i].metrics.seed);
+    EXPECT_EQ(one[i].metrics.duration_s, three[i].metrics.duration_s);
+  }
+}
+
+// An unknown planner is refused with the list of those there are.
+TEST(Driver, NamesThePlannersThereAre) {
+  try {
+    (void)make_driver("autopilot", Parameters{}, nullptr, nullptr);
+    FAIL();
+  } catch (const std::invalid_argument& refused) {
+    EXPECT_NE(std::string(refused.what()).find("s4tp, constant_speed, blind"), std::string::npos)
+        << refused.what();
+  }
+}
+
+}  // namespace
+}  // namespace s4tp::campaign

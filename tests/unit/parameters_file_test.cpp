@@ -1,0 +1,55 @@
+// Parameters from a TOML file: what is taken, and what a user is told when it is not.
+
+#include "sim_host/campaign/parameters_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <string>
+
+namespace s4tp::campaign {
+namespace {
+
+/// Loads `text` as a file; the message of the refusal goes to `error`.
+Parameters load(const std::string& text, std::string* error = nullptr) {
+  const std::filesystem::path file =
+      std::filesystem::temp_directory_path() / "s4tp_parameters_file_test.toml";
+  std::ofstream(file) << text;
+  try {
+    return load_parameters(file);
+  } catch (const std::runtime_error& refused) {
+    if (error != nullptr) *error = refused.what();
+  }
+  return {};
+}
+
+// Named fields are taken, integers too; the others keep their defaults.
+TEST(ParametersFile, TakesNamedFields) {
+  const Parameters parameters = load("[comfort]\nheadway_s = 2\n[risk]\nweight_social = 0.25\n");
+  EXPECT_EQ(parameters.comfort.headway_s, 2.0F);
+  EXPECT_EQ(parameters.risk.weight_social, 0.25F);
+  EXPECT_EQ(parameters.vehicle.wheelbase_m, Parameters{}.vehicle.wheelbase_m);
+}
+
+// Each kind of mistake is answered with the file, the field and what is accepted.
+TEST(ParametersFile, NamesTheMistake) {
+  const struct {
+    const char* text;
+    const char* told;
+  } cases[] = {
+      {"[comfort]\nhedway_s = 2.0\n", "no parameter 'comfort.hedway_s'"},
+      {"[comfort]\nheadway_s = \"two\"\n", "comfort.headway_s is not a number"},
+      {"[comfort]\nheadway_s = 99.0\n", "comfort.headway_s = 99.0"},
+      {"headway_s = 2.0\n", "'headway_s' is not a group"},
+      {"[comfort\n", "s4tp_parameters_file_test.toml"},
+  };
+  for (const auto& one : cases) {
+    std::string error;
+    (void)load(one.text, &error);
+    EXPECT_NE(error.find(one.told), std::string::npos) << one.text << " gave: " << error;
+    EXPECT_NE(error.find("s4tp_parameters_file_test.toml"), std::string::npos) << error;
+  }
+}
+
+}  // namespace
+}  // namespace s4tp::campaign
