@@ -58,7 +58,9 @@ EpisodeResult run_episode(const world::Scenario& scenario, const EpisodeOptions&
   result.trace = std::make_unique<Trace>();
   Trace* const trace = options.trace ? result.trace.get() : nullptr;
   const auto driver = make_driver(options.planner, options.parameters, trace, trace);
-  world::World world(scenario, {.seed = options.seed});
+  world::WorldOptions world_options;
+  world_options.seed = options.seed;
+  world::World world(scenario, world_options);
   std::optional<BusLog> log;
   if (options.log) log.emplace(*options.log, options);
 
