@@ -25,8 +25,8 @@ class MapNode {
   /// MAP-002 Lanes that 12 vertices cannot show within 0.03 m, or longer than 250 m, are sent in parts, each
   /// the successor of the one before; all arc lengths are those of the vertices sent.
   ///
-  /// MAP-003 Over 64: the route, then lanes in conflict with it and those leading there, then neighbours, then
-  /// the rest, nearest first; those left out are counted.
+  /// MAP-003 Over 64: the route, then lanes in conflict with it and those leading there, then neighbours,
+  /// then the rest, nearest first; those left out are counted.
   const wire::Map& update(Vec2 position);
 
  private:
