@@ -1,0 +1,205 @@
+// What must hold for the risk of any scene.
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include <cmath>
+#include <memory>
+#include <random>
+
+#include "algo/core/math.hpp"
+#include "algo/sadrf/risk.hpp"
+
+namespace s4tp {
+namespace {
+
+struct World {
+  Scene scene;
+  LaneMap map;
+  PredictionSet prediction;
+  KinematicSet others;
+  Trajectory trajectory;
+  Parameters parameters;
+};
+
+/// A move of the plane: rotation about the origin, then a shift; or a mirroring of left and right.
+struct Move {
+  float angle_rad = 0.0F;
+  Point shift;
+  bool mirrored = false;
+
+  [[nodiscard]] Point operator()(Point point) const {
+    const Point side = {point.x_m, mirrored ? -point.y_m : point.y_m};
+    return offset_point({shift.x_m, shift.y_m, angle_rad}, side.x_m, side.y_m);
+  }
+  [[nodiscard]] Pose operator()(const Pose& pose) const {
+    const Point moved = (*this)(position(pose));
+    return {moved.x_m, moved.y_m, wrap_angle((mirrored ? -pose.heading_rad : pose.heading_rad) + angle_rad)};
+  }
+};
+
+Mode circle(const Pose& start, float speed_mps, float curvature_1pm, float probability) {
+  Mode mode;
+  mode.probability = probability;
+  Pose pose = start;
+  for (Pose& step : mode.steps) {
+    const float half = 0.5F * curvature_1pm * speed_mps * kStepS;
+    pose.heading_rad = wrap_angle(pose.heading_rad + half);
+    pose = shift_ahead(pose, speed_mps * kStepS);
+    pose.heading_rad = wrap_angle(pose.heading_rad + half);
+    step = pose;
+  }
+  return mode;
+}
+
+/// Our car on a circle along a bent road with an opposite lane, up to 8 others around it.
+std::unique_ptr<World> random_world(unsigned seed) {
+  auto world = std::make_unique<World>();
+  std::mt19937 random(seed);
+  const auto draw = [&](float low, float high) {
+    return std::uniform_real_distribution<float>(low, high)(random);
+  };
+  const float speed = draw(0.0F, 14.0F);
+  const float curvature = draw(-1.0F, 1.0F) * std::min(0.15F, 3.0F / (speed * speed + 1.0F));
+  const Mode own = circle({}, speed, curvature, 1.0F);
+  for (int i = 0; i < kTrajectoryPoints; ++i) {
+    TrajectoryPoint& point = world->trajectory.points[i];
+    if (i > 0) point.rear_axle = own.steps[i - 1];
+    point.speed_mps = speed;
+    point.curvature_1pm = curvature;
+  }
+  for (int k = 0; k < 2; ++k) {
+    Lane& lane = world->map.lanes[k];
+    lane.present = true;
+    lane.kind = k == 0 ? LaneKind::kOurs : LaneKind::kOpposite;
+    lane.point_count = 3;
+    const float y = 3.2F * static_cast<float>(k) + draw(-1.0F, 1.0F);
+    lane.points[0] = {-30.0F, y};
+    lane.points[1] = {30.0F, y};
+    lane.points[2] = {90.0F, y + draw(-20.0F, 20.0F)};
+  }
+  const int count = std::uniform_int_distribution<int>(0, 8)(random);
+  for (int i = 0; i < count; ++i) {
+    Agent agent;
+    agent.track.centre = {draw(-40.0F, 60.0F), draw(-8.0F, 8.0F), draw(-3.1F, 3.1F)};
+    agent.track.length_m = draw(3.5F, 12.0F);
+    agent.track.width_m = draw(1.6F, 2.5F);
+    const float its_speed = draw(0.0F, 14.0F);
+    EXPECT_TRUE(world->scene.agents.push(agent));
+    EXPECT_TRUE(world->others.agents.push(circle(agent.track.centre, its_speed, draw(-0.05F, 0.05F), 1.0F)));
+    if (i < 3) {
+      AgentPrediction of;
+      of.agent = static_cast<std::uint8_t>(i);
+      const float first = draw(0.0F, 1.0F);
+      EXPECT_TRUE(of.modes.push(circle(agent.track.centre, its_speed, draw(-0.1F, 0.1F), first)));
+      EXPECT_TRUE(of.modes.push(circle(agent.track.centre, 0.5F * its_speed, 0.0F, 1.0F - first)));
+      EXPECT_TRUE(world->prediction.agents.push(of));
+    }
+  }
+  return world;
+}
+
+std::unique_ptr<World> moved(const World& original, const Move& move) {
+  auto world = std::make_unique<World>(original);
+  for (TrajectoryPoint& point : world->trajectory.points) {
+    point.rear_axle = move(point.rear_axle);
+    if (move.mirrored) point.curvature_1pm = -point.curvature_1pm;
+  }
+  for (Lane& lane : world->map.lanes) {
+    for (Point& point : lane.points) point = move(point);
+  }
+  for (Agent& agent : world->scene.agents) agent.track.centre = move(agent.track.centre);
+  for (Mode& mode : world->others.agents) {
+    for (Pose& step : mode.steps) step = move(step);
+  }
+  for (AgentPrediction& of : world->prediction.agents) {
+    for (Mode& mode : of.modes) {
+      for (Pose& step : mode.steps) step = move(step);
+    }
+  }
+  return world;
+}
+
+RiskProfile exact(const World& world) {
+  DrivableArea area;
+  build_drivable(&world.map, area);
+  RiskProfile profile;
+  exact_risk(world.scene, area, world.prediction, world.others, world.trajectory, world.parameters, profile);
+  return profile;
+}
+
+void expect_same(const RiskProfile& a, const RiskProfile& b) {
+  for (int i = 0; i < kHorizonSteps; ++i) {
+    const auto same = [](float x, float y) { return std::fabs(x - y) <= 0.02F * std::max(x, y) + 5.0F; };
+    RC_ASSERT(same(a.obstacle[i], b.obstacle[i]));
+    RC_ASSERT(same(a.social[i], b.social[i]));
+    RC_ASSERT(same(a.road[i], b.road[i]));
+  }
+}
+
+}  // namespace
+
+// CORE-062: turning and shifting the whole world changes nothing.
+TEST(RiskProperties, InvariantUnderMoves) {
+  EXPECT_TRUE(rc::check([](unsigned seed) {
+    const auto world = random_world(seed);
+    const Move move = {static_cast<float>(seed % 628U) * 0.01F - 3.14F,
+                       {static_cast<float>(seed % 401U) - 200.0F, static_cast<float>(seed % 307U) - 150.0F}};
+    expect_same(exact(*world), exact(*moved(*world, move)));
+  }));
+}
+
+// CORE-062: in the mirror left is right and the risk is the same.
+TEST(RiskProperties, MirroredWorldMirroredRisk) {
+  EXPECT_TRUE(rc::check([](unsigned seed) {
+    const auto world = random_world(seed);
+    Move mirror;
+    mirror.mirrored = true;
+    expect_same(exact(*world), exact(*moved(*world, mirror)));
+  }));
+}
+
+// CORE-062 CORE-063: every part of every step is finite and not negative, and so is the ranking value.
+TEST(RiskProperties, NeverNegative) {
+  EXPECT_TRUE(rc::check([](unsigned seed) {
+    const auto world = random_world(seed);
+    const RiskProfile profile = exact(*world);
+    for (int i = 0; i < kHorizonSteps; ++i) {
+      for (const float part : {profile.obstacle[i], profile.road[i], profile.social[i]}) {
+        RC_ASSERT(is_finite(part) && part >= 0.0F);
+      }
+    }
+    DrivableArea area;
+    build_drivable(&world->map, area);
+    const float rank =
+        rank_risk(world->scene, area, world->prediction, world->others, world->trajectory, world->parameters);
+    RC_ASSERT(is_finite(rank) && rank >= 0.0F);
+  }));
+}
+
+// CORE-062: whoever is 200 m away is neither felt by us nor feels us, wherever he looks.
+TEST(RiskProperties, FarAwayIsNoRisk) {
+  EXPECT_TRUE(rc::check([](unsigned seed) {
+    auto world = random_world(seed);
+    const Move away = {0.0F, {200.0F, -200.0F}};
+    const auto others = moved(*world, away);
+    world->others = others->others;
+    world->prediction = others->prediction;
+    const RiskProfile profile = exact(*world);
+    for (int i = 0; i < kHorizonSteps; ++i) RC_ASSERT(profile.obstacle[i] + profile.social[i] == 0.0F);
+    RC_ASSERT(profile.dominating_agent == 255);
+  }));
+}
+
+// CORE-062: one vehicle more never makes the obstacle part smaller (vehicles cover, they do not cancel).
+TEST(RiskProperties, OneMoreVehicleIsNotLessRisk) {
+  EXPECT_TRUE(rc::check([](unsigned seed) {
+    const auto world = random_world(seed);
+    const RiskProfile all = exact(*world);
+    if (world->scene.agents.size() < 4) return;
+    world->scene.agents.truncate(world->scene.agents.size() - 1);
+    const RiskProfile fewer = exact(*world);
+    for (int i = 0; i < kHorizonSteps; ++i) RC_ASSERT(all.obstacle[i] >= 0.999F * fewer.obstacle[i] - 1.0F);
+  }));
+}
+
+}  // namespace s4tp
