@@ -10,7 +10,7 @@ namespace {
 constexpr std::uint32_t kHalfOfSmallestNormal = 0x00400000U;
 constexpr std::uint32_t kRounding = 0U;
 /// Changes whenever a function of math.hpp gives another bit anywhere on the inputs below.
-constexpr std::uint32_t kFunctionsHash = 0x62F64361U;
+constexpr std::uint32_t kFunctionsHash = 0x842E1660U;
 
 std::uint32_t bits_of(float x) {
   std::uint32_t bits = 0;

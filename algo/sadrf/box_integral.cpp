@@ -32,7 +32,7 @@ float first_moment(const Field& field, float s_m, float e_m) {
 }
 
 float over_line(const Field& field, const Line& line) {
-  constexpr float kSkewed = 0.02F;  // m of s along half the line; below, s counts as constant on it
+  constexpr float kSkewed = 0.1F;  // m of s along half the line; below, s counts as constant on it
   const bool skewed = abs(line.ds) * line.half_m > kSkewed;
   float right_m = -line.half_m;
   float left_m = line.half_m;
@@ -77,7 +77,7 @@ bool out_of_reach(const Field& field, Point box_centre, float box_radius_m) {
   return x_m < -box_radius_m || x_m > field.look_ahead_m + field.lateral_reach_m + box_radius_m;
 }
 
-float field_over_box(const Field& field, const Box& box, BoxLines lines) {
+float field_over_box(const Field& field, const Box& box) {
   const Point offset = position(box.centre) - field.origin;
   const PathCoordinates at =
       path_coordinates(field.curvature_1pm, dot(field.ahead, offset), cross(field.ahead, offset));
@@ -116,20 +116,17 @@ float field_over_box(const Field& field, const Box& box, BoxLines lines) {
   const float half_m = 0.5F * (high_m - low_m);
 
   const float turn = field.curvature_1pm * s_per_m;  // of the tangent, per metre along the steps
-  constexpr float kNodes[2][3] = {{-0.577350269F, 0.577350269F, 0.0F}, {-0.774596669F, 0.0F, 0.774596669F}};
-  constexpr float kWeights[2][3] = {{1.0F, 1.0F, 0.0F}, {0.555555556F, 0.888888889F, 0.555555556F}};
-  const int row = lines == BoxLines::kCoarse ? 0 : 1;
-  const int count = row + 2;
+  constexpr float kNode = 0.577350269F;              // 1 / sqrt(3)
   float sum = 0.0F;
-  for (int i = 0; i < count; ++i) {
-    const float t = middle_m + half_m * kNodes[row][i];
+  for (int side = -1; side <= 1; side += 2) {
+    const float t = middle_m + half_m * kNode * static_cast<float>(side);
     Line line;
     line.s_m = at.s_m + t * (s_per_m + t * turn * left / at.q);
     line.e_m = at.e_m + t * (left - 0.5F * t * turn * along);
     line.ds = -(left - turn * along * t) / at.q;
     line.de = along + turn * left * t;
     line.half_m = half_line_m;
-    if (line.de > 0.1F) sum += kWeights[row][i] * over_line(field, line);
+    if (line.de > 0.1F) sum += over_line(field, line);
   }
   return half_m * sum;
 }

@@ -125,15 +125,21 @@ void add(Interval interval, Intervals& intervals) {
 /// The part of the line station + offset * left that a segment's strip covers.
 Interval across_segment(Point a, Point b, float half_width_m, Point station, Point left, float reach_m) {
   Interval interval = {-reach_m, reach_m};
+  const Interval nothing = {1.0F, 0.0F};
   const Point along = b - a;
+  const Point offset = station - a;
   const float squared = dot(along, along);
   const float length_m = sqrt(squared);
-  const Point offset = station - a;
+  const float join_m = kJoinM + reach_m;
+  const float ahead = dot(along, offset);
+  if (ahead < -join_m * length_m || ahead > squared + join_m * length_m) return nothing;
+  const float aside = cross(along, offset);
+  if (abs(aside) > (half_width_m + reach_m) * length_m) return nothing;
   const float side_m = half_width_m * length_m;
-  constrain(cross(along, offset), cross(along, left), -side_m, side_m, interval);
+  constrain(aside, cross(along, left), -side_m, side_m, interval);
   if (interval.left_m <= interval.right_m) return interval;
   const float join = kJoinM * length_m;
-  constrain(dot(along, offset), dot(along, left), -join, squared + join, interval);
+  constrain(ahead, dot(along, left), -join, squared + join, interval);
   return interval;
 }
 
@@ -190,8 +196,17 @@ void cross_section(const DrivableArea& area, const NearStrips& near, const Pose&
   const Point left = {-ahead.y_m, ahead.x_m};
   Bounds here;
   include(here, at);
-  for (const std::uint8_t index : near) {
-    const DrivableArea::Strip& strip = area.strips[index];
+  const auto all_ours = [&] {
+    return section.ours.size() == 1 && section.ours[0].left_m - section.ours[0].right_m >= 2.0F * reach_m;
+  };
+  for (const DrivableArea::Junction& junction : area.junctions) {
+    if (apart(junction.bounds, here, reach_m) || junction.hull.size() < 3) continue;
+    const Interval covered = across_hull(junction, at, left, reach_m);
+    add(covered, section.ours);
+    add(covered, section.drivable);
+  }
+  for (int k = 0; k < near.size() && !all_ours(); ++k) {
+    const DrivableArea::Strip& strip = area.strips[near[k]];
     if (apart(strip.bounds, here, reach_m)) continue;
     const Lane& lane = area.map->lanes[strip.lane];
     for (int i = 0; i + 1 < lane.point_count; ++i) {
@@ -200,12 +215,6 @@ void cross_section(const DrivableArea& area, const NearStrips& near, const Pose&
       if (strip.ours) add(covered, section.ours);
       add(covered, section.drivable);
     }
-  }
-  for (const DrivableArea::Junction& junction : area.junctions) {
-    if (apart(junction.bounds, here, reach_m) || junction.hull.size() < 3) continue;
-    const Interval covered = across_hull(junction, at, left, reach_m);
-    add(covered, section.ours);
-    add(covered, section.drivable);
   }
 }
 

@@ -3,21 +3,31 @@
 #include "algo/core/math.hpp"
 
 namespace s4tp {
+namespace {
+
+constexpr int kWindow = 3;  // steps
+static_assert(kMotionWindowS == static_cast<float>(kWindow) * kStepS);
+
+int first_of_window(int step) {
+  return step >= kWindow ? step - kWindow : 0;
+}
+
+}  // namespace
+
+Point moved_at(const Mode& mode, int step) {
+  const int first = first_of_window(step);
+  return position(mode.steps[first + kWindow]) - position(mode.steps[first]);
+}
 
 Motion motion_at(const Mode& mode, int step) {
-  constexpr int kWindow = 3;
   constexpr float kShortestM = 0.5F;
   constexpr float kSharpest_1pm = 0.2F;
-  const int first = step >= kWindow ? step - kWindow : 0;
-  const Pose& from = mode.steps[first];
-  const Pose& to = mode.steps[first + kWindow];
-  Motion motion;
-  motion.moved = position(to) - position(from);
-  const float moved_m = norm(motion.moved);
-  motion.speed_mps = moved_m / (static_cast<float>(kWindow) * kStepS);
-  motion.curvature_1pm = clamp(wrap_angle(to.heading_rad - from.heading_rad) / max(moved_m, kShortestM),
-                               -kSharpest_1pm, kSharpest_1pm);
-  return motion;
+  const int first = first_of_window(step);
+  const float turned_rad =
+      wrap_angle(mode.steps[first + kWindow].heading_rad - mode.steps[first].heading_rad);
+  const float moved_m = norm(moved_at(mode, step));
+  return {moved_m / kMotionWindowS,
+          clamp(turned_rad / max(moved_m, kShortestM), -kSharpest_1pm, kSharpest_1pm)};
 }
 
 DriverState driver_of(const Pose& centre, const Motion& motion, float length_m) {

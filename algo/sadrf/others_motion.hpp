@@ -6,14 +6,17 @@
 
 namespace s4tp {
 
+inline constexpr float kMotionWindowS = 0.3F;
+
 /// Speed and path curvature over the 0.3 s up to a step (the first three steps: over the first 0.3 s).
 struct Motion {
-  Point moved;  ///< over 0.3 s
   float speed_mps = 0.0F;
   float curvature_1pm = 0.0F;  ///< |kappa| <= 0.2
 };
 
-/// \param step  index into mode.steps
+/// How far the box centre moves in those 0.3 s. \param step  index into mode.steps
+[[nodiscard]] Point moved_at(const Mode& mode, int step);
+
 [[nodiscard]] Motion motion_at(const Mode& mode, int step);
 
 /// The driver of a vehicle of `length_m`: wheelbase 0.6 x length, rear axle 0.3 x length behind the box

@@ -24,6 +24,7 @@ using Futures = BoundedVector<Future, kMaxFutures>;
 /// A vehicle's box where our field is felt, with what it costs.
 struct Felt {
   Box box;
+  Point ahead;  ///< unit vector of the box's heading
   float probability = 0.0F;
   float risk = 0.0F;  ///< of the whole box, as if it were alone
   int agent = 0;
@@ -74,16 +75,17 @@ Futures likeliest(const Futures& modes) {
   return futures;
 }
 
-bool inside(const Box& box, Point point) {
-  const Point local = to_local(box.centre, point);
-  return abs(local.x_m) <= 0.5F * box.length_m && abs(local.y_m) <= 0.5F * box.width_m;
+bool inside(const Felt& felt, Point point) {
+  const Point offset = point - position(felt.box.centre);
+  return abs(dot(felt.ahead, offset)) <= 0.5F * felt.box.length_m &&
+         abs(cross(felt.ahead, offset)) <= 0.5F * felt.box.width_m;
 }
 
 /// Sum over the modes of one vehicle that stand at `point`.
 float presence(const FeltBoxes& felt, int agent, Point point) {
   float sum = 0.0F;
   for (const Felt& other : felt) {
-    if (other.agent == agent && inside(other.box, point)) sum += other.probability;
+    if (other.agent == agent && inside(other, point)) sum += other.probability;
   }
   return sum;
 }
@@ -108,7 +110,9 @@ float own_part(const Field& field, const FeltBoxes& felt, int index) {
   for (int i = 0; i < kSamples * kSamples; ++i) {
     const float ahead = (static_cast<float>(i % kSamples) + 0.5F) / static_cast<float>(kSamples) - 0.5F;
     const float left = (static_cast<float>(i / kSamples) + 0.5F) / static_cast<float>(kSamples) - 0.5F;
-    const Point point = offset_point(one.box.centre, ahead * one.box.length_m, left * one.box.width_m);
+    const Point to_left = {-one.ahead.y_m, one.ahead.x_m};
+    const Point point = position(one.box.centre) + (ahead * one.box.length_m) * one.ahead +
+                        (left * one.box.width_m) * to_left;
     const float weight = field_at(field, point);
     if (weight <= 0.0F) continue;
     float before = 0.0F;
@@ -126,7 +130,7 @@ float own_part(const Field& field, const FeltBoxes& felt, int index) {
 }
 
 /// R_ego of the vehicles: our field over their boxes.
-void add_obstacles(const Scene& scene, const Futures& futures, const Field& field, int step, BoxLines lines,
+void add_obstacles(const Scene& scene, const Futures& futures, const Field& field, int step,
                    const Parameters& parameters, StepRisk& risk) {
   FeltBoxes felt;
   for (const Future& future : futures) {
@@ -135,44 +139,57 @@ void add_obstacles(const Scene& scene, const Futures& futures, const Field& fiel
     if (out_of_reach(field, position(centre), radius(track))) continue;
     const Box box = {centre, track.length_m, track.width_m};
     const float cost = parameters.risk.cost_obstacle * future.probability;
-    const float value = cost * field_over_box(field, box, lines);
-    if (value > 0.0F && !felt.push({box, future.probability, value, future.agent})) break;
+    const float value = cost * field_over_box(field, box);
+    if (value <= 0.0F) continue;
+    if (!felt.push({box, direction(centre.heading_rad), future.probability, value, future.agent})) break;
   }
   for (int i = 0; i < felt.size(); ++i) {
-    const float part = lines == BoxLines::kFine ? own_part(field, felt, i) : 1.0F;
+    const float part = own_part(field, felt, i);
     risk.obstacle += part * felt[i].risk;
     risk.share[felt[i].agent] += part * felt[i].risk;
   }
 }
 
-/// True when we are surely behind a driver or further away than he looks, found without his field.
-bool unseen(const Motion& motion, Point towards_us, float look_ahead_m, float margin_m) {
-  const float squared = dot(towards_us, towards_us);
-  if (squared > square(look_ahead_m + margin_m)) return true;
-  const float moved_m = max(norm(motion.moved), 1e-3F);
-  if (moved_m < 0.3F) return false;  // too slow for the motion to tell the heading
-  // The motion of the box centre differs from the heading by at most 0.3 x length x kappa = 0.25 rad or so.
-  const float ahead_m = dot(motion.moved, towards_us) / moved_m;
-  return ahead_m < -margin_m && square(ahead_m) > 0.1F * squared;
+/// True when we are surely behind a driver or further away than he looks: found from where he is and has come
+/// to in `moved`, without a root.
+bool unseen(Point moved, float look_ahead_per_moved, Point towards_us, float margin_m) {
+  const float moved_squared = dot(moved, moved);
+  const float distance_squared = dot(towards_us, towards_us);
+  const float margin_squared = margin_m * margin_m;
+  // (a + b)^2 <= 2 (a^2 + b^2)
+  const float reach_squared = look_ahead_per_moved * look_ahead_per_moved * moved_squared + margin_squared;
+  if (distance_squared > 2.0F * reach_squared) return true;
+  constexpr float kTellsHeading = 0.09F;  // m^2: slower, and the motion does not tell the heading
+  if (moved_squared < kTellsHeading) return false;
+  // The motion of the box centre differs from the heading by 0.3 x length x kappa, a quarter of a radian or
+  // so: what lies more than 108 degrees away from it is behind.
+  const float ahead = dot(moved, towards_us);
+  if (ahead >= 0.0F) return false;
+  const float ahead_squared = ahead * ahead;
+  return ahead_squared > margin_squared * moved_squared &&
+         ahead_squared > 0.1F * distance_squared * moved_squared;
 }
 
 /// R_soc: their fields over our box.
 void add_social(const Scene& scene, const Futures& futures, const Box& ego, int step, float look_ahead_s,
-                BoxLines lines, const Parameters& parameters, StepRisk& risk) {
+                const Parameters& parameters, StepRisk& risk) {
   const float ego_radius_m = 0.5F * (ego.length_m + ego.width_m);
+  FieldParams params = field_params(parameters, parameters.vehicle.width_m);
+  params.look_ahead_s = look_ahead_s;
   for (const Future& future : futures) {
     const Track& track = scene.agents[future.agent].track;
     const Pose& centre = future.mode->steps[step];
+    const float margin_m = ego_radius_m + track.length_m + 1.0F;
+    if (unseen(moved_at(*future.mode, step), look_ahead_s / kMotionWindowS,
+               position(ego.centre) - position(centre), margin_m)) {
+      continue;
+    }
     const Motion motion = motion_at(*future.mode, step);
-    FieldParams params = field_params(parameters, track.width_m);
-    params.look_ahead_s = look_ahead_s;
-    const float look_ahead_m = max(motion.speed_mps * look_ahead_s, 1.0F);
-    const float margin_m = ego_radius_m + track.length_m;
-    if (unseen(motion, position(ego.centre) - position(centre), look_ahead_m, margin_m)) continue;
+    params.base_width_m = 0.25F * track.width_m;
     const Field field = prepare_field(params, driver_of(centre, motion, track.length_m));
     if (out_of_reach(field, position(ego.centre), ego_radius_m)) continue;
     const float cost = parameters.risk.cost_obstacle * future.probability;
-    const float value = cost * field_over_box(field, ego, lines);
+    const float value = cost * field_over_box(field, ego);
     risk.social += value;
     risk.share[future.agent] += parameters.risk.weight_social * value;
   }
@@ -180,7 +197,7 @@ void add_social(const Scene& scene, const Futures& futures, const Box& ego, int 
 
 /// Both sides at step `step` + 1 of the trajectory.
 StepRisk risk_at(const Scene& scene, const Futures& futures, const Trajectory& trajectory, int step,
-                 BoxLines lines, const Parameters& parameters) {
+                 const Parameters& parameters) {
   const auto& vehicle = parameters.vehicle;
   const TrajectoryPoint& point = trajectory.points[step + 1];
   const float look_ahead_s =
@@ -193,8 +210,8 @@ StepRisk risk_at(const Scene& scene, const Futures& futures, const Trajectory& t
   const float to_centre_m = 0.5F * vehicle.length_m - vehicle.rear_overhang_m;
   const Box ego = {shift_ahead(point.rear_axle, to_centre_m), vehicle.length_m, vehicle.width_m};
   StepRisk risk;
-  add_obstacles(scene, futures, prepare_field(params, driver), step, lines, parameters, risk);
-  add_social(scene, futures, ego, step, look_ahead_s, lines, parameters, risk);
+  add_obstacles(scene, futures, prepare_field(params, driver), step, parameters, risk);
+  add_social(scene, futures, ego, step, look_ahead_s, parameters, risk);
   return risk;
 }
 
@@ -222,7 +239,7 @@ void exact_risk(const Scene& scene, const DrivableArea& area, const PredictionSe
   profile.dominating_step = 0;
   float largest = 0.0F;
   for (int i = 0; i < kHorizonSteps; ++i) {
-    const StepRisk risk = risk_at(scene, futures, trajectory, i, BoxLines::kFine, parameters);
+    const StepRisk risk = risk_at(scene, futures, trajectory, i, parameters);
     profile.obstacle[i] = risk.obstacle;
     profile.social[i] = risk.social;
     for (int agent = 0; agent < scene.agents.size(); ++agent) {
@@ -243,7 +260,7 @@ float rank_risk(const Scene& scene, const DrivableArea& area, const PredictionSe
   road_risk(area, trajectory, parameters, kMiddle + 1, kStride, road);
   float sum = 0.0F;
   for (int i = kMiddle; i < kHorizonSteps; i += kStride) {
-    const StepRisk risk = risk_at(scene, futures, trajectory, i, BoxLines::kCoarse, parameters);
+    const StepRisk risk = risk_at(scene, futures, trajectory, i, parameters);
     sum += instant(risk.obstacle, road[i], risk.social, parameters);
   }
   return static_cast<float>(kStride) * kStepS * sum;

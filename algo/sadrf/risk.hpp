@@ -32,8 +32,8 @@ void exact_risk(const Scene& scene, const DrivableArea& area, const PredictionSe
                 const KinematicSet& others, const Trajectory& trajectory, const Parameters& parameters,
                 RiskProfile& profile);
 
-/// CORE-063 Cheap approximation of risk_integral for ranking: likeliest mode, every third step, closed form
-/// across (difference of erf) and two points along, culled by distance; overlaps of vehicles count twice.
+/// CORE-063 Cheap approximation of risk_integral for ranking: likeliest mode, every third step, culled by
+/// distance.
 [[nodiscard]] float rank_risk(const Scene& scene, const DrivableArea& area, const PredictionSet& prediction,
                               const KinematicSet& others, const Trajectory& trajectory,
                               const Parameters& parameters);

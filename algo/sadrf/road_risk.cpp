@@ -8,17 +8,19 @@
 namespace s4tp {
 namespace {
 
+constexpr int kSpacing = 3;    // trajectory points from station to station
 constexpr int kExtension = 4;  // stations beyond the last point
-constexpr int kMaxStations = kTrajectoryPoints + kExtension;
+constexpr int kStations = kHorizonSteps / kSpacing + 1 + kExtension;
+static_assert(kHorizonSteps % kSpacing == 0);
 
-/// A point of the path with what the road costs across it, for three widths of the field: at its car, half
-/// way to the furthest look-ahead distance, and there.
+/// A place on the path with what the road costs across it, for a field as narrow as at its car and as wide as
+/// at the furthest look-ahead distance.
 struct Station {
+  Pose pose;
   float path_m = 0.0F;
-  float cost[3] = {};
+  float narrow_cost = 0.0F;
+  float wide_cost = 0.0F;
 };
-
-using Stations = BoundedVector<Station, kMaxStations>;
 
 float covered(const Intervals& intervals, float sigma_m) {
   float sum = 0.0F;
@@ -37,57 +39,57 @@ float cost_across(const CrossSection& section, float sigma_m, const Parameters& 
          parameters.risk.cost_opposite * max(drivable - ours, 0.0F);
 }
 
-/// Parabola through the three tabulated widths. \param x  distance from the car over the furthest one, 0 .. 1
+/// \param x  distance from the car over the furthest one, 0 .. 1
 float cost_at(const Station& station, float x) {
-  const float a = station.cost[0];
-  const float c = 2.0F * (station.cost[2] + a) - 4.0F * station.cost[1];
-  const float b = station.cost[2] - a - c;
-  return max(a + x * (b + x * c), 0.0F);
+  return station.narrow_cost + min(x, 1.0F) * (station.wide_cost - station.narrow_cost);
 }
 
-/// The path of the trajectory at the points asked for, and its continuation.
-void place_stations(const Trajectory& trajectory, int first, int stride, float beyond_m,
-                    BoundedVector<Pose, kMaxStations>& poses, Stations& stations) {
-  float path_m = 0.0F;
-  bool room = true;
-  int last = first;
-  for (int i = first; i < kTrajectoryPoints; i += stride) {
-    last = i;
-    const Pose& pose = trajectory.points[i].rear_axle;
-    if (!poses.empty()) path_m += distance(position(poses[poses.size() - 1]), position(pose));
-    room = room && poses.push(pose) && stations.push({path_m, {}});
+/// The path of the trajectory, and its continuation for `beyond_m` on a circle.
+void place(const Trajectory& trajectory, float beyond_m, Station (&stations)[kStations]) {
+  constexpr int kOnPath = kStations - kExtension;
+  for (int j = 0; j < kOnPath; ++j) {
+    stations[j].pose = trajectory.points[j * kSpacing].rear_axle;
+    if (j == 0) continue;
+    const Station& before = stations[j - 1];
+    stations[j].path_m = before.path_m + distance(position(before.pose), position(stations[j].pose));
   }
   const float step_m = beyond_m / static_cast<float>(kExtension);
-  const float turn_rad = trajectory.points[last].curvature_1pm * step_m;
-  for (int i = 0; i < kExtension; ++i) {
-    Pose pose = poses[poses.size() - 1];
-    pose.heading_rad = wrap_angle(pose.heading_rad + 0.5F * turn_rad);
+  const float half_turn_rad = 0.5F * trajectory.points[kHorizonSteps].curvature_1pm * step_m;
+  for (int j = kOnPath; j < kStations; ++j) {
+    Pose pose = stations[j - 1].pose;
+    pose.heading_rad += half_turn_rad;
     pose = shift_ahead(pose, step_m);
-    pose.heading_rad = wrap_angle(pose.heading_rad + 0.5F * turn_rad);
-    path_m += step_m;
-    room = room && poses.push(pose) && stations.push({path_m, {}});
+    pose.heading_rad = wrap_angle(pose.heading_rad + half_turn_rad);
+    stations[j].pose = pose;
+    stations[j].path_m = stations[j - 1].path_m + step_m;
   }
-  S4TP_ASSERT(room);
 }
 
-/// Integral of p (d - s)^2 cost(s) over s = 0 .. d, by Simpson's rule between stations: exact for a cost that
-/// is linear there.
-float along(const Stations& stations, int first, float look_ahead_m, float furthest_m, float steepness) {
+/// Integral of p (d - s)^2 cost(s) over s = 0 .. d from trajectory point `point` on, by Simpson's rule
+/// between stations: exact for a cost that is linear there.
+float along(const Station (&stations)[kStations], int point, float look_ahead_m, float furthest_m,
+            float steepness) {
+  const int first = point / kSpacing;
+  const float part = static_cast<float>(point % kSpacing) / static_cast<float>(kSpacing);
+  const float start_m = lerp(stations[first].path_m, stations[first + 1].path_m, part);
+  float cost = lerp(stations[first].narrow_cost, stations[first + 1].narrow_cost, part);
+  float left_m = look_ahead_m;  // of the look-ahead distance
   float sum = 0.0F;
-  float s_m = 0.0F;
-  float cost = stations[first].cost[0];
-  for (int j = first + 1; j < stations.size() && s_m < look_ahead_m; ++j) {
-    float next_m = stations[j].path_m - stations[first].path_m;
-    float next_cost = cost_at(stations[j], min(next_m / furthest_m, 1.0F));
-    if (next_m > look_ahead_m) {
-      next_cost = lerp(cost, next_cost, (look_ahead_m - s_m) / (next_m - s_m));
-      next_m = look_ahead_m;
+  for (int j = first + 1; j < kStations && left_m > 0.0F; ++j) {
+    const float next_m = stations[j].path_m - start_m;
+    const float step_m = next_m - (look_ahead_m - left_m);
+    if (step_m <= 0.0F) continue;
+    float next_left_m = look_ahead_m - next_m;
+    float next_cost = cost_at(stations[j], next_m / furthest_m);
+    if (next_left_m < 0.0F) {
+      next_cost = cost + (next_cost - cost) * (left_m / step_m);
+      next_left_m = 0.0F;
     }
-    const float middle_m = 0.5F * (s_m + next_m);
-    sum += (next_m - s_m) *
-           (square(look_ahead_m - s_m) * cost + 2.0F * square(look_ahead_m - middle_m) * (cost + next_cost) +
-            square(look_ahead_m - next_m) * next_cost);
-    s_m = next_m;
+    const float middle_m = 0.5F * (left_m + next_left_m);
+    sum +=
+        (left_m - next_left_m) * (left_m * left_m * cost + 2.0F * middle_m * middle_m * (cost + next_cost) +
+                                  next_left_m * next_left_m * next_cost);
+    left_m = next_left_m;
     cost = next_cost;
   }
   return steepness * sum * (1.0F / 6.0F);
@@ -109,33 +111,31 @@ void road_risk(const DrivableArea& area, const Trajectory& trajectory, const Par
     return max(trajectory.points[point].speed_mps * t_la_s, 1.0F);
   };
   float furthest_m = 0.0F;
-  int last = first;
-  for (int i = first; i < kTrajectoryPoints; i += stride) {
-    furthest_m = max(furthest_m, look_ahead_m(i));
-    last = i;
+  for (int point = first; point < kTrajectoryPoints; point += stride) {
+    furthest_m = max(furthest_m, look_ahead_m(point));
   }
+  Station stations[kStations];
+  place(trajectory, look_ahead_m(kHorizonSteps), stations);
 
-  BoundedVector<Pose, kMaxStations> poses;
-  Stations stations;
-  place_stations(trajectory, first, stride, look_ahead_m(last), poses, stations);
-
-  // erf is 1 in float from 4 on: beyond, ground costs nothing.
+  // Beyond, erf is 1 in float: the ground costs nothing.
   constexpr float kNothingBeyond = 5.7F;
-  const float reach_m = kNothingBeyond * (field.base_width_m + field.widening * furthest_m);
+  const float narrow_m = field.base_width_m;
+  const float wide_m = narrow_m + field.widening * furthest_m;
+  const float reach_m = kNothingBeyond * wide_m;
   Bounds bounds;
-  for (const Pose& pose : poses) include(bounds, position(pose));
+  for (const Station& station : stations) include(bounds, position(station.pose));
   NearStrips near;
   near_strips(area, bounds, reach_m, near);
-  for (int j = 0; j < stations.size(); ++j) {
+  for (Station& station : stations) {
     CrossSection section;
-    cross_section(area, near, poses[j], reach_m, section);
-    for (int k = 0; k < 3; ++k) {
-      const float sigma_m = field.base_width_m + field.widening * furthest_m * (0.5F * static_cast<float>(k));
-      stations[j].cost[k] = cost_across(section, sigma_m, parameters);
-    }
+    cross_section(area, near, station.pose, reach_m, section);
+    if (section.ours.size() == 1 && section.ours[0].left_m - section.ours[0].right_m >= 2.0F * reach_m)
+      continue;
+    station.narrow_cost = cost_across(section, narrow_m, parameters);
+    station.wide_cost = cost_across(section, wide_m, parameters);
   }
-  for (int point = first, j = 0; point < kTrajectoryPoints; point += stride, ++j) {
-    road[point - 1] = along(stations, j, look_ahead_m(point), furthest_m, parameters.risk.steepness);
+  for (int point = first; point < kTrajectoryPoints; point += stride) {
+    road[point - 1] = along(stations, point, look_ahead_m(point), furthest_m, parameters.risk.steepness);
   }
 }
 
