@@ -94,9 +94,9 @@ Leader find_follower(const Scene& scene, const EgoPath& path, float rear_axle_s_
 float dead_end_s_m(const Scene& scene, const EgoPath& path) {
   const LanePath& way = path.path;
   if (way.lanes.empty() || way.lanes.full()) return kNoDeadEndM;
-  const bool goal_on_it = path.changes_needed == 0 && path.goal_s_m <= way.length_m + kAtGoalM;
-  if (goal_on_it) return kNoDeadEndM;
   const Lane& last = scene.map->lanes[way.lanes[way.lanes.size() - 1].lane];
+  const bool leads_to_goal = last.on_route && last.changes_needed == 0;
+  if (leads_to_goal && path.goal_s_m <= way.length_m + kAtGoalM) return kNoDeadEndM;
   for (const LaneIndex successor : last.successors) {
     if (successor != kNoLaneIndex) return kNoDeadEndM;
   }

@@ -24,13 +24,15 @@ constexpr int kTrialCount = static_cast<int>(sizeof(kTrials) / sizeof(kTrials[0]
 constexpr int kFirstRound = 6;
 constexpr int kMaxStops = 3;
 
-constexpr float kStretch = 1.7F;  // a lateral motion that is infeasible is tried longer, twice
-constexpr int kStretches = 3;
+constexpr float kStretch = 1.7F;  // a lateral motion that is infeasible is tried longer, three times
+constexpr int kStretches = 4;
 constexpr float kAlikeM = 0.05F;          // two roll-outs nearer than this at half time and end are one
 constexpr float kStopShortOfEndM = 1.0F;  // before the end of a road
 constexpr float kPassedM = 0.5F;          // a stopping place this far behind us is passed
 constexpr float kPlanOnPathM = 1.5F;      // the running plan belongs to the path its end is this near to
 constexpr float kOnPlanM = 0.01F;         // from where we start exactly on it
+
+constexpr float kMaxLeadS = 0.5F;  // plan start after the scene's time
 
 /// One path with all that its candidates share.
 struct Course {
@@ -168,7 +170,8 @@ void generate_candidates(const Scene& scene, const TrajectoryPoint& start, const
   candidates.clear();
   left_out = 0;
   if (scene.map == nullptr) return;
-  const float lead_s = 0.001F * static_cast<float>(static_cast<std::int32_t>(start_ms - scene.time_ms));
+  const std::int32_t lead_ms = static_cast<std::int32_t>(start_ms - scene.time_ms);
+  const float lead_s = clamp(0.001F * static_cast<float>(lead_ms), 0.0F, kMaxLeadS);
   Course course;
   Trajectory trajectory;
   Reach reaches[kMaxCandidates];

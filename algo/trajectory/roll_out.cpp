@@ -15,7 +15,9 @@ constexpr float kShortestM = 4.0F;       // of a lateral motion
 constexpr float kGentleBend1pm = 0.09F;  // curvature of a slow lane change, under half of what we can steer
 constexpr float kLateralMps2 = 2.0F;     // peak lateral acceleration of a lane change at speed
 constexpr float kPeak = 5.77F;           // a quintic from rest to rest bends by 5.77 d / length^2
-constexpr float kSlopeShare = 2.0F;      // way / d at which a quintic goes on from a slope without a jerk
+constexpr float kTurnBackM = 40.0F;  // way per slope to turn back from heading away: bends by 0.1 / m at most
+constexpr float kTurnBackS2pm = 1.6F;  // and at speed by 2.5 m/s^2
+constexpr float kSlopeShare = 2.0F;    // way / d at which a quintic goes on from a slope without a jerk
 
 /// d and its derivatives by s.
 struct Lateral {
@@ -120,7 +122,7 @@ float lateral_length_m(const ReferenceLine& line, const TrajectoryPoint& start, 
   const float slope =
       tan(clamp(wrap_angle(start.rear_axle.heading_rad - centre.pose.heading_rad), -1.0F, 1.0F));
   const bool towards = slope * where.d_m < 0.0F && abs(slope) > 0.02F;
-  if (!towards) return fresh_m;
+  if (!towards) return max(fresh_m, abs(slope) * max(kTurnBackM, kTurnBackS2pm * square(start.speed_mps)));
   return clamp(kSlopeShare * offset_m / abs(slope), max(kShortestM, 0.5F * fresh_m), fresh_m);
 }
 

@@ -1,0 +1,358 @@
+// Plan start, candidates and their roll-outs on hand-made roads.
+
+#include "algo/trajectory/candidates.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "algo/core/math.hpp"
+#include "algo/trajectory/bicycle.hpp"
+#include "tests/support/driving_scenes.hpp"
+
+namespace s4tp {
+namespace {
+
+using namespace test;  // NOLINT: the map builders are the language of these tests
+
+constexpr std::uint32_t kNow = 5000;
+
+/// The left turn of the scenario: 50 m straight, 90 degrees on radius 10.7 m in 8 vertices, 80 m straight.
+struct LeftTurn {
+  LaneMap map;
+  LanePath path;
+  LeftTurn() {
+    const LaneIndex before = add_lane(map, {{-50.0F, 0.0F}, {0.0F, 0.0F}});
+    const LaneIndex turn = add_lane(map, arc({0.0F, 0.0F, 0.0F}, 10.7F, 1.57079633F, 8));
+    const Point end = map.lanes[turn].points[7];
+    const LaneIndex after = add_lane(map, {end, {end.x_m, end.y_m + 80.0F}});
+    link(map, turn, after);
+    link(map, before, turn);
+    path = path_of(map, {before, turn, after});
+  }
+};
+
+struct Roads {
+  LaneMap map = straight_road(3, 300.0F);
+  Scene scene;
+  /// In the middle of three lanes.
+  Roads(float s_m, float speed_mps) {
+    add_way(scene, map, path_of(map, {1}));
+    add_way(scene, map, path_of(map, {2}), Manoeuvre::kLeft);
+    add_way(scene, map, path_of(map, {0}), Manoeuvre::kRight);
+    scene.time_ms = kNow;
+    start = state_on(map, scene.ego_paths[0].path, s_m, speed_mps);
+    put_ego(scene, start);
+  }
+  TrajectoryPoint start;
+};
+
+CandidateList generate(const Scene& scene, const TrajectoryPoint& start, const Plan& running = {},
+                       int* left_out = nullptr) {
+  CandidateList list;
+  int missing = 0;
+  generate_candidates(scene, start, running, kNow, Parameters{}, list, missing);
+  if (left_out != nullptr) *left_out = missing;
+  return list;
+}
+
+Trajectory rolled(const Scene& scene, const Candidate& candidate, const TrajectoryPoint& start,
+                  const Plan& running = {}) {
+  Trajectory trajectory;
+  roll_out(scene, candidate, start, running, kNow, Parameters{}, trajectory);
+  return trajectory;
+}
+
+const Candidate* find(const CandidateList& list, int path, Intent intent, float acceleration_mps2 = 0.0F) {
+  for (const Candidate& candidate : list) {
+    if (candidate.path != path || candidate.intent != intent) continue;
+    if (intent != Intent::kAccelerate || candidate.acceleration_mps2 == acceleration_mps2) return &candidate;
+  }
+  return nullptr;
+}
+
+const TrajectoryPoint& end_of(const Trajectory& trajectory) {
+  return trajectory.points[kHorizonSteps];
+}
+
+// CAND-007 0.4 m beside and 0.8 m behind the running plan we still go on from it, so that nothing jumps.
+TEST(PlanStart, GoesOnFromTheRunningPlan) {
+  Plan running;
+  running.kind = PlanKind::kDrive;
+  running.start_ms = kNow;
+  for (int i = 0; i < kTrajectoryPoints; ++i) {
+    running.trajectory.points[i].rear_axle.x_m = static_cast<float>(i);
+    running.trajectory.points[i].speed_mps = 10.0F;
+  }
+  EgoState ego;
+  ego.rear_axle = {-0.8F, 0.4F, 0.01F};
+  ego.speed_mps = 9.5F;
+  const TrajectoryPoint start = plan_start(ego, kNow, running, kNow + 100, Parameters{});
+  EXPECT_EQ(start.rear_axle.x_m, 1.0F);
+  EXPECT_EQ(start.rear_axle.y_m, 0.0F);
+  EXPECT_EQ(start.speed_mps, 10.0F);
+}
+
+// CAND-008 Too far from the plan, without one, or past its end: the measured state, 0.1 s and 1 m later.
+TEST(PlanStart, ElseTheMeasuredStateBroughtForward) {
+  Plan running;
+  running.kind = PlanKind::kDrive;
+  running.start_ms = kNow;
+  EgoState ego;
+  ego.rear_axle = {20.0F, 0.6F, 0.0F};
+  ego.speed_mps = 10.0F;
+  for (const Plan& plan : {running, Plan{}}) {
+    const TrajectoryPoint start = plan_start(ego, kNow, plan, kNow + 100, Parameters{});
+    EXPECT_NEAR(start.rear_axle.x_m, 21.0F, 1e-4F);
+    EXPECT_EQ(start.rear_axle.y_m, 0.6F);
+  }
+  ego.rear_axle = {};
+  ego.speed_mps = 0.0F;
+  EXPECT_FALSE(plan_covers(running, kNow + 3000));
+  EXPECT_FALSE(plan_covers(running, kNow - 100));
+  EXPECT_TRUE(plan_covers(running, kNow + 2900));
+}
+
+// CAND-008 At rest with the brake on nothing is brought forward.
+TEST(PlanStart, StandstillStaysWhereItIs) {
+  EgoState ego;
+  ego.rear_axle = {3.0F, 4.0F, 1.0F};
+  ego.acceleration_mps2 = -2.0F;
+  const TrajectoryPoint start = plan_start(ego, kNow, Plan{}, kNow + 200, Parameters{});
+  EXPECT_EQ(start.rear_axle.x_m, 3.0F);
+  EXPECT_EQ(start.speed_mps, 0.0F);
+  EXPECT_EQ(start.acceleration_mps2, 0.0F);
+}
+
+// CAND-009 In the middle of three lanes behind a leader: each way has following and braking; never over 24.
+TEST(Candidates, CoverEveryPathAndIntent) {
+  Roads roads(50.0F, 10.0F);
+  add_vehicle(roads.scene, roads.map, roads.scene.ego_paths[0].path, 90.0F, 8.0F);
+  int left_out = -1;
+  const CandidateList list = generate(roads.scene, roads.start, {}, &left_out);
+  EXPECT_LE(list.size(), kMaxCandidates);
+  EXPECT_GE(list.size(), 15);
+  EXPECT_GE(left_out, 0);
+  EXPECT_NE(find(list, 0, Intent::kFollow), nullptr);
+  for (int path = 0; path < 3; ++path) {
+    for (const float acceleration : {2.0F, 0.0F, -3.0F}) {
+      EXPECT_NE(find(list, path, Intent::kAccelerate, acceleration), nullptr) << path << ' ' << acceleration;
+    }
+  }
+  EXPECT_NE(find(list, 0, Intent::kAccelerate, -5.0F), nullptr);
+}
+
+// CAND-009 At the limit of 13.89 m/s accelerating by 1, 2 or 3.5 is the same motion: it is there once.
+TEST(Candidates, TwinsCountOnce) {
+  Roads roads(50.0F, kLimitMps);
+  const CandidateList list = generate(roads.scene, roads.start);
+  int faster = 0;
+  for (const Candidate& candidate : list) {
+    faster +=
+        candidate.path == 0 && candidate.intent == Intent::kAccelerate && candidate.acceleration_mps2 >= 0.0F;
+  }
+  EXPECT_EQ(faster, 1);
+}
+
+// CAND-010 A lane change at 10 m/s ends 3.2 m to the left, parallel, feasible, and the way there has no jump.
+TEST(Candidates, LaneChangeReachesTheOtherCentre) {
+  Roads roads(50.0F, 10.0F);
+  const CandidateList list = generate(roads.scene, roads.start);
+  const Candidate* left = find(list, 1, Intent::kAccelerate, 0.0F);
+  ASSERT_NE(left, nullptr);
+  const Trajectory trajectory = rolled(roads.scene, *left, roads.start);
+  EXPECT_NEAR(end_of(trajectory).rear_axle.y_m, 2.0F * kLaneWidthM, 0.05F);
+  EXPECT_NEAR(end_of(trajectory).rear_axle.heading_rad, 0.0F, 0.02F);
+  EXPECT_TRUE(feasible(trajectory, Parameters{}));
+  float lateral = 0.0F;
+  for (const TrajectoryPoint& point : trajectory.points) {
+    lateral = std::max(lateral, std::fabs(point.curvature_1pm) * point.speed_mps * point.speed_mps);
+  }
+  EXPECT_LT(lateral, 2.6F);
+}
+
+// CAND-010 Half way through a lane change, the fresh candidate goes on with it: it is there within half its 3
+// s.
+TEST(Candidates, LaneChangeUnderWayGoesOn) {
+  Roads roads(50.0F, 10.0F);
+  const CandidateList first = generate(roads.scene, roads.start);
+  const Trajectory begun = rolled(roads.scene, *find(first, 1, Intent::kAccelerate, 0.0F), roads.start);
+  const TrajectoryPoint half = begun.points[15];
+  put_ego(roads.scene, half);
+  const CandidateList second = generate(roads.scene, half);
+  const Candidate* left = find(second, 1, Intent::kAccelerate, 0.0F);
+  ASSERT_NE(left, nullptr);
+  const Trajectory trajectory = rolled(roads.scene, *left, half);
+  EXPECT_NEAR(trajectory.points[18].rear_axle.y_m, 2.0F * kLaneWidthM, 0.1F);
+}
+
+// CAND-005 At rest braking candidates hold the pose bit for bit; driving off needs no lateral jump.
+TEST(Candidates, StandstillAndRestart) {
+  Roads roads(50.0F, 0.0F);
+  roads.start.curvature_1pm = 0.05F;
+  const CandidateList list = generate(roads.scene, roads.start);
+  bool stands = false;
+  bool drives = false;
+  for (const Candidate& candidate : list) {
+    const Trajectory trajectory = rolled(roads.scene, candidate, roads.start);
+    const TrajectoryPoint& end = end_of(trajectory);
+    if (end.speed_mps > 0.0F) {
+      drives = true;
+      continue;
+    }
+    stands = true;
+    for (const TrajectoryPoint& point : trajectory.points) {
+      EXPECT_EQ(point.rear_axle.x_m, roads.start.rear_axle.x_m);
+      EXPECT_EQ(point.rear_axle.heading_rad, roads.start.rear_axle.heading_rad);
+      EXPECT_EQ(point.curvature_1pm, roads.start.curvature_1pm);
+    }
+  }
+  EXPECT_TRUE(stands);
+  EXPECT_TRUE(drives);
+}
+
+// CAND-006 The road ends 60 m ahead of the rear axle and the goal is not on it: the stop rests with its front
+// (4 m ahead of the axle) before the end, not more than 3 m before, and brakes comfortably: at most 2.9
+// m/s^2.
+TEST(Candidates, StopRestsBeforeItsLine) {
+  LaneMap map = straight_road(1, 100.0F);
+  map.lanes[0].on_route = false;
+  Scene scene;
+  scene.time_ms = kNow;
+  add_way(scene, map, path_of(map, {0}));
+  TrajectoryPoint state = state_on(map, scene.ego_paths[0].path, 40.0F, 10.0F);
+  float hardest = 0.0F;
+  for (int i = 0; i < 150; ++i) {
+    put_ego(scene, state);
+    const CandidateList list = generate(scene, state);
+    const Candidate* stop = find(list, 0, Intent::kStop);
+    if (stop == nullptr) break;  // a twin of standing still
+    state = rolled(scene, *stop, state).points[1];
+    hardest = std::min(hardest, state.acceleration_mps2);
+  }
+  EXPECT_EQ(state.speed_mps, 0.0F);
+  EXPECT_LT(state.rear_axle.x_m + 4.0F, 100.0F);
+  EXPECT_GT(state.rear_axle.x_m + 4.0F, 97.0F);
+  EXPECT_GT(hardest, -2.9F);
+}
+
+// CAND-006 Every zone gives a place to stop: front at stop_s, or, that passed, box centre before the zone.
+TEST(Candidates, StopsBeforeConflictZones) {
+  LaneMap map = straight_road(1, 300.0F);
+  Scene scene;
+  scene.time_ms = kNow;
+  EgoPath& way = add_way(scene, map, path_of(map, {0}));
+  ConflictZone zone;
+  zone.entry_s_m = 80.0F;
+  zone.exit_s_m = 90.0F;
+  zone.stop_s_m = 78.0F;
+  ASSERT_TRUE(way.zones.push(zone));
+  TrajectoryPoint start = state_on(map, way.path, 50.0F, 8.0F);
+  put_ego(scene, start);
+  CandidateList list = generate(scene, start);
+  const Candidate* stop = find(list, 0, Intent::kStop);
+  ASSERT_NE(stop, nullptr);
+  EXPECT_NEAR(stop->target_s_m, 78.0F - 4.0F, 1e-4F);
+  start = state_on(map, way.path, 75.0F, 2.0F);  // front at 79, past the line, centre at 76.5
+  put_ego(scene, start);
+  list = generate(scene, start);
+  const Candidate* later = find(list, 0, Intent::kStop);
+  ASSERT_NE(later, nullptr);
+  EXPECT_NEAR(later->target_s_m, 80.0F - 1.5F - 0.5F, 1e-4F);
+}
+
+// CAND-010 From 8 m/s the 10.7 m turn is entered below 6 m/s and driven at sqrt(2.5 * 10.7) = 5.17 m/s, a
+// little inside the lane's centre; each cycle has feasible candidates, and no lateral acceleration over 3
+// m/s^2.
+TEST(Candidates, SlowDownForTheLeftTurn) {
+  LeftTurn road;
+  Scene scene;
+  scene.time_ms = kNow;
+  add_way(scene, road.map, road.path);
+  TrajectoryPoint state = state_on(road.map, road.path, 30.0F, 8.0F);
+  float worst_lateral = 0.0F;
+  float worst_offset = 0.0F;
+  float slowest = 8.0F;
+  for (int i = 0; i < 90; ++i) {
+    put_ego(scene, state);
+    const CandidateList list = generate(scene, state);
+    const Candidate* go = find(list, 0, Intent::kAccelerate, 2.0F);
+    ASSERT_NE(go, nullptr) << i;
+    state = rolled(scene, *go, state).points[1];
+    const float s_m = scene.ego_paths[0].frenet.s_m;
+    if (s_m > 52.0F && s_m < 60.0F) {
+      EXPECT_LT(state.speed_mps, 6.0F);
+    }
+    slowest = std::min(slowest, state.speed_mps);
+    worst_lateral = std::max(worst_lateral, state.curvature_1pm * state.speed_mps * state.speed_mps);
+    worst_offset = std::max(worst_offset, std::fabs(scene.ego_paths[0].frenet.d_m));
+  }
+  EXPECT_NEAR(slowest, 5.17F, 0.15F);
+  EXPECT_LT(worst_lateral, 3.1F);
+  EXPECT_LT(worst_offset, 0.15F);
+  EXPECT_GT(state.speed_mps, 10.0F);
+}
+
+// CAND-010 Following settles at the leader's 8 m/s and 2.5 + 1.2 * 8 = 12.1 m (RSS: 8.3 m), without
+// overshoot.
+TEST(Candidates, FollowSettlesBehindTheLeader) {
+  LaneMap map = straight_road(1, 1000.0F);
+  Scene scene;
+  scene.time_ms = kNow;
+  add_way(scene, map, path_of(map, {0}));
+  TrajectoryPoint state = state_on(map, scene.ego_paths[0].path, 10.0F, 13.0F);
+  float leader_s_m = 70.0F;
+  float least_gap = 100.0F;
+  for (int i = 0; i < 600; ++i) {
+    scene.agents.clear();
+    add_vehicle(scene, map, scene.ego_paths[0].path, leader_s_m, 8.0F);
+    put_ego(scene, state);
+    const CandidateList list = generate(scene, state);
+    const Candidate* follow = find(list, 0, Intent::kFollow);
+    ASSERT_NE(follow, nullptr) << i;
+    state = rolled(scene, *follow, state).points[1];
+    leader_s_m += 0.8F;
+    least_gap = std::min(least_gap, leader_s_m - 2.5F - (state.rear_axle.x_m + 4.0F));
+  }
+  EXPECT_NEAR(state.speed_mps, 8.0F, 0.1F);
+  EXPECT_NEAR(leader_s_m - 2.5F - (state.rear_axle.x_m + 4.0F), 12.1F, 0.5F);
+  EXPECT_GT(least_gap, 11.0F);
+}
+
+// CAND-010 The running plan, shifted by one step, is a candidate: its old points to the bit, and one more.
+TEST(Candidates, RunningPlanGoesOn) {
+  Roads roads(50.0F, 10.0F);
+  const CandidateList first = generate(roads.scene, roads.start);
+  Plan running;
+  running.kind = PlanKind::kDrive;
+  running.start_ms = kNow - 100;
+  running.trajectory = rolled(roads.scene, *find(first, 1, Intent::kAccelerate, 0.0F), roads.start);
+  const TrajectoryPoint start = sample(running, kNow);
+  put_ego(roads.scene, start);
+  const CandidateList list = generate(roads.scene, start, running);
+  const Candidate* previous = find(list, 1, Intent::kPrevious);
+  ASSERT_NE(previous, nullptr);
+  EXPECT_EQ(find(list, 0, Intent::kPrevious), nullptr);  // it ends in the left lane, not in ours
+  const Trajectory trajectory = rolled(roads.scene, *previous, start, running);
+  for (int i = 1; i < kHorizonSteps; ++i) {
+    EXPECT_EQ(trajectory.points[i].rear_axle.y_m, running.trajectory.points[i + 1].rear_axle.y_m);
+  }
+  EXPECT_NEAR(end_of(trajectory).rear_axle.x_m, running.trajectory.points[kHorizonSteps].rear_axle.x_m + 1.0F,
+              0.05F);
+  EXPECT_TRUE(feasible(trajectory, Parameters{}));
+}
+
+// CAND-009 Standing 0.3 rad askew and 0.5 m off the centre there still is a feasible way to drive off.
+TEST(Candidates, AskewInTheLane) {
+  Roads roads(50.0F, 3.0F);
+  roads.start.rear_axle.y_m += 0.5F;
+  roads.start.rear_axle.heading_rad = 0.3F;
+  put_ego(roads.scene, roads.start);
+  const CandidateList list = generate(roads.scene, roads.start);
+  EXPECT_NE(find(list, 0, Intent::kAccelerate, 2.0F), nullptr);
+  EXPECT_NE(find(list, 0, Intent::kAccelerate, -3.0F), nullptr);
+}
+
+}  // namespace
+}  // namespace s4tp
