@@ -16,13 +16,19 @@ constexpr float kForZoneMps2 = 6.0F;
 constexpr float kBeyondZoneM = 0.5F;  // clear of a zone we leave
 constexpr float kLeavingMps2 = 1.5F;  // drive used to leave it
 constexpr float kBesideM = 0.4F;      // without a map: who is this near to our way ahead is in it
+constexpr float kBuildUpS = 0.1F;     // at speed, until braking has built up
 constexpr float kStretch = 1.7F;
 constexpr int kStretches = 3;
 
-/// Braking that stops within `way_m`, at least `braking_mps2`, at most what the car can.
+/// Braking that stops within `way_m`, its build-up counted in.
+float needed_mps2(float speed_mps, float way_m) {
+  return square(speed_mps) / (2.0F * max(way_m - kBuildUpS * speed_mps, 0.1F));
+}
+
+/// The same, at least `braking_mps2`, at most what the car can.
 float harder(float braking_mps2, float speed_mps, float way_m, const Parameters& parameters) {
-  const float needed = square(speed_mps) / (2.0F * max(way_m, 0.1F));
-  return clamp(needed, braking_mps2, max(braking_mps2, parameters.vehicle.braking_max_mps2));
+  const float most_mps2 = max(braking_mps2, parameters.vehicle.braking_max_mps2);
+  return clamp(needed_mps2(speed_mps, way_m), braking_mps2, most_mps2);
 }
 
 /// Way until we must stand, behind somebody `gap_m` ahead who may brake as we do.
@@ -80,7 +86,7 @@ void shape_braking(const Scene& scene, const EgoPath& path, float s_m, float spe
   for (const ConflictZone& zone : path.zones) {
     const float to_entry_m = zone.entry_s_m - centre_m - s_m;
     const float to_exit_m = zone.exit_s_m - centre_m - s_m;
-    const float stop_m = square(speed_mps) / (2.0F * braking);
+    const float stop_m = square(speed_mps) / (2.0F * braking) + kBuildUpS * speed_mps;
     const float clear_m = to_exit_m + kBeyondZoneM;
     if (to_entry_m < 0.0F && to_exit_m > 0.0F && clear_m < free_m && clear_m < max(end_m, 0.0F)) {
       candidate.intent = Intent::kStop;
@@ -88,7 +94,7 @@ void shape_braking(const Scene& scene, const EgoPath& path, float s_m, float spe
       candidate.target_s_m = s_m + max(clear_m, stop_m);
       return;
     }
-    const float needed = square(speed_mps) / (2.0F * max(to_entry_m - kBeforeZoneM, 0.1F));
+    const float needed = needed_mps2(speed_mps, to_entry_m - kBeforeZoneM);
     if (to_entry_m > 0.0F && stop_m > to_entry_m - kBeforeZoneM && stop_m < to_exit_m &&
         needed < kForZoneMps2)
       braking = max(braking, needed);

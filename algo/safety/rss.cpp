@@ -10,6 +10,8 @@ namespace {
 
 constexpr float kUnrestrictedMps = 10.0F;
 constexpr float kResponseHoldS = 1.0F;  // a plan is clipped this far; the next cycle knows more
+constexpr float kDelayS = 0.1F;
+constexpr float kTouchM = 0.1F;
 constexpr float kTinyM = 1e-3F;
 
 /// Response that keeps the follower out of reach of a leader braking at b_max.
@@ -23,11 +25,12 @@ float longitudinal_response_mps2(float gap_m, float rear_mps, float front_mps, c
   const float safe_m = safe_distance_m(rear_mps, front_mps, parameters);
   const float at_once_m =
       square(rear_mps) / (2.0F * rss.braking_min_mps2) - square(front_mps) / (2.0F * rss.braking_max_mps2);
-  const float reserve_m = max(safe_m - max(at_once_m, 0.0F), kTinyM);
+  const float held_back_m = kDelayS * rear_mps + kTouchM;
+  const float reserve_m = max(safe_m - max(at_once_m, 0.0F) - held_back_m, kTinyM);
   const float used = (safe_m - gap_m) / reserve_m;
   if (used <= 1.0F) return -used * rss.braking_min_mps2;
   // Less than b_min needs: as hard as it takes to stop behind a leader that brakes at b_max.
-  const float room_m = max(gap_m + square(front_mps) / (2.0F * rss.braking_max_mps2), kTinyM);
+  const float room_m = max(gap_m - held_back_m + square(front_mps) / (2.0F * rss.braking_max_mps2), kTinyM);
   const float needed_mps2 = square(rear_mps) / (2.0F * room_m);
   return -clamp(needed_mps2, rss.braking_min_mps2,
                 max(rss.braking_min_mps2, parameters.vehicle.braking_max_mps2));

@@ -1,6 +1,7 @@
 #pragma once
 /// Refinement of the chosen candidate (METHOD 4.5). The method behind it now is the identity: the best scored
-/// candidate itself. Its interface is final: never worse than its start, within 1.0 m and 0.5 s of it.
+/// candidate itself. Its interface is final: never worse than its start (CAND-011), within 1.0 m and 0.5 s of
+/// it.
 
 #include "algo/core/parameters.hpp"
 #include "algo/core/trajectory.hpp"

@@ -1,6 +1,6 @@
 #pragma once
-/// Scenes for tests of motion and safety, made by hand on the maps of lane_maps.hpp: they do not depend on the
-/// scene builder.
+/// Scenes for tests of motion and safety, made by hand on the maps of lane_maps.hpp: they do not depend on
+/// the scene builder.
 
 #include <vector>
 

@@ -1,0 +1,183 @@
+// Candidates and the minimum-risk manoeuvre from random states on random roads.
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include <cmath>
+
+#include "algo/safety/minimum_risk.hpp"
+#include "algo/trajectory/bicycle.hpp"
+#include "algo/trajectory/candidates.hpp"
+#include "tests/support/driving_scenes.hpp"
+
+namespace s4tp {
+namespace {
+
+using namespace test;  // NOLINT: the map builders are the language of these tests
+
+constexpr std::uint32_t kNow = 5000;
+
+/// `low` .. `high` in hundredths.
+float uniform(int low, int high) {
+  return 0.01F * static_cast<float>(*rc::gen::inRange(low, high + 1));
+}
+
+bool finite(const TrajectoryPoint& p) {
+  return std::isfinite(p.rear_axle.x_m) && std::isfinite(p.rear_axle.y_m) &&
+         std::isfinite(p.rear_axle.heading_rad) && std::isfinite(p.speed_mps) &&
+         std::isfinite(p.acceleration_mps2) && std::isfinite(p.curvature_1pm);
+}
+
+/// A curved road, a vehicle or two on it, a zone, and we somewhere near its centre line.
+struct World {
+  LaneMap map = curved_road(uniform(1000, 10000), uniform(-150, 150));
+  Scene scene;
+  TrajectoryPoint start;
+  World() {
+    const LanePath path = path_of(map, {0, 1, 2});
+    EgoPath& way = add_way(scene, map, path);
+    if (*rc::gen::arbitrary<bool>()) {
+      ConflictZone zone;
+      zone.entry_s_m = uniform(1000, 9000);
+      zone.exit_s_m = zone.entry_s_m + uniform(300, 1500);
+      zone.stop_s_m = zone.entry_s_m + uniform(-500, 150);
+      zone.other_lane = 2;
+      (void)way.zones.push(zone);
+    }
+    for (int i = *rc::gen::inRange(0, 3); i > 0; --i)
+      add_vehicle(scene, map, path, uniform(0, 12000), uniform(0, 1500), uniform(-300, 300));
+    scene.time_ms = kNow - 100;
+    start = state_on(map, path, uniform(0, 10000), uniform(0, 1600), uniform(-150, 150));
+    start.rear_axle.heading_rad += uniform(-30, 30);
+    start.acceleration_mps2 = start.speed_mps > 0.0F ? uniform(-800, 350) : 0.0F;
+    start.curvature_1pm = uniform(-20, 20);
+    put_ego(scene, start);
+  }
+};
+
+void check_motion(const Trajectory& trajectory) {
+  for (int i = 0; i < kTrajectoryPoints; ++i) {
+    RC_ASSERT(finite(trajectory.points[i]));
+    RC_ASSERT(trajectory.points[i].speed_mps >= 0.0F);
+  }
+  for (int i = 1; i < kTrajectoryPoints; ++i) {
+    const TrajectoryPoint& a = trajectory.points[i - 1];
+    const TrajectoryPoint& b = trajectory.points[i];
+    const float moved_m = std::hypot(b.rear_axle.x_m - a.rear_axle.x_m, b.rear_axle.y_m - a.rear_axle.y_m);
+    // By the mean speed; five percent and 5 cm for a curvature that changes within the step.
+    RC_ASSERT(moved_m <= 0.5F * (a.speed_mps + b.speed_mps) * kStepS * 1.05F + 0.05F);
+    if (a.speed_mps == 0.0F && b.speed_mps == 0.0F) RC_ASSERT(moved_m == 0.0F);
+  }
+}
+
+// CAND-009, CAND-010 At most 24, each feasible, finite, never backwards, starting exactly at the start,
+// continuous.
+TEST(MotionProperty, CandidatesAreMotions) {
+  EXPECT_TRUE(rc::check([] {
+    const World world;
+    const Parameters parameters;
+    CandidateList list;
+    int left_out = 0;
+    generate_candidates(world.scene, world.start, Plan{}, kNow, parameters, list, left_out);
+    RC_ASSERT(list.size() <= kMaxCandidates);
+    RC_ASSERT(left_out >= 0);
+    for (const Candidate& candidate : list) {
+      Trajectory trajectory;
+      roll_out(world.scene, candidate, world.start, Plan{}, kNow, parameters, trajectory);
+      RC_ASSERT(trajectory.points[0].rear_axle.x_m == world.start.rear_axle.x_m);
+      RC_ASSERT(trajectory.points[0].curvature_1pm == world.start.curvature_1pm);
+      RC_ASSERT(feasible(trajectory, parameters));
+      check_motion(trajectory);
+    }
+  }));
+}
+
+// CAND-009 From an ordinary state (0.3 m beside, 0.05 rad askew, comfortable speed) there is always a way to
+// brake.
+TEST(MotionProperty, OrdinaryStatesHaveCandidates) {
+  EXPECT_TRUE(rc::check([] {
+    World world;
+    world.start = state_on(world.map, world.scene.ego_paths[0].path, uniform(0, 10000), uniform(0, 500),
+                           uniform(-30, 30));
+    world.start.rear_axle.heading_rad += uniform(-5, 5);
+    world.start.curvature_1pm =
+        path_point(world.map, world.scene.ego_paths[0].path, world.scene.ego_paths[0].frenet.s_m)
+            .curvature_1pm;
+    put_ego(world.scene, world.start);
+    world.start.curvature_1pm =
+        path_point(world.map, world.scene.ego_paths[0].path, world.scene.ego_paths[0].frenet.s_m)
+            .curvature_1pm;
+    CandidateList list;
+    int left_out = 0;
+    generate_candidates(world.scene, world.start, Plan{}, kNow, Parameters{}, list, left_out);
+    bool brakes = false;
+    for (const Candidate& candidate : list) {
+      Trajectory trajectory;
+      roll_out(world.scene, candidate, world.start, Plan{}, kNow, Parameters{}, trajectory);
+      brakes = brakes || trajectory.points[kHorizonSteps].speed_mps == 0.0F;
+    }
+    RC_ASSERT(brakes);
+  }));
+}
+
+// CAND-006 A stop driven cycle by cycle rests before its place, wherever it is, if there is room to brake at
+// all.
+TEST(MotionProperty, StopsRestBeforeTheirPlace) {
+  EXPECT_TRUE(rc::check([] {
+    LaneMap map = straight_road(1, 400.0F);
+    Scene scene;
+    EgoPath& way = add_way(scene, map, path_of(map, {0}));
+    TrajectoryPoint state = state_on(map, way.path, 20.0F, uniform(0, 1500));
+    const float room_m = state.speed_mps * state.speed_mps / 10.0F + uniform(50, 8000);
+    ConflictZone zone;
+    zone.stop_s_m = 20.0F + 4.0F + room_m;
+    zone.entry_s_m = zone.stop_s_m;
+    zone.exit_s_m = zone.stop_s_m + 5.0F;
+    (void)way.zones.push(zone);
+    scene.time_ms = kNow;
+    for (int i = 0; i < 400; ++i) {
+      put_ego(scene, state);
+      CandidateList list;
+      int left_out = 0;
+      generate_candidates(scene, state, Plan{}, kNow, Parameters{}, list, left_out);
+      const Candidate* stop = nullptr;
+      for (const Candidate& candidate : list)
+        if (candidate.intent == Intent::kStop) stop = &candidate;
+      if (stop == nullptr) break;
+      Trajectory trajectory;
+      roll_out(scene, *stop, state, Plan{}, kNow, Parameters{}, trajectory);
+      const bool rests = i > 5 && state.speed_mps == 0.0F && trajectory.points[1].speed_mps == 0.0F;
+      state = trajectory.points[1];
+      RC_ASSERT(state.rear_axle.x_m <= 20.0F + room_m + 0.01F);
+      if (rests) break;
+    }
+    RC_ASSERT(state.rear_axle.x_m > 20.0F + room_m - 1.5F);
+  }));
+}
+
+// MRM-005 From any state, with or without a map: finite, continuous, and driven cycle by cycle it comes to
+// rest.
+TEST(MotionProperty, MinimumRiskAlwaysStops) {
+  EXPECT_TRUE(rc::check([] {
+    World world;
+    if (*rc::gen::inRange(0, 4) == 0) {
+      world.scene.ego_paths.clear();
+      world.scene.map = nullptr;
+    }
+    TrajectoryPoint state = world.start;
+    const float fastest_mps =
+        std::fmax(state.speed_mps, 6.0F) + 0.5F * std::fmax(0.0F, state.acceleration_mps2);
+    for (int i = 0; i < 120; ++i) {
+      if (world.scene.map != nullptr) put_ego(world.scene, state);
+      Trajectory trajectory;
+      minimum_risk(world.scene, state, Plan{}, kNow, Parameters{}, trajectory);
+      check_motion(trajectory);
+      state = trajectory.points[1];
+      RC_ASSERT(state.speed_mps <= fastest_mps);
+    }
+    RC_ASSERT(state.speed_mps == 0.0F);
+  }));
+}
+
+}  // namespace
+}  // namespace s4tp

@@ -1,0 +1,166 @@
+// The minimum-risk manoeuvre.
+
+#include "algo/safety/minimum_risk.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "algo/trajectory/bicycle.hpp"
+#include "tests/support/driving_scenes.hpp"
+
+namespace s4tp {
+namespace {
+
+using namespace test;  // NOLINT: the map builders are the language of these tests
+
+constexpr std::uint32_t kNow = 5000;
+
+Trajectory manoeuvre(const Scene& scene, const TrajectoryPoint& start, const Plan& running = {}) {
+  Trajectory trajectory;
+  minimum_risk(scene, start, running, kNow, Parameters{}, trajectory);
+  return trajectory;
+}
+
+float hardest(const Trajectory& trajectory) {
+  float least = 0.0F;
+  for (const TrajectoryPoint& point : trajectory.points) least = std::fmin(least, point.acceleration_mps2);
+  return least;
+}
+
+const TrajectoryPoint& end_of(const Trajectory& trajectory) {
+  return trajectory.points[kHorizonSteps];
+}
+
+struct Road {
+  LaneMap map = straight_road(1, 300.0F);
+  Scene scene;
+  Road() { add_way(scene, map, path_of(map, {0})); }
+  TrajectoryPoint at(float s_m, float speed_mps) {
+    const TrajectoryPoint start = state_on(map, scene.ego_paths[0].path, s_m, speed_mps);
+    put_ego(scene, start);
+    return start;
+  }
+  ConflictZone& zone(float entry_s_m, float exit_s_m) {
+    ConflictZone zone;
+    zone.entry_s_m = entry_s_m;
+    zone.exit_s_m = exit_s_m;
+    zone.stop_s_m = entry_s_m + 1.5F;
+    zone.other_lane = 0;
+    EgoPath& way = scene.ego_paths[0];
+    (void)way.zones.push(zone);
+    return way.zones[way.zones.size() - 1];
+  }
+};
+
+// MRM-001 From 10 m/s with 4 m/s^2: at rest in the lane, after 100 / 8 = 12.5 m and what the brake takes to
+// build up.
+TEST(MinimumRisk, BrakesToAStopInItsLane) {
+  Road road;
+  TrajectoryPoint start = road.at(50.0F, 10.0F);
+  start.rear_axle.y_m = 0.4F;
+  const Trajectory trajectory = manoeuvre(road.scene, start);
+  EXPECT_EQ(end_of(trajectory).speed_mps, 0.0F);
+  EXPECT_NEAR(end_of(trajectory).rear_axle.x_m, 63.0F, 0.7F);
+  EXPECT_LT(std::fabs(end_of(trajectory).rear_axle.y_m), 0.2F);
+  EXPECT_NEAR(hardest(trajectory), -4.0F, 1e-4F);
+  EXPECT_TRUE(feasible(trajectory, Parameters{}));
+}
+
+// MRM-001 Without a map, along the running plan: a curve of radius 20 m to the left stays one.
+TEST(MinimumRisk, FollowsTheRunningPlanWithoutAMap) {
+  Plan running;
+  running.kind = PlanKind::kDrive;
+  running.start_ms = kNow - 200;
+  running.trajectory.points[0].speed_mps = 6.0F;
+  running.trajectory.points[0].curvature_1pm = 0.05F;
+  for (int i = 1; i < kTrajectoryPoints; ++i)
+    running.trajectory.points[i] = bicycle_step(running.trajectory.points[i - 1], 0.0F, 0.0F, kStepS);
+  const TrajectoryPoint start = sample(running, kNow);
+  const Trajectory trajectory = manoeuvre(Scene{}, start, running);
+  EXPECT_EQ(end_of(trajectory).speed_mps, 0.0F);
+  for (const TrajectoryPoint& point : trajectory.points)
+    EXPECT_NEAR(std::hypot(point.rear_axle.x_m, point.rear_axle.y_m - 20.0F), 20.0F, 0.02F);
+}
+
+// MRM-002 A car stands 10 m ahead of our front: to stop 1 m before it from 10 m/s takes 100 / 18 = 5.6 m/s^2,
+// or 6.25 with the metre of build-up, and the manoeuvre does stop before it.
+TEST(MinimumRisk, BrakesHarderForALeader) {
+  Road road;
+  const TrajectoryPoint start = road.at(50.0F, 10.0F);
+  add_vehicle(road.scene, road.map, road.scene.ego_paths[0].path, 54.0F + 10.0F + 2.5F, 0.0F);
+  const Trajectory trajectory = manoeuvre(road.scene, start);
+  EXPECT_LT(end_of(trajectory).rear_axle.x_m + 4.0F, 64.0F);
+  EXPECT_NEAR(hardest(trajectory), -6.25F, 0.05F);
+}
+
+// MRM-002 Without a lane, whoever stands straight ahead counts too; who stands beside does not.
+TEST(MinimumRisk, BrakesHarderForWhoIsAheadWithoutAMap) {
+  Scene scene;
+  Agent agent;
+  agent.track.length_m = 5.0F;
+  agent.track.width_m = 1.8F;
+  agent.track.centre = {4.0F + 10.0F + 2.5F, 0.5F, 0.0F};
+  (void)scene.agents.push(agent);
+  TrajectoryPoint start;
+  start.speed_mps = 10.0F;
+  EXPECT_NEAR(hardest(manoeuvre(scene, start)), -6.25F, 0.05F);
+  scene.agents[0].track.centre.y_m = 3.0F;
+  EXPECT_NEAR(hardest(manoeuvre(scene, start)), -4.0F, 1e-4F);
+}
+
+// MRM-002 The road ends 15 m ahead of the rear axle, 11 m of the front: 1 m short of it takes 100 / 20 = 5
+// m/s^2.
+TEST(MinimumRisk, BrakesHarderBeforeTheEndOfTheRoad) {
+  Road road;
+  road.map.lanes[0].on_route = false;
+  const Trajectory trajectory = manoeuvre(road.scene, road.at(285.0F, 10.0F));
+  EXPECT_LT(end_of(trajectory).rear_axle.x_m + 4.0F, 300.0F);
+}
+
+// MRM-003 Braking with 4 from 10 m/s would end in a zone that the box centre enters after 11.5 m: with 100 /
+// 22 = 4.5 m/s^2 (5 with build-up) it ends half a metre before. A zone entered after 5 m (11 m/s^2) cannot be
+// helped.
+TEST(MinimumRisk, StopsBeforeAZoneRatherThanInIt) {
+  Road road;
+  TrajectoryPoint start = road.at(50.0F, 10.0F);
+  ConflictZone& zone = road.zone(51.5F + 11.5F, 75.0F);
+  const Trajectory trajectory = manoeuvre(road.scene, start);
+  EXPECT_LT(end_of(trajectory).rear_axle.x_m + 1.5F, zone.entry_s_m);
+  EXPECT_LT(hardest(trajectory), -4.4F);
+  zone.entry_s_m = 51.5F + 5.0F;
+  EXPECT_NEAR(hardest(manoeuvre(road.scene, start)), -4.0F, 1e-4F);
+}
+
+// MRM-004 Standing in a zone that ends 3 m ahead of the box centre: drive out of it and stop; unless a car
+// stands in the way, 2 m ahead.
+TEST(MinimumRisk, LeavesAZoneWhenItsWayIsFree) {
+  Road road;
+  TrajectoryPoint state = road.at(50.0F, 0.0F);
+  road.zone(45.0F, 54.5F);
+  const TrajectoryPoint start = state;
+  for (int i = 0; i < 80; ++i) {
+    put_ego(road.scene, state);
+    state = manoeuvre(road.scene, state).points[1];
+  }
+  EXPECT_EQ(state.speed_mps, 0.0F);
+  EXPECT_GT(state.rear_axle.x_m + 1.5F, 54.5F);
+  EXPECT_LT(state.rear_axle.x_m + 1.5F, 56.5F);
+  put_ego(road.scene, start);
+  add_vehicle(road.scene, road.map, road.scene.ego_paths[0].path, 54.0F + 2.0F + 2.5F, 0.0F);
+  EXPECT_EQ(end_of(manoeuvre(road.scene, start)).rear_axle.x_m, start.rear_axle.x_m);
+}
+
+// MRM-006 Nothing known at all, wheels turned: braking on the present curvature, to rest.
+TEST(MinimumRisk, NeedsNoMap) {
+  TrajectoryPoint start;
+  start.speed_mps = 8.0F;
+  start.curvature_1pm = 0.1F;
+  const Trajectory trajectory = manoeuvre(Scene{}, start);
+  EXPECT_EQ(end_of(trajectory).speed_mps, 0.0F);
+  EXPECT_EQ(end_of(trajectory).curvature_1pm, 0.1F);
+  EXPECT_NEAR(end_of(trajectory).rear_axle.heading_rad, 0.1F * 8.0F, 0.01F);  // 64 / 8 = 8 m of way
+}
+
+}  // namespace
+}  // namespace s4tp

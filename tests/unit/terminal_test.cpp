@@ -1,0 +1,202 @@
+// The terminal condition: when the end of a plan is safe for ever.
+
+#include "algo/safety/terminal.hpp"
+
+#include <gtest/gtest.h>
+
+#include "algo/core/math.hpp"
+#include "algo/trajectory/bicycle.hpp"
+#include "tests/support/driving_scenes.hpp"
+
+namespace s4tp {
+namespace {
+
+using namespace test;  // NOLINT: the map builders are the language of these tests
+
+/// We drive along +x towards a lane that crosses at x = 0 from south to north; the zone is 8 m long on both.
+///   our path: s = x + 100; zone from s = 96 to 104, stop line (front bumper) at s = 95
+///   their path: s = y + 100; zone from s = 96 to 104
+struct Crossing {
+  LaneMap map;
+  LanePath ours;
+  LanePath theirs;
+  Scene scene;
+  Parameters parameters;
+
+  explicit Crossing(Priority priority) {
+    const LaneIndex a = add_lane(map, {{-100.0F, 0.0F}, {300.0F, 0.0F}});
+    const LaneIndex b = add_lane(map, {{0.0F, -100.0F}, {0.0F, 300.0F}});
+    ours = path_of(map, {a});
+    theirs = path_of(map, {b});
+    EgoPath& way = add_way(scene, map, ours);
+    ConflictZone zone;
+    zone.entry_s_m = zone.other_entry_m = 96.0F;
+    zone.exit_s_m = zone.other_exit_m = 104.0F;
+    zone.stop_s_m = 95.0F;
+    zone.other_lane = b;
+    zone.priority = priority;
+    (void)way.zones.push(zone);
+  }
+
+  /// Constant acceleration from rear axle position `s_m`.
+  [[nodiscard]] bool safe(float s_m, float speed_mps, float acceleration_mps2) {
+    TrajectoryPoint start = state_on(map, ours, s_m, speed_mps);
+    put_ego(scene, start);
+    Trajectory trajectory;
+    trajectory.points[0] = start;
+    for (int i = 1; i < kTrajectoryPoints; ++i)
+      trajectory.points[i] = bicycle_step(trajectory.points[i - 1], acceleration_mps2, 0.0F, kStepS);
+    return terminal_safe(scene, 0, trajectory, parameters);
+  }
+  Agent& other(float s_m, float speed_mps) { return add_vehicle(scene, map, theirs, s_m, speed_mps); }
+  [[nodiscard]] const ConflictZone& zone() const { return scene.ego_paths[0].zones[0]; }
+};
+
+// TERM-001 Whoever comes: at 10 m/s after 3 s at s = 70 the front is 21 m before the line; v^2 / 2b = 20 m
+// fit. From 5 m further on they do not.
+TEST(Terminal, CanStillStopBeforeTheZone) {
+  Crossing crossing(Priority::kFirstYields);
+  crossing.other(60.0F, 10.0F);
+  EXPECT_TRUE(crossing.safe(40.0F, 10.0F, 0.0F));
+  EXPECT_FALSE(crossing.safe(45.0F, 10.0F, 0.0F));
+  EXPECT_TRUE(crossing.safe(90.0F, 0.0F, 0.0F));  // standing with the front one metre before the line
+}
+
+// TERM-002 With nobody about, any passage is safe.
+TEST(Terminal, EmptyRoadIsFree) {
+  Crossing crossing(Priority::kFirstYields);
+  for (const float s_m : {40.0F, 60.0F, 80.0F, 90.0F}) EXPECT_TRUE(crossing.safe(s_m, 10.0F, 1.0F)) << s_m;
+}
+
+// TERM-003 From s = 80 at 8 m/s the rear axle leaves (s = 102.5) after 2.8 s. Who yields leaves 1 s: the
+// other, at its limit of 15.28 m/s in no time, needs 3.8 s * 15.28 = 58 m to the entry: at 45 m it is too
+// near, at 70 m not.
+TEST(Terminal, GapMustLastUntilWeAreGone) {
+  Crossing near(Priority::kFirstYields);
+  near.other(96.0F - 45.0F, 13.0F);
+  EXPECT_FALSE(near.safe(80.0F, 8.0F, 0.0F));
+  Crossing far(Priority::kFirstYields);
+  far.other(96.0F - 70.0F, 13.0F);
+  EXPECT_TRUE(far.safe(80.0F, 8.0F, 0.0F));
+}
+
+// TERM-004 Who owes us the way and needs less than 4 m/s^2 (10 m/s: 12.5 m) is trusted; who needs more is
+// not.
+TEST(Terminal, OthersAreTrustedWhileTheyCanStop) {
+  Crossing can(Priority::kFirstHasPriority);
+  can.other(96.0F - 13.5F, 10.0F);
+  EXPECT_TRUE(can.safe(78.0F, 10.0F, 0.0F));
+  Crossing cannot(Priority::kFirstHasPriority);
+  cannot.other(96.0F - 11.5F, 10.0F);
+  EXPECT_FALSE(cannot.safe(78.0F, 10.0F, 0.0F));
+}
+
+// TERM-004 First come: at equal speeds and the other twice as far we go; the other way round we do not.
+TEST(Terminal, FirstComeFirstServed) {
+  Crossing first(Priority::kFirstCome);
+  first.other(96.0F - 60.0F, 8.0F);
+  EXPECT_TRUE(first.safe(80.0F, 8.0F, 0.0F));
+  Crossing second(Priority::kFirstCome);
+  second.other(96.0F - 8.0F, 8.0F);
+  EXPECT_FALSE(second.safe(80.0F, 8.0F, 0.0F));
+}
+
+// TERM-005 The other leaves the zone in 4 m at 10 m/s; we come in 1.8 s: nothing to wait for.
+TEST(Terminal, WhoIsGoneBeforeWeComeDoesNotCount) {
+  Crossing crossing(Priority::kFirstYields);
+  crossing.other(100.0F, 10.0F);
+  EXPECT_TRUE(crossing.safe(80.0F, 8.0F, 0.0F));
+  crossing.scene.agents[0].track.speed_mps = 0.5F;  // it crawls: in 4 m it is not gone
+  EXPECT_FALSE(crossing.safe(80.0F, 8.0F, 0.0F));
+}
+
+// TERM-006 Braking so as to come to rest at s = 80 + 64 / 6 = 90.7 is before the zone; 97 would be in it.
+TEST(Terminal, NobodyStopsInAZone) {
+  Crossing crossing(Priority::kFirstYields);
+  EXPECT_TRUE(crossing.safe(80.0F, 8.0F, -3.0F));
+  EXPECT_FALSE(crossing.safe(86.5F, 8.0F, -3.0F));
+}
+
+// TERM-007 Already inside, standing still is not safe and driving on is; behind a standing car there is no
+// choice.
+TEST(Terminal, WhoIsInsideLeaves) {
+  Crossing crossing(Priority::kFirstYields);
+  EXPECT_FALSE(crossing.safe(97.0F, 0.0F, 0.0F));
+  EXPECT_TRUE(crossing.safe(97.0F, 0.0F, 1.5F));
+  add_vehicle(crossing.scene, crossing.map, crossing.ours, 107.0F, 0.0F);
+  EXPECT_TRUE(crossing.safe(97.0F, 0.0F, 0.0F));
+}
+
+// TERM-008 A road that ends 400 m on: from s = 340 at 10 m/s the end of the plan can stop; from 360 it
+// cannot, unless the goal comes first.
+TEST(Terminal, RoadEndsCount) {
+  Crossing crossing(Priority::kFirstYields);
+  crossing.map.lanes[0].on_route = false;
+  EXPECT_TRUE(crossing.safe(340.0F, 10.0F, 0.0F));
+  EXPECT_FALSE(crossing.safe(360.0F, 10.0F, 0.0F));
+  crossing.map.lanes[0].on_route = true;
+  EXPECT_TRUE(crossing.safe(360.0F, 10.0F, 0.0F));
+}
+
+// TERM-009 Behind a leader at 10 m/s we drive 10.1: it needs 100 / 16 = 6.25 m to stop, we 102 / 12 = 8.5 m.
+// Of a gap of 3 m, 0.3 m are used up in 3 s and 0.45 m are left when both stand (0.3 needed); of 1 m nothing.
+// Behind one that brakes with 4 m/s^2, keeping on is not safe from 10 m, braking likewise is.
+TEST(Terminal, StopsBehindTheLeader) {
+  for (const float gap_m : {3.0F, 1.0F}) {
+    Crossing crossing(Priority::kFirstYields);
+    crossing.scene.ego_paths[0].zones.clear();
+    add_vehicle(crossing.scene, crossing.map, crossing.ours, 10.0F + 4.0F + gap_m + 2.5F, 10.0F);
+    EXPECT_EQ(crossing.safe(10.0F, 10.1F, 0.0F), gap_m > 2.5F) << gap_m;
+  }
+  Crossing crossing(Priority::kFirstYields);
+  crossing.scene.ego_paths[0].zones.clear();
+  Agent& leader = add_vehicle(crossing.scene, crossing.map, crossing.ours, 26.5F, 10.0F);
+  leader.track.acceleration_mps2 = -4.0F;
+  EXPECT_FALSE(crossing.safe(10.0F, 10.0F, 0.0F));
+  EXPECT_TRUE(crossing.safe(10.0F, 10.0F, -4.0F));
+}
+
+// TERM-010 Changing at 10 m/s in front of one at 10 m/s: 15 m of gap (2.5 + 0.6 * 10 needed) are enough, 6 m
+// not.
+TEST(Terminal, LaneChangeLeavesTheFollowerRoom) {
+  for (const float gap_m : {15.0F, 6.0F}) {
+    LaneMap map = straight_road(2, 400.0F);
+    Scene scene;
+    add_way(scene, map, path_of(map, {0}));
+    add_way(scene, map, path_of(map, {1}), Manoeuvre::kLeft);
+    const TrajectoryPoint start = state_on(map, scene.ego_paths[0].path, 100.0F, 10.0F);
+    put_ego(scene, start);
+    add_vehicle(scene, map, scene.ego_paths[1].path, 99.0F - gap_m - 2.5F, 10.0F);
+    Trajectory trajectory;
+    trajectory.points[0] = start;
+    for (int i = 1; i < kTrajectoryPoints; ++i) {
+      trajectory.points[i] = bicycle_step(trajectory.points[i - 1], 0.0F, 0.0F, kStepS);
+      trajectory.points[i].rear_axle.y_m = kLaneWidthM * static_cast<float>(i) / 30.0F;
+    }
+    EXPECT_EQ(terminal_safe(scene, 1, trajectory, Parameters{}), gap_m > 10.0F) << gap_m;
+  }
+}
+
+// TERM-011 10 m before the entry at the top speed of 1.1 * 13.89 = 15.28 m/s: 0.654 s. From rest with 2
+// m/s^2: sqrt(2 * 10 / 2) = 3.16 s. Inside 0; past it or elsewhere 1000.
+TEST(EarliestArrival, FreeToAccelerate) {
+  Crossing crossing(Priority::kFirstYields);
+  crossing.other(86.0F, 15.279F);
+  crossing.other(86.0F, 0.0F);
+  crossing.other(100.0F, 5.0F);
+  crossing.other(105.0F, 5.0F);
+  add_vehicle(crossing.scene, crossing.map, crossing.ours, 50.0F, 10.0F);
+  const float expected[] = {0.654F, 3.162F, 0.0F, 1000.0F, 1000.0F};
+  for (int i = 0; i < 5; ++i)
+    EXPECT_NEAR(earliest_arrival_s(crossing.scene, i, crossing.zone(), crossing.parameters), expected[i],
+                0.01F)
+        << i;
+}
+
+// TERM-002 Without a map or path nothing can be promised.
+TEST(Terminal, NoPathIsNotSafe) {
+  EXPECT_FALSE(terminal_safe(Scene{}, 0, Trajectory{}, Parameters{}));
+}
+
+}  // namespace
+}  // namespace s4tp
