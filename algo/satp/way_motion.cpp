@@ -10,9 +10,12 @@ constexpr int kStepsPerUpdate = 2;  // drivers are updated every 0.2 s
 constexpr float kUpdateS = kStepsPerUpdate * kStepS;
 constexpr float kHardestMps2 = 6.0F;
 constexpr float kSlowDownMps2 = 2.0F;
-constexpr float kReturnS = 2.5F;  // to the lane centre
-constexpr float kReturnM = 10.0F;
+constexpr float kReturnS = 1.2F;      // a small heading error is corrected within this
+constexpr float kReturnSPerM = 0.5F;  // and a lane change of 3.2 m takes 2.8 s
+constexpr float kReturnLongestM = 3.2F;
+constexpr float kReturnM = 8.0F;  // at least
 constexpr float kSlopeMax = 0.3F;
+constexpr float kSlopeSpanM = 3.0F;  // a slope of this over the span leads astray by 4/27 of it: 0.44 m
 static_assert(kHorizonSteps % kStepsPerUpdate == 0, "updates span the horizon");
 
 float desired_at(const Way& way, float s_m) {
@@ -83,9 +86,11 @@ float time_at(const Way& way, const WayMotion& motion, float goal_s_m) {
 
 void place(const LaneMap& map, const LanePath& path, const Frenet& start, const Track& track,
            const WayMotion& motion, Mode& mode) {
+  const float return_s = kReturnS + kReturnSPerM * min(abs(start.d_m), kReturnLongestM);
+  const float span_m = max(track.speed_mps * return_s, kReturnM);
+  const float slope_max = min(kSlopeMax, kSlopeSpanM / span_m);
   const float turn_rad =
-      clamp(wrap_angle(track.centre.heading_rad - start.heading_rad), -kSlopeMax, kSlopeMax);
-  const float span_m = max(track.speed_mps * kReturnS, kReturnM);
+      clamp(wrap_angle(track.centre.heading_rad - start.heading_rad), -slope_max, slope_max);
   PathCursor cursor(map, path);
   for (int i = 0; i < kHorizonSteps; ++i) {
     const PathPoint centre = cursor.at(motion.s_m[i]);
