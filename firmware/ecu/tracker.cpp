@@ -11,10 +11,12 @@ constexpr float kFeedbackMaxMps2 = 3.0F;
 constexpr float kTrimMaxMps2 = 1.0F;
 constexpr float kTrimMax1pm = 0.01F;  // 0.03 rad of steering at a 2.9 m wheelbase
 constexpr float kBesideMaxM = 3.0F;
-constexpr float kStandingMps = 0.05F;  // a plan this slow stands
-constexpr float kHoldBelowMps = 0.2F;  // the brake may take over from here
-constexpr float kTrimRate1ps3 = 0.1F;  // along: a third of the limit of stability, speed_gain * station_gain
-constexpr float kCurvatureTrimShare = 0.1F;  // across: of that limit, 2 / w^3
+constexpr float kStandingMps = 0.05F;   // a plan this slow stands
+constexpr float kHoldBelowMps = 0.2F;   // the brake may take over from here
+constexpr float kTrimRate1ps3 = 0.1F;   // along: a third of the limit of stability, speed_gain * station_gain
+constexpr float kTrimCrossMaxM = 0.3F;  // further off is a manoeuvre, not a bias
+constexpr float kTrimAlongMaxM = 2.0F;
+constexpr float kCurvatureTrimShare = 0.05F;  // across: of that limit, 2 / w^3
 
 /// Where the car is on a plan's path: the nearest point, and its place in the plan as a fractional index.
 struct Place {
@@ -116,7 +118,7 @@ float Tracker::steer(const Plan& plan, const EgoState& ego, const Parameters& pa
   const float steering_rad = steering_for_curvature(curvature_1pm, parameters);
 
   const bool saturated = abs(steering_rad) >= parameters.vehicle.steering_max_rad;
-  if (!saturated && ego.speed_mps > 1.0F && abs(cross_m) < 1.0F) {
+  if (!saturated && ego.speed_mps > 1.0F && abs(cross_m) < kTrimCrossMaxM) {
     const float rate = kCurvatureTrimShare * 2.0F / (way_m * way_m * way_m);
     curvature_trim_1pm_ =
         clamp(curvature_trim_1pm_ - rate * cross_m * ego.speed_mps * kTickS, -kTrimMax1pm, kTrimMax1pm);
@@ -147,7 +149,7 @@ float Tracker::drive(const Plan& plan, std::uint32_t now_ms, const EgoState& ego
       min(parameters.vehicle.acceleration_max_mps2, acceleration_mps2_ + kRestartJerkMps3 * kTickS);
   const float asked_mps2 = clamp(wanted_mps2, -parameters.vehicle.braking_max_mps2,
                                  max(highest_mps2, -parameters.vehicle.braking_max_mps2));
-  if (asked_mps2 == wanted_mps2 && ego.speed_mps > 1.0F) {
+  if (asked_mps2 == wanted_mps2 && ego.speed_mps > 1.0F && abs(behind_m) < kTrimAlongMaxM) {
     acceleration_trim_mps2_ =
         clamp(acceleration_trim_mps2_ + kTrimRate1ps3 * behind_m * kTickS, -kTrimMaxMps2, kTrimMaxMps2);
   }

@@ -30,7 +30,8 @@ class Tracker {
   void reset(float acceleration_mps2);
 
   /// Follows the plan. ECU-050 A plan that stands is held with the brake; leaving a standstill, acceleration
-  /// rises by at most 10 m/s^3. ECU-051 Integrators stop where the actuator or they themselves saturate.
+  /// rises by at most 10 m/s^3. ECU-051 Integrators learn a bias (a
+  /// slope, a steering offset) only near the plan, and stop where the actuator or they themselves saturate.
   /// ECU-052 Past its end a plan is followed by stop().
   [[nodiscard]] gate::Command follow(const Plan& plan, std::uint32_t now_ms, const EgoState& ego,
                                      const Parameters& parameters);
