@@ -3,23 +3,12 @@
 #include "algo/core/math.hpp"
 #include "algo/sadrf/box_integral.hpp"
 #include "algo/sadrf/field.hpp"
+#include "algo/sadrf/futures.hpp"
 #include "algo/sadrf/others_motion.hpp"
 #include "algo/sadrf/road_risk.hpp"
 
 namespace s4tp {
 namespace {
-
-constexpr int kMaxFutures = kMaxAgents * kMaxModes + kMaxTracks;
-
-/// One future of one vehicle, whoever predicted it.
-struct Future {
-  const Mode* mode = nullptr;
-  float probability = 0.0F;
-  int agent = 0;
-};
-
-/// In the order of agents, the modes of one side by side.
-using Futures = BoundedVector<Future, kMaxFutures>;
 
 /// A vehicle's box where our field is felt, with what it costs.
 struct Felt {
@@ -30,7 +19,7 @@ struct Felt {
   int agent = 0;
 };
 
-using FeltBoxes = BoundedVector<Felt, kMaxFutures>;
+using FeltBoxes = BoundedVector<Felt, Futures::kCapacity>;
 
 /// Risk of one step.
 struct StepRisk {
@@ -41,38 +30,6 @@ struct StepRisk {
 
 float radius(const Track& track) {
   return 0.5F * (track.length_m + track.width_m);
-}
-
-Futures all_modes(const Scene& scene, const PredictionSet& prediction, const KinematicSet& others) {
-  Futures futures;
-  bool room = true;
-  for (int agent = 0; agent < scene.agents.size(); ++agent) {
-    bool predicted = false;
-    for (const AgentPrediction& of : prediction.agents) {
-      if (of.agent != agent) continue;
-      predicted = true;
-      for (const Mode& mode : of.modes) room = room && futures.push({&mode, mode.probability, agent});
-    }
-    if (predicted || agent >= others.agents.size()) continue;
-    room = room && futures.push({&others.agents[agent], 1.0F, agent});
-  }
-  S4TP_ASSERT(room);
-  return futures;
-}
-
-/// The likeliest mode of each vehicle, as if it were certain.
-Futures likeliest(const Futures& modes) {
-  Futures futures;
-  for (const Future& future : modes) {
-    const int last = futures.size() - 1;
-    if (last < 0 || futures[last].agent != future.agent) {
-      if (!futures.push(future)) break;
-    } else if (future.probability > futures[last].probability) {
-      futures[last] = future;
-    }
-  }
-  for (Future& future : futures) future.probability = 1.0F;
-  return futures;
 }
 
 bool inside(const Felt& felt, Point point) {

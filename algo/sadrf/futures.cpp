@@ -1,0 +1,38 @@
+#include "algo/sadrf/futures.hpp"
+
+#include "algo/core/check.hpp"
+
+namespace s4tp {
+
+Futures all_modes(const Scene& scene, const PredictionSet& prediction, const KinematicSet& others) {
+  Futures futures;
+  bool room = true;
+  for (int agent = 0; agent < scene.agents.size(); ++agent) {
+    bool predicted = false;
+    for (const AgentPrediction& of : prediction.agents) {
+      if (of.agent != agent) continue;
+      predicted = true;
+      for (const Mode& mode : of.modes) room = room && futures.push({&mode, mode.probability, agent});
+    }
+    if (predicted || agent >= others.agents.size()) continue;
+    room = room && futures.push({&others.agents[agent], 1.0F, agent});
+  }
+  S4TP_ASSERT(room);
+  return futures;
+}
+
+Futures likeliest(const Futures& modes) {
+  Futures futures;
+  for (const Future& future : modes) {
+    const int last = futures.size() - 1;
+    if (last < 0 || futures[last].agent != future.agent) {
+      if (!futures.push(future)) break;
+    } else if (future.probability > futures[last].probability) {
+      futures[last] = future;
+    }
+  }
+  for (Future& future : futures) future.probability = 1.0F;
+  return futures;
+}
+
+}  // namespace s4tp

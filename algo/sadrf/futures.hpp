@@ -1,0 +1,27 @@
+#pragma once
+/// The futures of all vehicles in one list, whoever predicted them.
+
+#include "algo/core/bounded.hpp"
+#include "algo/satp/prediction.hpp"
+#include "algo/scene/scene.hpp"
+
+namespace s4tp {
+
+/// One future of one vehicle.
+struct Future {
+  const Mode* mode = nullptr;
+  float probability = 0.0F;
+  int agent = 0;  ///< index into Scene::agents
+};
+
+/// In the order of agents, the modes of one side by side.
+using Futures = BoundedVector<Future, kMaxAgents * kMaxModes + kMaxTracks>;
+
+/// Every mode of the predicted vehicles; for the others their kinematic future, as if it were certain.
+[[nodiscard]] Futures all_modes(const Scene& scene, const PredictionSet& prediction,
+                                const KinematicSet& others);
+
+/// The likeliest mode of each vehicle, as if it were certain.
+[[nodiscard]] Futures likeliest(const Futures& modes);
+
+}  // namespace s4tp

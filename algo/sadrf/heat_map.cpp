@@ -1,0 +1,70 @@
+#include "algo/sadrf/heat_map.hpp"
+
+#include "algo/core/check.hpp"
+#include "algo/core/math.hpp"
+#include "algo/sadrf/box_integral.hpp"
+#include "algo/sadrf/field.hpp"
+#include "algo/sadrf/futures.hpp"
+#include "algo/sadrf/others_motion.hpp"
+
+namespace s4tp {
+namespace {
+
+constexpr int kStride = 3;            // steps of the horizon from field to field
+constexpr float kCellRadiusM = 0.5F;  // a cell is its centre
+
+Point cell_centre(const Scene& scene, int row, int column) {
+  return offset_point(scene.ego.rear_axle, static_cast<float>(column - kHeatBehind) + 0.5F,
+                      static_cast<float>(row - kHeatRows / 2) + 0.5F);
+}
+
+/// Adds one driver's field to the sums of a row.
+void add_field(const Scene& scene, const Field& field, float weight, int row, float (&sums)[kHeatColumns]) {
+  for (int column = 0; column < kHeatColumns; ++column) {
+    const Point centre = cell_centre(scene, row, column);
+    if (!out_of_reach(field, centre, kCellRadiusM)) sums[column] += weight * field_at(field, centre);
+  }
+}
+
+bool on_vehicle(const Scene& scene, Point point) {
+  for (const Agent& agent : scene.agents) {
+    const Point local = to_local(agent.track.centre, point);
+    if (abs(local.x_m) <= 0.5F * agent.track.length_m && abs(local.y_m) <= 0.5F * agent.track.width_m)
+      return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+void heat_row(const Scene& scene, const DrivableArea& area, const PredictionSet& prediction,
+              const KinematicSet& others, const Parameters& parameters, int row, HeatMap& map) {
+  S4TP_ASSERT(row >= 0 && row < kHeatRows);
+  float sums[kHeatColumns] = {};
+  const bool shrinks = parameters.risk.look_ahead_shrinks > 0.5F;
+  for (const Future& future : all_modes(scene, prediction, others)) {
+    const Track& track = scene.agents[future.agent].track;
+    FieldParams params = field_params(parameters, track.width_m);
+    for (int step = kStride - 1; step < kHorizonSteps; step += kStride) {
+      params.look_ahead_s =
+          look_ahead_at(parameters.risk.look_ahead_s, shrinks, static_cast<float>(step + 1) * kStepS);
+      const Field field = prepare_field(
+          params, driver_of(future.mode->steps[step], motion_at(*future.mode, step), track.length_m));
+      const float seconds = static_cast<float>(kStride) * kStepS;
+      add_field(scene, field, seconds * future.probability, row, sums);
+    }
+  }
+  for (int column = 0; column < kHeatColumns; ++column) {
+    const Point centre = cell_centre(scene, row, column);
+    const float part = sqrt(min(sums[column] / kHeatFullScale, 1.0F));
+    std::uint8_t level = static_cast<std::uint8_t>(to_int(part * float{kHeatHighest}, 0, kHeatHighest));
+    if (level == 0 && area.map != nullptr) {
+      const Ground ground = ground_at(area, centre);
+      if (ground == Ground::kOffRoad) level = kHeatOffRoad;
+      if (ground == Ground::kOpposite) level = kHeatOpposite;
+    }
+    map.cells[row][column] = on_vehicle(scene, centre) ? kHeatVehicle : level;
+  }
+}
+
+}  // namespace s4tp
