@@ -1,0 +1,61 @@
+"""The include checker sees planted faults, and lets what is right pass."""
+
+import pathlib
+import sys
+import tempfile
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "toolchain"))
+import check_includes  # noqa: E402
+
+
+def findings(path, text):
+    """What the checker says about a project that consists of one file."""
+    with tempfile.TemporaryDirectory() as folder:
+        file = pathlib.Path(folder) / path
+        file.parent.mkdir(parents=True)
+        file.write_text(text, encoding="utf-8")
+        return check_includes.findings(pathlib.Path(folder))
+
+
+class Includes(unittest.TestCase):
+    # The world must never see the planner.
+    def test_world_including_the_planner_is_found(self):
+        found = findings("sim_host/world/world.cpp", '#include "algo/planner/planner.hpp"\n')
+        self.assertEqual(len(found), 1)
+        self.assertIn("sim_host/world/world.cpp:1", found[0])
+
+    # Down the table it is allowed, up it is not: the gate knows the wire, the wire nobody.
+    def test_gate_may_include_wire_but_not_the_other_way(self):
+        self.assertEqual(findings("firmware/gate/gate.cpp", '#include "firmware/wire/frame.hpp"\n'), [])
+        self.assertEqual(len(findings("firmware/wire/frame.cpp", '#include "firmware/gate/gate.hpp"\n')), 1)
+
+    # The application stands on interfaces, not on a platform.
+    def test_ecu_including_a_platform_is_found(self):
+        self.assertEqual(findings("firmware/ecu/ecu.cpp", '#include "hal/can.hpp"\n'), [])
+        self.assertEqual(len(findings("firmware/ecu/ecu.cpp", '#include "hal/sim/bus.hpp"\n')), 1)
+
+    # An interface that includes an implementation would drag it into everybody.
+    def test_interface_including_a_platform_is_found(self):
+        self.assertEqual(len(findings("hal/can.hpp", '#include "hal/mps/uart.hpp"\n')), 1)
+        self.assertEqual(findings("hal/mps/uart.hpp", '#include "hal/can.hpp"\n'), [])
+
+    # Eigen in an installed header would bind users to its version and alignment.
+    def test_eigen_only_in_algo_sources(self):
+        self.assertEqual(findings("algo/trajectory/solver.cpp", "#include <Eigen/Core>\n"), [])
+        self.assertEqual(len(findings("algo/trajectory/solver.hpp", "#include <Eigen/Core>\n")), 1)
+        self.assertEqual(len(findings("firmware/ecu/tracker.cpp", "#include <Eigen/Core>\n")), 1)
+
+    # Containers with a heap and the C mathematics library have no place in the core; on the host they do.
+    def test_heap_containers_and_cmath_in_the_core_are_found(self):
+        for header in ("vector", "string", "cmath", "iostream", "functional"):
+            self.assertEqual(len(findings("algo/core/x.cpp", f"#include <{header}>\n")), 1, header)
+            self.assertEqual(findings("sim_host/view/x.cpp", f"#include <{header}>\n"), [], header)
+
+    # A relative path would go around the table.
+    def test_relative_include_is_found(self):
+        self.assertEqual(len(findings("algo/core/x.cpp", '#include "../scene/scene.hpp"\n')), 1)
+
+
+if __name__ == "__main__":
+    unittest.main()
