@@ -1,5 +1,3 @@
-#include "algo/scene/scene.hpp"
-
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
@@ -8,6 +6,7 @@
 #include <random>
 
 #include "algo/satp/predictor.hpp"
+#include "algo/scene/scene.hpp"
 #include "tests/support/lane_maps.hpp"
 #include "tests/support/scene_support.hpp"
 
