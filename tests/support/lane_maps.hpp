@@ -8,6 +8,7 @@
 
 #include "algo/core/geometry.hpp"
 #include "algo/core/world_state.hpp"
+#include "algo/scene/lane_path.hpp"
 
 namespace s4tp::test {
 
