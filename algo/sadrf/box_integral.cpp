@@ -32,7 +32,7 @@ float first_moment(const Field& field, float s_m, float e_m) {
 }
 
 float over_line(const Field& field, const Line& line) {
-  constexpr float kSkewed = 0.1F;  // m of s along half the line; below, s counts as constant on it
+  constexpr float kSkewed = 0.15F;  // m of s along half the line; below, s counts as constant on it
   const bool skewed = abs(line.ds) * line.half_m > kSkewed;
   float right_m = -line.half_m;
   float left_m = line.half_m;

@@ -24,25 +24,31 @@ float look_ahead_at(float look_ahead_s, bool shrinks, float t_s) {
   return shrinks ? max(look_ahead_s - t_s, kShortestS) : look_ahead_s;
 }
 
-Field prepare_field(const FieldParams& params, const DriverState& driver) {
+Field prepare_field(const FieldParams& params, Point rear_axle, Point ahead, float speed_mps,
+                    float curvature_1pm, float steering_rad) {
   constexpr float kShortestLookAheadM = 1.0F;
-  const float steering = abs(driver.steering_rad);
+  const float steering = abs(steering_rad);
   const float inner = params.widening + params.widening_inner * steering;
   const float outer = params.widening + params.widening_outer * steering;
-  const bool to_left = driver.steering_rad > 0.0F;
+  const bool to_left = steering_rad > 0.0F;
   Field field;
-  field.origin = position(driver.rear_axle);
-  field.ahead = direction(driver.rear_axle.heading_rad);
-  field.curvature_1pm = tan(driver.steering_rad) / driver.wheelbase_m;
-  field.look_ahead_m = max(driver.speed_mps * params.look_ahead_s, kShortestLookAheadM);
+  field.origin = rear_axle;
+  field.ahead = ahead;
+  field.curvature_1pm = curvature_1pm;
+  field.look_ahead_m = max(speed_mps * params.look_ahead_s, kShortestLookAheadM);
   field.steepness = params.steepness;
   field.widening_left = to_left ? inner : outer;
   field.widening_right = to_left ? outer : inner;
   field.base_width_m = params.base_width_m;
   // The path itself leaves the tangent by at most kappa d^2 / 2.
-  field.lateral_reach_m = 0.5F * abs(field.curvature_1pm) * square(field.look_ahead_m) +
+  field.lateral_reach_m = 0.5F * abs(curvature_1pm) * square(field.look_ahead_m) +
                           kFieldReach * (params.base_width_m + max(inner, outer) * field.look_ahead_m);
   return field;
+}
+
+Field prepare_field(const FieldParams& params, const DriverState& driver) {
+  return prepare_field(params, position(driver.rear_axle), direction(driver.rear_axle.heading_rad),
+                       driver.speed_mps, tan(driver.steering_rad) / driver.wheelbase_m, driver.steering_rad);
 }
 
 float field_at(const Field& field, Point point_m) {

@@ -56,6 +56,9 @@ inline constexpr float kFieldReach = 4.0F;
 [[nodiscard]] float look_ahead_at(float look_ahead_s, bool shrinks, float t_s);
 
 [[nodiscard]] Field prepare_field(const FieldParams& params, const DriverState& driver);
+/// The same, for who knows the path already. \pre curvature = tan(steering) / wheelbase
+[[nodiscard]] Field prepare_field(const FieldParams& params, Point rear_axle, Point ahead, float speed_mps,
+                                  float curvature_1pm, float steering_rad);
 
 /// Risk density at a point.
 /// \return >= 0; exactly 0 behind the car, beyond the look-ahead distance, and for speed 0 beyond 1 m

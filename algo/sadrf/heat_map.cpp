@@ -48,8 +48,8 @@ void heat_row(const Scene& scene, const DrivableArea& area, const PredictionSet&
     for (int step = kStride - 1; step < kHorizonSteps; step += kStride) {
       params.look_ahead_s =
           look_ahead_at(parameters.risk.look_ahead_s, shrinks, static_cast<float>(step + 1) * kStepS);
-      const Field field = prepare_field(
-          params, driver_of(future.mode->steps[step], motion_at(*future.mode, step), track.length_m));
+      const Field field =
+          field_of_other(params, future.mode->steps[step], motion_at(*future.mode, step), track.length_m);
       const float seconds = static_cast<float>(kStride) * kStepS;
       add_field(scene, field, seconds * future.probability, row, sums);
     }

@@ -30,10 +30,11 @@ Motion motion_at(const Mode& mode, int step) {
           clamp(turned_rad / max(moved_m, kShortestM), -kSharpest_1pm, kSharpest_1pm)};
 }
 
-DriverState driver_of(const Pose& centre, const Motion& motion, float length_m) {
-  const float wheelbase_m = 0.6F * length_m;
-  return {shift_ahead(centre, -0.3F * length_m), motion.speed_mps, atan(wheelbase_m * motion.curvature_1pm),
-          wheelbase_m};
+Field field_of_other(const FieldParams& params, const Pose& centre, const Motion& motion, float length_m) {
+  const Point ahead = direction(centre.heading_rad);
+  const Point rear_axle = position(centre) - (0.3F * length_m) * ahead;
+  const float steering_rad = atan(0.6F * length_m * motion.curvature_1pm);
+  return prepare_field(params, rear_axle, ahead, motion.speed_mps, motion.curvature_1pm, steering_rad);
 }
 
 }  // namespace s4tp

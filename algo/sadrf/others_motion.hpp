@@ -19,8 +19,9 @@ struct Motion {
 
 [[nodiscard]] Motion motion_at(const Mode& mode, int step);
 
-/// The driver of a vehicle of `length_m`: wheelbase 0.6 x length, rear axle 0.3 x length behind the box
-/// centre (METHOD section 3).
-[[nodiscard]] DriverState driver_of(const Pose& centre, const Motion& motion, float length_m);
+/// The field of the driver of a vehicle of `length_m`: wheelbase 0.6 x length, rear axle 0.3 x length behind
+/// the box centre (METHOD section 3).
+[[nodiscard]] Field field_of_other(const FieldParams& params, const Pose& centre, const Motion& motion,
+                                   float length_m);
 
 }  // namespace s4tp

@@ -143,7 +143,7 @@ void add_social(const Scene& scene, const Futures& futures, const Box& ego, int 
     }
     const Motion motion = motion_at(*future.mode, step);
     params.base_width_m = 0.25F * track.width_m;
-    const Field field = prepare_field(params, driver_of(centre, motion, track.length_m));
+    const Field field = field_of_other(params, centre, motion, track.length_m);
     if (out_of_reach(field, position(ego.centre), ego_radius_m)) continue;
     const float cost = parameters.risk.cost_obstacle * future.probability;
     const float value = cost * field_over_box(field, ego);
@@ -162,12 +162,14 @@ StepRisk risk_at(const Scene& scene, const Futures& futures, const Trajectory& t
                     static_cast<float>(step + 1) * kStepS);
   FieldParams params = field_params(parameters, vehicle.width_m);
   params.look_ahead_s = look_ahead_s;
-  const DriverState driver = {point.rear_axle, point.speed_mps,
-                              atan(vehicle.wheelbase_m * point.curvature_1pm), vehicle.wheelbase_m};
-  const float to_centre_m = 0.5F * vehicle.length_m - vehicle.rear_overhang_m;
-  const Box ego = {shift_ahead(point.rear_axle, to_centre_m), vehicle.length_m, vehicle.width_m};
+  const Point ahead = direction(point.rear_axle.heading_rad);
+  const Field field = prepare_field(params, position(point.rear_axle), ahead, point.speed_mps,
+                                    point.curvature_1pm, atan(vehicle.wheelbase_m * point.curvature_1pm));
+  const Point centre =
+      position(point.rear_axle) + (0.5F * vehicle.length_m - vehicle.rear_overhang_m) * ahead;
+  const Box ego = {{centre.x_m, centre.y_m, point.rear_axle.heading_rad}, vehicle.length_m, vehicle.width_m};
   StepRisk risk;
-  add_obstacles(scene, futures, prepare_field(params, driver), step, parameters, risk);
+  add_obstacles(scene, futures, field, step, parameters, risk);
   add_social(scene, futures, ego, step, look_ahead_s, parameters, risk);
   return risk;
 }
