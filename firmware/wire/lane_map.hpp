@@ -115,7 +115,7 @@ class MapSender {
   int header_part_ = 0;  ///< of the header and its two slot frames, the next one
   int record_ = -1;      ///< record being sent, -1: none
   int record_part_ = 0;
-  std::uint32_t repeat_ms_ = 0;  ///< when the next repetition is due
+  std::uint32_t repeated_ms_ = 0;  ///< when the latest repetition was due
 };
 
 /// Puts the map together.

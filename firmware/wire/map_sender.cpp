@@ -220,10 +220,12 @@ int MapSender::choose_record(std::uint32_t now_ms) {
     if (oldest < 0 || now_ms - progress_[record].sent_ms > now_ms - progress_[oldest].sent_ms)
       oldest = record;
   }
-  if (oldest < 0 || !reached(now_ms, repeat_ms_)) return -1;
-  // After a long pause there is no arrears to make up for.
-  if (now_ms - repeat_ms_ > kRepeatPeriod_ms) repeat_ms_ = now_ms;
-  repeat_ms_ += kRepeatPeriod_ms / count;
+  if (oldest < 0) return -1;
+  const std::uint32_t interval_ms = kRepeatPeriod_ms / count;
+  if (!reached(now_ms, repeated_ms_ + interval_ms)) return -1;
+  repeated_ms_ += interval_ms;
+  // After a long pause there are no arrears to make up for.
+  if (now_ms - repeated_ms_ > kRepeatPeriod_ms) repeated_ms_ = now_ms;
   return oldest;
 }
 
