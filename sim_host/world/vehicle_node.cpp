@@ -34,7 +34,6 @@ void VehicleNode::receive(const wire::Frame& frame) {
     return;
   }
   arrived_ = true;
-  silent_ticks_ = 0;
   wire::Command command;
   if (!wire::E2eReceiver::trusted(command_receiver_.check(frame)) || !wire::decode(frame, command)) {
     return;
@@ -60,8 +59,8 @@ void VehicleNode::end_of_tick() {
   if (!arrived_) {
     command_receiver_.nothing_arrived();
   }
+  silent_ticks_ = arrived_ ? 0 : std::min(silent_ticks_ + 1, 1'000'000);
   arrived_ = false;
-  silent_ticks_ = std::min(silent_ticks_ + 1, 1'000'000);
   command_age_ticks_ = std::min(command_age_ticks_ + 1, kCommandAgeMax_ticks);
 }
 

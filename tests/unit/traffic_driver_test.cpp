@@ -1,0 +1,169 @@
+#include "sim_host/world/traffic_driver.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "sim_host/world/traffic.hpp"
+
+namespace s4tp::world {
+namespace {
+
+constexpr double kAlone = std::numeric_limits<double>::infinity();
+
+// At the wanted speed nothing is left to accelerate; from standstill it is all of 2.6 m/s^2.
+TEST(TrafficDriver, AcceleratesTowardsTheWantedSpeed) {
+  const Driver driver;
+  EXPECT_NEAR(following_acceleration_mps2(driver, 10.0, 10.0, kAlone, 0.0), 0.0, 1e-12);
+  EXPECT_NEAR(following_acceleration_mps2(driver, 0.0, 10.0, kAlone, 0.0), 2.6, 1e-12);
+  EXPECT_LT(following_acceleration_mps2(driver, 12.0, 10.0, kAlone, 0.0), 0.0);
+}
+
+// Equilibrium of the improved model: at equal speed well below the wanted one the gap is minGap + v tau = 2.5
+// + 8 = 10.5 m.
+TEST(TrafficDriver, KeepsMinimumGapAndHeadway) {
+  const Driver driver;
+  EXPECT_NEAR(following_acceleration_mps2(driver, 8.0, 30.0, 10.5, 8.0), 0.0, 1e-9);
+  EXPECT_LT(following_acceleration_mps2(driver, 8.0, 30.0, 9.0, 8.0), 0.0);
+  EXPECT_GT(following_acceleration_mps2(driver, 8.0, 30.0, 14.0, 8.0), 0.0);
+}
+
+// 20 m from rest at 2 m/s^2 with a top of 4 m/s: 2 s and 4 m to reach it, 16 m more at 4 m/s: 6 s.
+TEST(TrafficDriver, TimesADistance) {
+  EXPECT_NEAR(time_to_cover_s(20.0, 0.0, 2.0, 4.0), 6.0, 1e-12);
+  EXPECT_NEAR(time_to_cover_s(4.0, 0.0, 2.0, 4.0), 2.0, 1e-12);
+  EXPECT_EQ(time_to_cover_s(-1.0, 5.0, 2.0, 9.0), 0.0);
+  EXPECT_TRUE(std::isinf(time_to_cover_s(1.0, 0.0, 0.0, 9.0)));
+}
+
+// Waiting wears the margin down, from 1 s to a quarter of it.
+TEST(TrafficDriver, GetsImpatient) {
+  const Driver driver;
+  EXPECT_EQ(accepted_margin_s(driver, 0.0), 1.0);
+  EXPECT_EQ(accepted_margin_s(driver, 1000.0), 0.25);
+}
+
+// Drivers differ in speed as their flow says (deviation 0.1), and none reacts faster than 0.5 s or brakes
+// harder than 9.
+TEST(TrafficDriver, IsDrawnFromItsFlow) {
+  Random random(7);
+  double sum = 0.0;
+  double squares = 0.0;
+  for (int i = 0; i < 2000; ++i) {
+    const Driver driver = draw_driver({}, random);
+    sum += driver.speed_factor;
+    squares += driver.speed_factor * driver.speed_factor;
+    EXPECT_GE(driver.reaction_s, 0.5);
+    EXPECT_LE(driver.reaction_s, 1.0);
+    EXPECT_GE(driver.emergency_mps2, 4.5);
+    EXPECT_LE(driver.emergency_mps2, 9.0);
+  }
+  const double mean = sum / 2000.0;
+  EXPECT_NEAR(mean, 1.0, 0.01);
+  EXPECT_NEAR(std::sqrt(squares / 2000.0 - mean * mean), 0.1, 0.01);
+}
+
+/// One lane of 300 m.
+Network straight_road() {
+  Network network;
+  NetworkLane lane;
+  lane.name = "road_0";
+  lane.edge = "road";
+  lane.centre = Polyline({{0.0, 0.0}, {300.0, 0.0}});
+  network.lanes.push_back(lane);
+  return network;
+}
+
+FlowGroup flow(double per_minute, bool random_spacing) {
+  FlowGroup group;
+  group.routes = {{{"road"}, 0, 0}};
+  group.vehicles_per_minute = {per_minute, per_minute};
+  group.random_spacing = random_spacing;
+  return group;
+}
+
+// WORLD-020 12 a minute, evenly: one every 5 s; the same seed draws the same, another one other drivers.
+TEST(TrafficFlow, DrawsDepartures) {
+  const Network network = straight_road();
+  Random one(1);
+  Random same(1);
+  Random other(2);
+  const FlowPlan plan = draw_flows(network, {flow(12.0, false)}, 60.0, one);
+  ASSERT_EQ(plan.departures.size(), 12U);
+  EXPECT_NEAR(plan.departures[3].time_s - plan.departures[2].time_s, 5.0, 1e-9);
+  EXPECT_EQ(plan.departures[5].driver.speed_factor,
+            draw_flows(network, {flow(12.0, false)}, 60.0, same).departures[5].driver.speed_factor);
+  EXPECT_NE(plan.departures[5].driver.speed_factor,
+            draw_flows(network, {flow(12.0, false)}, 60.0, other).departures[5].driver.speed_factor);
+}
+
+// Random spacing keeps the rate: 20 a minute for 3000 s are 1000 cars, give or take 3 sigma = 95.
+TEST(TrafficFlow, RandomSpacingKeepsTheRate) {
+  Random random(3);
+  const FlowPlan plan = draw_flows(straight_road(), {flow(20.0, true)}, 3000.0, random);
+  EXPECT_NEAR(static_cast<double>(plan.departures.size()), 1000.0, 95.0);
+}
+
+/// The ego as others see it on the straight road.
+Actor ego_at(double s_m, double speed_mps) {
+  Actor ego;
+  ego.lane = 0;
+  ego.s_m = s_m;
+  ego.speed_mps = speed_mps;
+  return ego;
+}
+
+// Drivers stop behind a standing ego; bumpers (5 m cars) stay at least 0.5 m apart.
+TEST(Traffic, StopsBehindTheEgo) {
+  const Network network = straight_road();
+  Traffic traffic(network, {flow(20.0, false)}, 5);
+  const Actor ego = ego_at(200.0, 0.0);
+  for (int i = 0; i < 4000; ++i) {
+    traffic.step(&ego);
+    for (const CarState& car : traffic.cars()) {
+      EXPECT_LT(car.centre.x, 200.0 - 5.5);
+    }
+  }
+  EXPECT_EQ(traffic.finished(), 0);
+  EXPECT_GT(traffic.cars().size(), 5U);
+}
+
+// A standing ego that appears 12 m ahead of a car's bumper at about 13 m/s is hit: nobody brakes within his
+// reaction time of 0.5 s, and even 9 m/s^2 needs 9.4 m after the 6.5 m driven until then.
+TEST(Traffic, IsNotSuperhuman) {
+  const Network network = straight_road();
+  Traffic traffic(network, {flow(6.0, false)}, 5);
+  while (traffic.cars().empty() || traffic.cars().front().centre.x < 100.0) {
+    traffic.step(nullptr);
+  }
+  const double speed = traffic.cars().front().speed_mps;
+  ASSERT_GT(speed, 11.0);
+  const Actor ego = ego_at(traffic.cars().front().centre.x + 17.0, 0.0);
+  for (int i = 0; i < 50; ++i) {
+    traffic.step(&ego);
+  }
+  EXPECT_GT(traffic.cars().front().speed_mps, speed - 0.5);
+  for (int i = 0; i < 200; ++i) {
+    traffic.step(&ego);
+  }
+  EXPECT_GT(traffic.cars().front().centre.x, ego.s_m - 5.0);
+}
+
+// Emptying a stretch takes those whose box reaches into it and nobody else.
+TEST(Traffic, ClearsAStretch) {
+  const Network network = straight_road();
+  Traffic traffic(network, {flow(30.0, false)}, 5);
+  while (traffic.time_s() < 25.0) {
+    traffic.step(nullptr);
+  }
+  const std::size_t before = traffic.cars().size();
+  traffic.clear(0, 100.0, 150.0);
+  EXPECT_LT(traffic.cars().size(), before);
+  for (const CarState& car : traffic.cars()) {
+    EXPECT_TRUE(car.centre.x + 2.5 <= 100.0 || car.centre.x - 2.5 >= 150.0);
+  }
+}
+
+}  // namespace
+}  // namespace s4tp::world
