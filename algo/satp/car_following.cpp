@@ -5,7 +5,6 @@
 namespace s4tp {
 namespace {
 
-constexpr float kAccelerationMps2 = 2.0F;
 constexpr float kTwoSqrtAB = 4.472136F;  // 2 sqrt(a b), b = 2.5 m/s^2
 constexpr float kFreeBrakingMps2 = 3.0F;
 constexpr float kStandingMps = 0.1F;  // who wants less than this wants to stand
@@ -20,10 +19,10 @@ float free_acceleration(float speed_mps, float desired_mps) {
   return max(kAccelerationMps2 * (1.0F - ratio * ratio), -kFreeBrakingMps2);
 }
 
-float leader_braking(float speed_mps, float gap_m, float leader_mps, float headway_s) {
+float following_acceleration(float speed_mps, float gap_m, float leader_mps, float headway_s) {
   const float approach = speed_mps * (speed_mps - leader_mps) / kTwoSqrtAB;
   const float wanted_m = kStandstillGapM + max(speed_mps * headway_s + approach, 0.0F);
-  return kAccelerationMps2 * square(wanted_m / max(gap_m, kShortestGapM));
+  return kAccelerationMps2 * (1.0F - square(wanted_m / max(gap_m, kShortestGapM)));
 }
 
 float kept_headway_s(float gap_m, float speed_mps) {

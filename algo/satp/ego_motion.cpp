@@ -1,6 +1,7 @@
 #include "algo/satp/ego_motion.hpp"
 
 #include "algo/core/math.hpp"
+#include "algo/satp/car_following.hpp"
 
 namespace s4tp {
 namespace {
@@ -52,7 +53,7 @@ EgoMotion::EgoMotion(const Scene& scene, const Parameters& parameters, float lea
   }
 }
 
-EgoOnPath EgoMotion::on_path(const LanePath& path, const Track& track) const {
+EgoOnPath EgoMotion::on_path(const LanePath& path, float their_s_m, const Track& track) const {
   EgoOnPath ego;
   if (distance(position(centre_[0]), position(track.centre)) > kFarM) return ego;
   bool there[kEgoKnots] = {};
@@ -85,6 +86,7 @@ EgoOnPath EgoMotion::on_path(const LanePath& path, const Track& track) const {
     ego.ever = ego.ever || there[i];
   }
   ego.from_start = there[0];
+  ego.headway_s = kept_headway_s(ego.rear_s_m[0] - their_s_m - 0.5F * track.length_m, track.speed_mps);
   for (int i = 0; i < kEgoKnots; ++i) {
     ego.present[i] = there[i] || (i + 1 < kEgoKnots && there[i + 1]);
   }

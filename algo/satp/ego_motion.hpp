@@ -16,6 +16,7 @@ inline constexpr float kEgoKnotS = 0.5F;
 struct EgoOnPath {
   bool ever = false;            ///< false: never in its way, the rest is meaningless
   bool from_start = false;      ///< already there at plan start
+  float headway_s = 0.0F;       ///< then: what the vehicle behind us keeps
   bool present[kEgoKnots];      ///< in its way then, or within the next 0.5 s
   float rear_s_m[kEgoKnots];    ///< of our hindmost corner
   float centre_s_m[kEgoKnots];  ///< of our box centre
@@ -34,7 +35,8 @@ class EgoMotion {
   EgoMotion(const Scene& scene, const Parameters& parameters, float lead_s, const Trajectory* plan);
 
   [[nodiscard]] bool conditioned() const { return plan_ != nullptr; }
-  [[nodiscard]] EgoOnPath on_path(const LanePath& path, const Track& track) const;
+  /// \param their_s_m  where the vehicle is on its path at plan start
+  [[nodiscard]] EgoOnPath on_path(const LanePath& path, float their_s_m, const Track& track) const;
   [[nodiscard]] Passage passage(const Crossing& crossing) const;
   /// Whether our box is inside the crossing at plan start.
   [[nodiscard]] bool inside(const Crossing& crossing) const;

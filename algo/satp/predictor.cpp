@@ -104,7 +104,7 @@ void Predictor::decode(const Trajectory* plan, PredictionSet& prediction) const 
     }
     for (int k = 0; k < paths; ++k) {
       const Way& way = ways_[i][k];
-      const EgoOnPath on_path = ego.on_path(agent.paths[k], agent.track);
+      const EgoOnPath on_path = ego.on_path(agent.paths[k], way.start_s_m, agent.track);
       WayMotion motion;
       drive(way, agent.track, on_path, Hold{}, motion);
       work_ += kHorizonSteps;

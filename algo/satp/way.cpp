@@ -12,6 +12,7 @@ constexpr float kLateralMps2 = 2.5F;   // what sets the speed in turns
 constexpr float kSlowDownMps2 = 2.0F;  // on the way to them
 constexpr float kSlowAheadM = 60.0F;
 constexpr float kStartingMps = 6.0F;  // below this a vehicle is on its way to the limit
+constexpr float kGainingMps2 = 0.5F;
 constexpr float kStandingMps = 0.5F;
 constexpr float kUnlikely = 0.2F;         // ways of others less likely than this make nobody wait
 constexpr float kZoneMarginM = 1.0F;      // how far before a zone a vehicle waits
@@ -23,23 +24,24 @@ constexpr int kReadZones = 6;
 
 // Speed it wants on an open road: what it has, unless it is only starting or gaining speed.
 float desired_speed(const Track& track, float limit_mps) {
-  const bool gaining = track.speed_mps < kStartingMps || track.acceleration_mps2 > 0.4F;
-  const float wanted_mps = gaining ? limit_mps : min(limit_mps, track.speed_mps + 1.0F);
-  return max(wanted_mps, track.speed_mps);
+  const bool gaining = track.speed_mps < kStartingMps || track.acceleration_mps2 > kGainingMps2;
+  return gaining ? max(limit_mps, track.speed_mps) : track.speed_mps;
 }
 
-float turn_speed(const Lane& lane, float length_m) {
-  if (lane.point_count < 3) return lane.speed_limit_mps;
+float turn_speed(const Lane& lane, float length_m, float over_limit) {
+  const float limit_mps = lane.speed_limit_mps * over_limit;
+  if (lane.point_count < 3) return limit_mps;
   const Point first = lane.points[1] - lane.points[0];
   const Point last = lane.points[lane.point_count - 1] - lane.points[lane.point_count - 2];
   const float turn_rad = abs(atan2(cross(first, last), dot(first, last)));
-  if (turn_rad < 0.1F) return lane.speed_limit_mps;
+  if (turn_rad < 0.1F) return limit_mps;
   // The chords at the ends stand for all but half a chord each.
   const float curvature_1pm = turn_rad / max(length_m - 0.5F * (norm(first) + norm(last)), 1.0F);
-  return min(lane.speed_limit_mps, sqrt(kLateralMps2 / curvature_1pm));
+  return min(limit_mps, sqrt(kLateralMps2 / curvature_1pm));
 }
 
-void read_slow_stretch(const LaneMap& map, const LanePath& path, Way& way) {
+void read_slow_stretch(const LaneMap& map, const LanePath& path, float limit_mps, Way& way) {
+  const float over_limit = max(way.speed_mps / max(limit_mps, 1.0F), 1.0F);  // who speeds goes on speeding
   way.slow_mps = way.desired_mps;
   float most_binding_mps = 1e3F;
   for (int i = 0; i < path.lanes.size(); ++i) {
@@ -47,7 +49,8 @@ void read_slow_stretch(const LaneMap& map, const LanePath& path, Way& way) {
     const float to_s_m = i + 1 < path.lanes.size() ? path.lanes[i + 1].start_s_m : path.length_m;
     if (to_s_m < way.start_s_m) continue;
     if (from_s_m > way.start_s_m + kSlowAheadM) break;
-    const float speed_mps = max(turn_speed(map.lanes[path.lanes[i].lane], to_s_m - from_s_m), 2.0F);
+    const float speed_mps =
+        max(turn_speed(map.lanes[path.lanes[i].lane], to_s_m - from_s_m, over_limit), 2.0F);
     if (speed_mps >= way.desired_mps) continue;
     const float distance_m = max(from_s_m - way.start_s_m, 0.0F);
     const float now_mps = sqrt(square(speed_mps) + 2.0F * kSlowDownMps2 * distance_m);
@@ -163,8 +166,9 @@ Way read_way(const Scene& scene, int index, int path_index, float lead_s) {
   way.speed_mps = agent.track.speed_mps;
   way.start_s_m = s_m + way.speed_mps * lead_s;
   const LaneIndex first = agent.lane != kNoLaneIndex ? agent.lane : path.lanes[0].lane;
-  way.desired_mps = desired_speed(agent.track, scene.map->lanes[first].speed_limit_mps);
-  read_slow_stretch(*scene.map, path, way);
+  const float limit_mps = scene.map->lanes[first].speed_limit_mps;
+  way.desired_mps = desired_speed(agent.track, limit_mps);
+  read_slow_stretch(*scene.map, path, limit_mps, way);
   read_leader(scene, index, path, s_m, lead_s, way);
   read_zones(scene, index, path, way);
   // Who stands though nothing is in its way has a reason we do not see.

@@ -10,6 +10,9 @@ constexpr int kStepsPerUpdate = 2;  // drivers are updated every 0.2 s
 constexpr float kUpdateS = kStepsPerUpdate * kStepS;
 constexpr float kHardestMps2 = 6.0F;
 constexpr float kSlowDownMps2 = 2.0F;
+constexpr float kUnbound = 1e3F;
+constexpr float kHabitS = 1.5F;
+constexpr float kHabitMax = 3.0F;     // m/s^2
 constexpr float kReturnS = 1.2F;      // a small heading error is corrected within this
 constexpr float kReturnSPerM = 0.5F;  // and a lane change of 3.2 m takes 2.8 s
 constexpr float kReturnLongestM = 3.2F;
@@ -24,23 +27,26 @@ float desired_at(const Way& way, float s_m) {
   return min(way.desired_mps, sqrt(square(way.slow_mps) + 2.0F * kSlowDownMps2 * (way.slow_from_s_m - s_m)));
 }
 
-float hold_braking(const Hold& hold, float time_s, float s_m, float speed_mps) {
-  if (time_s >= hold.until_s || s_m > hold.s_m + 0.5F) return 0.0F;
-  return leader_braking(speed_mps, hold.s_m - s_m + kStandstillGapM, 0.0F, 0.5F);
+float hold_acceleration(const Hold& hold, float time_s, float s_m, float speed_mps) {
+  if (time_s >= hold.until_s || s_m > hold.s_m + 0.5F) return kUnbound;
+  return following_acceleration(speed_mps, hold.s_m - s_m + kStandstillGapM, 0.0F, 0.5F);
 }
 
-float ego_braking(const EgoOnPath& ego, float time_s, float s_m, float speed_mps, float half_length_m) {
-  if (!ego.ever) return 0.0F;
+// What our being on its path leaves room for. Who finds us entering ahead of him opens the gap at once (the
+// model's plain form); who has followed us all along keeps the headway he has.
+float ego_acceleration(const EgoOnPath& ego, float time_s, float s_m, float speed_mps, float half_length_m,
+                       float free_mps2) {
+  if (!ego.ever) return kUnbound;
   const float knot = time_s / kEgoKnotS;
   const int index = to_int(floor(knot), 0, kEgoKnots - 2);
-  if (!ego.present[index]) return 0.0F;
+  if (!ego.present[index]) return kUnbound;
   const float part = clamp(knot - static_cast<float>(index), 0.0F, 1.0F);
-  if (lerp(ego.centre_s_m[index], ego.centre_s_m[index + 1], part) <= s_m) return 0.0F;
-  const float rear_s_m = lerp(ego.rear_s_m[index], ego.rear_s_m[index + 1], part);
+  if (lerp(ego.centre_s_m[index], ego.centre_s_m[index + 1], part) <= s_m) return kUnbound;
+  const float gap_m = lerp(ego.rear_s_m[index], ego.rear_s_m[index + 1], part) - s_m - half_length_m;
   const float ego_mps = lerp(ego.speed_mps[index], ego.speed_mps[index + 1], part);
-  float headway_s = kUsualHeadwayS;
-  if (ego.from_start) headway_s = kept_headway_s(ego.rear_s_m[0] - s_m - half_length_m, speed_mps);
-  return leader_braking(speed_mps, rear_s_m - s_m - half_length_m, ego_mps, headway_s);
+  if (ego.from_start) return following_acceleration(speed_mps, gap_m, ego_mps, ego.headway_s);
+  const float opening = following_acceleration(speed_mps, gap_m, ego_mps, kUsualHeadwayS) - kAccelerationMps2;
+  return free_mps2 + opening;
 }
 
 }  // namespace
@@ -50,17 +56,22 @@ void drive(const Way& way, const Track& track, const EgoOnPath& ego, const Hold&
   const Hold own_hold{way.hold_s_m, way.hold_until_s};
   float s_m = way.start_s_m;
   float speed_mps = way.speed_mps;
+  float habit_mps2 = 0.0F;
   for (int step = 0; step < kHorizonSteps; step += kStepsPerUpdate) {
     const float time_s = kStepS * static_cast<float>(step);
-    float braking =
-        max(hold_braking(own_hold, time_s, s_m, speed_mps), hold_braking(hold, time_s, s_m, speed_mps));
+    const float free_mps2 = free_acceleration(speed_mps, desired_at(way, s_m));
+    float alone_mps2 = min(free_mps2, hold_acceleration(own_hold, time_s, s_m, speed_mps));
     if (way.follows) {
       const float gap_m = way.leader_rear_s_m + way.leader_mps * time_s - s_m - half_length_m;
-      braking = max(braking, leader_braking(speed_mps, gap_m, way.leader_mps, way.headway_s));
+      alone_mps2 = min(alone_mps2, following_acceleration(speed_mps, gap_m, way.leader_mps, way.headway_s));
     }
-    braking = max(braking, ego_braking(ego, time_s, s_m, speed_mps, half_length_m));
-    const float acceleration =
-        max(free_acceleration(speed_mps, desired_at(way, s_m)) - braking, -kHardestMps2);
+    alone_mps2 = max(alone_mps2, -kHardestMps2);
+    // What it does now and the model does not explain fades away; what it does for us comes on top.
+    if (step == 0) habit_mps2 = clamp(track.acceleration_mps2 - alone_mps2, -kHabitMax, kHabitMax);
+    const float own_mps2 = alone_mps2 + habit_mps2 * max(1.0F - time_s / kHabitS, 0.0F);
+    const float for_us_mps2 = min(hold_acceleration(hold, time_s, s_m, speed_mps),
+                                  ego_acceleration(ego, time_s, s_m, speed_mps, half_length_m, free_mps2));
+    const float acceleration = max(min(own_mps2, for_us_mps2), -kHardestMps2);
     for (int part = 0; part < kStepsPerUpdate; ++part) {
       const float next_mps = max(speed_mps + kStepS * acceleration, 0.0F);
       s_m += 0.5F * kStepS * (speed_mps + next_mps);
