@@ -85,8 +85,7 @@ class MapSender {
   /// How far a record got.
   struct Progress {
     std::uint8_t revision = 0;
-    bool seen = false;     ///< a frame of this revision went out
-    bool changed = false;  ///< and not all of them yet
+    bool changed = false;  ///< since it was last sent whole
     std::uint16_t check = 0;
     std::uint32_t sent_ms = 0;
   };
@@ -179,7 +178,7 @@ class MapReceiver {
   bool revised_ = false;  ///< a record took another revision since whole_ was made
   std::uint8_t generation_ = 0;
   std::uint32_t in_use_[2] = {};
-  std::uint8_t halves_ = 0;  ///< bit i: in_use_[i] belongs to the newest header
+  std::uint8_t halves_ = 0;  ///< bit i: in_use_[i] arrived
   std::uint16_t rejected_ = 0;
 };
 

@@ -154,7 +154,6 @@ bool MapReceiver::accept_header(const Frame& frame) {
   announced.conflict_count = header.conflict_count;
   announced.lanes_left_out = header.lanes_left_out;
   announced.digest = header.digest;
-  if (!header_seen_ || generation_ != header.generation || !announced_.same(announced)) halves_ = 0;
   header_seen_ = true;
   generation_ = header.generation;
   announced_ = announced;
@@ -245,7 +244,7 @@ bool MapReceiver::finish_if_whole() {
   if (!header_seen_ || nothing_to_gain || !complete()) return false;
   if (!plausible()) {
     reject();
-    halves_ = 0;  // not looked at again before the next header
+    halves_ = 0;  // not looked at again before the slots come again
     return false;
   }
   for (int slot = 0; slot < kMaxLanes; ++slot) {

@@ -63,11 +63,6 @@ void MapSender::update(const Map& map) {
   started_ = true;
   ++generation_;
   make_digest();
-  // A header half sent would be completed with slots of another generation: begin it anew.
-  if (header_part_ > 0) {
-    header_part_ = 0;
-    header_sent_ = false;
-  }
 }
 
 bool MapSender::next(std::uint32_t now_ms, Frame& frame) {
@@ -82,7 +77,6 @@ bool MapSender::next(std::uint32_t now_ms, Frame& frame) {
     progress_[record_].sent_ms = now_ms;
   }
   const bool encoded = encode_part(record_, record_part_, frame);
-  progress_[record_].seen = true;
   if (++record_part_ == frame_count(record_)) {
     progress_[record_].changed = false;
     record_ = -1;
@@ -161,12 +155,9 @@ bool MapSender::take_conflicts(const Map& map) {
   return changed;
 }
 
-/// A new revision only once somebody may have seen the old one: so that a record waiting for its turn does
-/// not run through all sixteen unseen.
 void MapSender::revise(int record) {
   Progress& progress = progress_[record];
-  if (progress.seen) progress.revision = static_cast<std::uint8_t>((progress.revision + 1U) % kRevisions);
-  progress.seen = false;
+  progress.revision = static_cast<std::uint8_t>((progress.revision + 1U) % kRevisions);
   progress.changed = true;
   if (record_ == record) record_ = -1;
   progress.check = 0;

@@ -131,6 +131,14 @@ TEST(E2e, LongSilenceCostsTheTrust) {
   EXPECT_EQ(states(lost, {13, 14, 0}), (States{kSync, kSync, kOk}));
 }
 
+// WIRE-013: however long the silence: 256 periods are not none.
+TEST(E2e, VeryLongSilenceCostsTheTrustToo) {
+  E2eReceiver receiver;
+  static_cast<void>(states(receiver, {0, 1}));
+  static_cast<void>(states(receiver, silence(256)));
+  EXPECT_EQ(states(receiver, {2, 3, 4}), (States{kSync, kSync, kOk}));
+}
+
 // WIRE-013: a sender that hangs on one counter is as silent as one that sends nothing.
 TEST(E2e, RepetitionForLongCostsTheTrust) {
   E2eReceiver receiver;

@@ -222,6 +222,36 @@ TEST_F(LaneMapTest, RevisionsMayWrapUnseen) {
   EXPECT_TRUE(receiver_.map() == map);
 }
 
+std::uint16_t check_of(const Lane& lane, int slot, std::uint8_t revision) {
+  std::uint16_t check = 0;
+  for (int part = 0; part < part_count(lane); ++part) {
+    Frame frame;
+    EXPECT_TRUE(encode_part(lane, slot, revision, part, frame));
+    check = static_cast<std::uint16_t>(check + frame_check(frame));
+  }
+  return check;
+}
+
+// WIRE-030: 16 bits are not many: two maps with the same digest are soon found. The header seems to confirm
+// the old one until the revised record arrives.
+TEST_F(LaneMapTest, ADigestThatHappensToBeTheSameIsNotTheEnd) {
+  Map map = sample_map(2, 2, 0);
+  sender_.update(map);
+  static_cast<void>(run(500));
+  const std::uint16_t check = check_of(map.lanes[1], 1, 1);
+  Lane& lane = map.lanes[1];
+  bool found = false;
+  for (int steps = 1; steps < 1'000'000 && !found; ++steps) {
+    lane.goal_distance_m = 0.5F * static_cast<float>(steps % 1000);
+    lane.route_remaining_m = 0.5F * static_cast<float>(steps / 1000);
+    found = check_of(lane, 1, 2) == check;
+  }
+  ASSERT_TRUE(found);
+  sender_.update(map);
+  EXPECT_EQ(run(100), 1);
+  EXPECT_TRUE(receiver_.map() == map);
+}
+
 // WIRE-030: a lane revised while its record is on its way starts again; parts of both never make one lane.
 TEST_F(LaneMapTest, ARecordRevisedHalfwayStartsAgain) {
   Map map = sample_map(3, 12, 0);
