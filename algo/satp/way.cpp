@@ -8,8 +8,9 @@
 namespace s4tp {
 namespace {
 
-constexpr float kLateralMps2 = 2.5F;   // what sets the speed in turns
+constexpr float kLateralMps2 = 4.0F;   // what sets the speed in turns
 constexpr float kSlowDownMps2 = 2.0F;  // on the way to them
+constexpr float kSlowestTurnMps = 2.0F;
 constexpr float kSlowAheadM = 60.0F;
 constexpr float kStartingMps = 6.0F;  // below this a vehicle is on its way to the limit
 constexpr float kGainingMps2 = 0.5F;
@@ -43,15 +44,21 @@ float turn_speed(const Lane& lane, float length_m, float over_limit) {
 void read_slow_stretch(const LaneMap& map, const LanePath& path, float limit_mps, Way& way) {
   const float over_limit = max(way.speed_mps / max(limit_mps, 1.0F), 1.0F);  // who speeds goes on speeding
   way.slow_mps = way.desired_mps;
+  way.after_mps = way.desired_mps;
+  for (const PathLane& part : path.lanes) {
+    way.after_mps = max(way.after_mps, map.lanes[part.lane].speed_limit_mps * over_limit);
+  }
   float most_binding_mps = 1e3F;
   for (int i = 0; i < path.lanes.size(); ++i) {
     const float from_s_m = path.lanes[i].start_s_m;
     const float to_s_m = i + 1 < path.lanes.size() ? path.lanes[i + 1].start_s_m : path.length_m;
     if (to_s_m < way.start_s_m) continue;
     if (from_s_m > way.start_s_m + kSlowAheadM) break;
-    const float speed_mps =
-        max(turn_speed(map.lanes[path.lanes[i].lane], to_s_m - from_s_m, over_limit), 2.0F);
-    if (speed_mps >= way.desired_mps) continue;
+    const float turn_mps =
+        max(turn_speed(map.lanes[path.lanes[i].lane], to_s_m - from_s_m, over_limit), kSlowestTurnMps);
+    // Who is in the turn already has chosen his speed for it.
+    const float speed_mps = from_s_m <= way.start_s_m ? max(turn_mps, way.speed_mps) : turn_mps;
+    if (turn_mps >= way.after_mps) continue;
     const float distance_m = max(from_s_m - way.start_s_m, 0.0F);
     const float now_mps = sqrt(square(speed_mps) + 2.0F * kSlowDownMps2 * distance_m);
     if (now_mps >= most_binding_mps) continue;

@@ -28,6 +28,7 @@ struct Way {
   float slow_from_s_m = 0.0F;
   float slow_to_s_m = 0.0F;
   float slow_mps = 0.0F;
+  float after_mps = 0.0F;  ///< desired beyond it
   /// The vehicle in front.
   bool follows = false;
   float leader_rear_s_m = 0.0F;  ///< of its rear bumper at plan start

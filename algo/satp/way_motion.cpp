@@ -22,8 +22,9 @@ constexpr float kSlopeSpanM = 3.0F;  // a slope of this over the span leads astr
 static_assert(kHorizonSteps % kStepsPerUpdate == 0, "updates span the horizon");
 
 float desired_at(const Way& way, float s_m) {
-  if (s_m >= way.slow_to_s_m) return way.desired_mps;
-  if (s_m >= way.slow_from_s_m) return min(way.desired_mps, way.slow_mps);
+  if (way.slow_to_s_m <= 0.0F) return way.desired_mps;
+  if (s_m >= way.slow_to_s_m) return way.after_mps;
+  if (s_m >= way.slow_from_s_m) return way.slow_mps;
   return min(way.desired_mps, sqrt(square(way.slow_mps) + 2.0F * kSlowDownMps2 * (way.slow_from_s_m - s_m)));
 }
 

@@ -118,7 +118,7 @@ TEST(Predictor, KeepsTheHeadwayItHas) {
   EXPECT_GT(test::predicted_speed(result.of(1).modes[0], kLast), 9.5F);
 }
 
-// A quarter circle of radius 9.6 m allows sqrt(2.5 * 9.6) = 4.9 m/s.
+// A quarter circle of radius 9.6 m allows sqrt(4 * 9.6) = 6.2 m/s.
 TEST(Predictor, SlowsDownForATurn) {
   LaneMap map;
   const LaneIndex before = test::add_lane(map, {{-50.0F, 0.0F}, {0.0F, 0.0F}});
@@ -127,7 +127,7 @@ TEST(Predictor, SlowsDownForATurn) {
   Predicted result;
   predict(map, test::ego_at(-45.0F, 0.0F, 0.0F, 5.0F), {test::car(1, -15.0F, 0.0F, 0.0F, 9.0F)}, nullptr,
           result);
-  EXPECT_NEAR(test::predicted_speed(result.of(1).modes[0], kLast), 4.9F, 0.8F);
+  EXPECT_NEAR(test::predicted_speed(result.of(1).modes[0], kLast), 6.2F, 0.5F);
 }
 
 // Before a junction: three ways, three modes, their chances add up to 1, the likeliest first.
