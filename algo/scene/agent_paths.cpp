@@ -8,11 +8,16 @@ namespace {
 constexpr float kAheadM = 110.0F;      // far enough for whoever reaches a zone in 7 s
 constexpr float kStraightRad = 0.35F;  // less than this is not a turn
 constexpr float kUTurnRad = 2.3F;
-constexpr float kTurnPrior = 0.4F;  // relative to straight on
+constexpr float kTurnPrior = 0.8F;  // relative to straight on
 constexpr float kUTurnPrior = 0.1F;
-constexpr float kTurnLateral = 3.0F;    // m/s^2, what drivers accept in a turn
-constexpr float kTurnBraking = 3.0F;    // m/s^2, on the way to it
+constexpr float kTurnLateral = 4.0F;    // m/s^2, what drivers accept in a turn
+constexpr float kTurnBraking = 4.0F;    // m/s^2, on the way to it
 constexpr float kTooFastMps = 1.5F;     // scale: this much too fast for the turn makes it e times less likely
+constexpr float kUnnoticedMps2 = 0.5F;  // a slowing weaker than this means nothing
+constexpr float kSlowWithinM = 40.0F;   // near a junction speed tells who turns
+constexpr float kRollingMps = 3.0F;     // below this it may just be starting, or waiting
+constexpr float kUsualShare = 0.85F;    // of the limit, at least: the speed of who goes straight on
+constexpr float kTooSlowMps = 2.5F;     // scale: this much slower makes it e times less likely
 constexpr float kHintsWithinM = 15.0F;  // heading, yaw rate and offset speak for what comes this soon
 constexpr float kAmbiguousM = 1.0F;     // lanes this close may both be the one
 constexpr float kAmbiguousRad = 0.5F;
@@ -30,34 +35,47 @@ struct Way {
 
 using Ways = BoundedVector<Way, kPathsPerAgent>;
 
-float mean_curvature(const LaneFacts& facts) {
-  return facts.turn_rad / max(facts.length_m, 1.0F);
+float mean_curvature(float turn_rad, float length_m) {
+  return turn_rad / max(length_m, 1.0F);
 }
 
 // How the vehicle stands and moves relative to the lane it is on.
-struct Bearing {
-  float heading_rad = 0.0F;  // relative to the lane
-  float offset_m = 0.0F;     // left positive
+struct Situation {
+  const Track& track;
+  float heading_rad;  // relative to the lane
+  float offset_m;     // left positive
+  float candour;      // how much being slow tells: less where it has another reason for it
 };
 
-// Likelihood of entering the lane `facts`, `distance_m` ahead.
-float branch_weight(const LaneFacts& facts, float distance_m, const Track& track, const Bearing& bearing) {
-  const float turn_rad = abs(facts.turn_rad);
+// Speed at which drivers enter a bend: the map's limit where it is lowered for it, else by the curvature.
+float entry_speed(const Bend& bend, float limit_mps) {
+  const float curvature_1pm = max(abs(mean_curvature(bend.turn_rad, bend.length_m)), 1e-3F);
+  const float by_curve_mps = sqrt(kTurnLateral / curvature_1pm);
+  return bend.speed_limit_mps < limit_mps ? max(by_curve_mps, bend.speed_limit_mps) : by_curve_mps;
+}
+
+// Likelihood of entering a bend `distance_m` ahead from a lane of the given limit.
+float branch_weight(const Bend& bend, float limit_mps, float distance_m, const Situation& situation) {
+  const Track& track = situation.track;
+  const float turn_rad = abs(bend.turn_rad);
   const bool turns = turn_rad > kStraightRad;
+  const float speed_mps = track.speed_mps;
   float exponent = 0.0F;
   if (turns) {
-    const float curvature_1pm = max(abs(mean_curvature(facts)), 1e-3F);
-    const float entry_square = kTurnLateral / curvature_1pm;
-    const float possible_mps = sqrt(entry_square + 2.0F * kTurnBraking * max(distance_m, 0.0F));
-    exponent -= max(track.speed_mps - possible_mps, 0.0F) / kTooFastMps;
-  } else if (track.acceleration_mps2 < -0.7F && distance_m < 40.0F) {
-    exponent += 0.4F * max(track.acceleration_mps2 + 0.7F, -3.3F);  // who slows down rather turns
+    const float entry_mps = entry_speed(bend, limit_mps);
+    const float possible_mps = sqrt(square(entry_mps) + 2.0F * kTurnBraking * max(distance_m, 0.0F));
+    exponent -= max(speed_mps - possible_mps, 0.0F) / kTooFastMps;
+  } else if (speed_mps > kRollingMps && track.acceleration_mps2 < 0.5F && distance_m < kSlowWithinM) {
+    // Who slows down without being made to, or has, rather turns.
+    const float slowness = clamp(kUsualShare * limit_mps - speed_mps, 0.0F, 5.0F) / kTooSlowMps;
+    const float slowing = clamp(-track.acceleration_mps2 - kUnnoticedMps2, 0.0F, 3.0F);
+    exponent -= situation.candour * (slowness + slowing);
   }
   if (distance_m < kHintsWithinM) {
     const float hint = clamp(
-        4.0F * track.yaw_rate_radps + 4.0F * bearing.heading_rad + 0.7F * bearing.offset_m, -2.0F, 2.0F);
+        4.0F * track.yaw_rate_radps + 4.0F * situation.heading_rad + 0.7F * situation.offset_m, -2.0F, 2.0F);
     const float nearness = 1.0F - max(distance_m, 0.0F) / kHintsWithinM;
-    const float agreement = turns ? (facts.turn_rad > 0.0F ? hint : -hint) : -abs(hint);
+    const float agreement = turns ? (bend.turn_rad > 0.0F ? hint : -hint) : -abs(hint);
     exponent += nearness * agreement;
   }
   const float prior = turn_rad > kUTurnRad ? kUTurnPrior : (turns ? kTurnPrior : 1.0F);
@@ -67,7 +85,8 @@ float branch_weight(const LaneFacts& facts, float distance_m, const Track& track
 // Likelihood of already being on a lane that starts or runs together with another.
 float fit_weight(const LaneTable& table, const LaneFit& fit, const Track& track) {
   const LaneFacts& facts = table.facts(fit.lane);
-  const float yaw_miss = track.yaw_rate_radps - track.speed_mps * mean_curvature(facts);
+  const float yaw_miss =
+      track.yaw_rate_radps - track.speed_mps * mean_curvature(facts.turn_rad, facts.length_m);
   const float misfit =
       square(fit.fix.distance_m / 0.5F) + square(fit.turn_rad / 0.2F) + square(yaw_miss / 0.2F);
   return exp(clamp(-0.5F * misfit, -10.0F, 0.0F));
@@ -92,10 +111,10 @@ void start_way(const LaneTable& table, LaneIndex lane, float start_s_m, float we
 }
 
 // The neighbour lane a change under way leads to, or kNoLaneIndex.
-LaneIndex change_target(const LaneTable& table, LaneIndex lane, const Track& track, const Bearing& bearing) {
-  const float lateral_mps = track.speed_mps * sin(bearing.heading_rad);
+LaneIndex change_target(const LaneTable& table, LaneIndex lane, const Situation& situation) {
+  const float lateral_mps = situation.track.speed_mps * sin(situation.heading_rad);
   if (abs(lateral_mps) < kChangeLateralMps || table.lane(lane).in_junction) return kNoLaneIndex;
-  const float soon_m = bearing.offset_m + lateral_mps;
+  const float soon_m = situation.offset_m + lateral_mps;
   const bool leaves = lateral_mps > 0.0F ? soon_m > kChangeOffsetM : soon_m < -kChangeOffsetM;
   if (!leaves) return kNoLaneIndex;
   const LaneIndex target = lateral_mps > 0.0F ? table.lane(lane).left : table.lane(lane).right;
@@ -103,7 +122,7 @@ LaneIndex change_target(const LaneTable& table, LaneIndex lane, const Track& tra
 }
 
 // Makes the shortest open way longer, in as many ways as there is room for.
-void extend(const LaneTable& table, const Track& track, const Bearing& bearing, Ways& ways) {
+void extend(const LaneTable& table, const Situation& situation, Ways& ways) {
   int shortest = -1;
   for (int i = 0; i < ways.size(); ++i) {
     if (!ways[i].open) continue;
@@ -127,7 +146,8 @@ void extend(const LaneTable& table, const Track& track, const Bearing& bearing, 
   const LaneIndex end = trunk.path.lanes[trunk.path.lanes.size() - 1].lane;
   for (LaneIndex successor : table.lane(end).successors) {
     if (!table.valid(successor)) continue;
-    const Branch branch{successor, branch_weight(table.facts(successor), distance_m, track, bearing)};
+    const Branch branch{successor, branch_weight(table.bend(successor), table.lane(end).speed_limit_mps,
+                                                 distance_m, situation)};
     sum += branch.weight;
     int place = branches.size();
     (void)branches.push(branch);
@@ -151,7 +171,7 @@ void extend(const LaneTable& table, const Track& track, const Bearing& bearing, 
 
 }  // namespace
 
-void build_agent_paths(const LaneTable& table, Agent& agent) {
+void build_agent_paths(const LaneTable& table, bool hindered, Agent& agent) {
   const Track& track = agent.track;
   agent.paths.clear();
   LaneTable::Fits fits;
@@ -162,8 +182,11 @@ void build_agent_paths(const LaneTable& table, Agent& agent) {
   Ways ways;
   start_way(table, agent.lane, fits[0].fix.s_m, 1.0F, ways);
   const Frenet here = project(table.map(), ways[0].path, position(track.centre), fits[0].fix.s_m, 5.0F);
-  const Bearing bearing{wrap_angle(track.centre.heading_rad - here.heading_rad), here.d_m};
-  const LaneIndex target = change_target(table, agent.lane, track, bearing);
+  // Others in front explain all, a stop line part: it may be there for who turns.
+  const float candour = hindered ? 0.0F : (table.lane(agent.lane).stop_line_m >= 0.0F ? 0.5F : 1.0F);
+  const Situation situation{track, wrap_angle(track.centre.heading_rad - here.heading_rad), here.d_m,
+                            candour};
+  const LaneIndex target = change_target(table, agent.lane, situation);
   if (target != kNoLaneIndex) {
     const LaneFix fix = nearest_on_lane(table.lane(target), position(track.centre));
     start_way(table, target, fix.s_m, 2.0F, ways);
@@ -177,7 +200,7 @@ void build_agent_paths(const LaneTable& table, Agent& agent) {
     start_way(table, fit.lane, fit.fix.s_m, fit_weight(table, fit, track), ways);
   }
   if (target != kNoLaneIndex) ways[1].weight *= ways[0].weight;
-  for (int step = 0; step < kSteps; ++step) extend(table, track, bearing, ways);
+  for (int step = 0; step < kSteps; ++step) extend(table, situation, ways);
 
   // Likeliest first; in one order for equals.
   float sum = 0.0F;

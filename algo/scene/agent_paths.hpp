@@ -8,7 +8,8 @@ namespace s4tp {
 
 /// Fills paths, probabilities and Frenet coordinates of `agent` from its track; without a lane there are
 /// none. `agent.lane` is the hint on entry and the lane found on return.
-void build_agent_paths(const LaneTable& table, Agent& agent);
+/// \param hindered  another vehicle ahead gives it a reason to be slow
+void build_agent_paths(const LaneTable& table, bool hindered, Agent& agent);
 
 /// Moves the agent along its likeliest way by `seconds`; off the map on the arc it drives.
 void bring_forward(const LaneMap* map, float seconds, Agent& agent);

@@ -27,7 +27,7 @@ bool better_successor(const LaneTable& table, LaneIndex a, LaneIndex b) {
       return lane_a.route_remaining_m > lane_b.route_remaining_m;
     }
   }
-  return abs(table.facts(a).turn_rad) + kStraightRad < abs(table.facts(b).turn_rad);
+  return abs(table.bend(a).turn_rad) + kStraightRad < abs(table.bend(b).turn_rad);
 }
 
 LanePath path_from(const LaneTable& table, LaneIndex first, float until_s_m) {

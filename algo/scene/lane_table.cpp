@@ -9,6 +9,7 @@ constexpr float kBesideM = 1.0F;           // a vehicle this far over the lane's
 constexpr float kHeadingLimitRad = 1.05F;  // 60 degrees
 constexpr float kAheadM = 40.0F;           // before a lane's start it still is our way
 constexpr float kAheadRad = 0.2F;
+constexpr int kJunctionParts = 4;       // lanes one way across a junction is cut into, at most
 constexpr float kHeadingWeight = 0.5F;  // m/rad
 constexpr float kStayM = 0.6F;          // hysteresis: changes over 0.3 m beyond the middle
 constexpr float kGoOnM = 0.3F;          // the same for a successor of the previous lane
@@ -46,6 +47,19 @@ bool follows(const Lane& before, LaneIndex lane) {
 LaneTable::LaneTable(const LaneMap* map) : map_(map) {
   if (map == nullptr) return;
   for (int i = 0; i < kMaxLanes; ++i) facts_[i] = work_out(map->lanes[i]);
+}
+
+Bend LaneTable::bend(LaneIndex index) const {
+  Bend bend{facts_[index].turn_rad, facts_[index].length_m, map_->lanes[index].speed_limit_mps};
+  for (int part = 1; part < kJunctionParts && map_->lanes[index].in_junction; ++part) {
+    const LaneIndex next = map_->lanes[index].successors[0];
+    if (!valid(next) || !map_->lanes[next].in_junction) break;
+    index = next;
+    bend.turn_rad += facts_[index].turn_rad;
+    bend.length_m += facts_[index].length_m;
+    bend.speed_limit_mps = min(bend.speed_limit_mps, map_->lanes[index].speed_limit_mps);
+  }
+  return bend;
 }
 
 bool LaneTable::valid(LaneIndex index) const {

@@ -15,6 +15,14 @@ struct LaneFacts {
   Point high;
 };
 
+/// Bend of the way a lane leads into: of the lane itself, or of the whole chain of lanes across a junction
+/// where it is cut into parts.
+struct Bend {
+  float turn_rad = 0.0F;  ///< left positive
+  float length_m = 0.0F;
+  float speed_limit_mps = 0.0F;  ///< the lowest on it
+};
+
 /// One lane a pose may be driving on.
 struct LaneFit {
   LaneIndex lane = kNoLaneIndex;
@@ -40,6 +48,8 @@ class LaneTable {
   [[nodiscard]] const LaneMap& map() const { return *map_; }  ///< \pre some lane is valid
   [[nodiscard]] const Lane& lane(LaneIndex index) const { return map_->lanes[index]; }
   [[nodiscard]] const LaneFacts& facts(LaneIndex index) const { return facts_[index]; }
+  /// \pre valid(index)
+  [[nodiscard]] Bend bend(LaneIndex index) const;
   /// Whether an index from outside names a lane that can be used.
   [[nodiscard]] bool valid(LaneIndex index) const;
 

@@ -12,7 +12,9 @@ constexpr std::int32_t kCoastMs = 500;  // CORE-030
 constexpr std::int32_t kFreshMs = 250;  // a pose older than this is not "seen" any more
 constexpr float kSameVehicleM = 2.0F;   // a new id this near a lost vehicle is that vehicle
 constexpr float kSameSpeedMps = 4.0F;
-constexpr float kJumpM = 8.0F;  // an id this far from where it should be is another vehicle
+constexpr float kJumpM = 8.0F;    // an id this far from where it should be is another vehicle
+constexpr float kHinderS = 2.5F;  // a vehicle within this headway explains another's braking
+constexpr float kHinderBesideM = 2.0F;
 constexpr std::uint16_t kPresentBit = 1U << (kHistorySamples - 1);
 
 // Signed, so that the 32-bit time may wrap and lists may lie a little in the future.
@@ -66,6 +68,22 @@ void record(History& history, const Pose& pose, float speed_mps, bool seen) {
 // Where a vehicle last seen as `track` is `seconds` later, roughly.
 Point coasted(const Track& track, float seconds) {
   return offset_point(track.centre, track.speed_mps * seconds, 0.0F);
+}
+
+// Whether somebody is close ahead of the vehicle.
+template <typename PastList>
+bool hindered(const Track& track, const PastList& past) {
+  const Point ahead = direction(track.centre.heading_rad);
+  const float reach_m = kHinderS * track.speed_mps + 0.5F * track.length_m;
+  for (const auto& other : past) {
+    const Point offset = position(other.track.centre) - position(track.centre);
+    const float ahead_m = dot(ahead, offset);
+    if (ahead_m > 0.0F && ahead_m < reach_m + 0.5F * other.track.length_m &&
+        abs(cross(ahead, offset)) < kHinderBesideM) {
+      return true;
+    }
+  }
+  return false;
 }
 
 }  // namespace
@@ -183,7 +201,7 @@ Status SceneBuilder::build(std::uint32_t time_ms, const EgoState& ego, const Tra
     agent.track = past.track;
     agent.age_ms = static_cast<std::uint16_t>(age_ms);
     agent.lane = past.lane;
-    build_agent_paths(table, agent);
+    build_agent_paths(table, hindered(past.track, past_), agent);
     past.lane = agent.lane;
     bring_forward(map, 1e-3F * static_cast<float>(age_ms), agent);
     record(past.history, agent.track.centre, agent.track.speed_mps, age_ms <= kFreshMs);

@@ -174,7 +174,7 @@ TEST(SceneBuilder, ConvertsThePriorityToOurView) {
 TEST(SceneBuilder, AgentsBranchAtTheJunction) {
   const CrossJunction cross = test::cross_junction();
   const Scene scene = test::scene_of(cross.map, test::ego_at(-40.0F, -1.6F, 0.0F, 8.0F),
-                                     {test::car(1, 1.6F, -30.0F, 1.5708F, 8.0F)});
+                                     {test::car(1, 1.6F, -30.0F, 1.5708F, 12.0F)});
   const Agent& agent = scene.agents[0];
   ASSERT_EQ(agent.paths.size(), 3);
   EXPECT_NEAR(sum_of_probabilities(agent), 1.0F, 1e-5F);
