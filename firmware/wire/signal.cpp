@@ -38,7 +38,6 @@ bool load_scaled(const Signal& signal, const unsigned char* field, std::int64_t&
   raw = round_to_nearest(value * signal.denominator / signal.numerator);
   const auto maximum = static_cast<std::int64_t>(signal.raw_maximum);
   if (raw > maximum) raw = maximum;
-  if (raw < signal.raw_minimum) raw = signal.raw_minimum;
   return true;
 }
 
