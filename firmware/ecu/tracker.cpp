@@ -11,6 +11,8 @@ constexpr float kFeedbackMaxMps2 = 3.0F;
 constexpr float kTrimMaxMps2 = 1.0F;
 constexpr float kTrimMax1pm = 0.01F;  // 0.03 rad of steering at a 2.9 m wheelbase
 constexpr float kBesideMaxM = 3.0F;
+constexpr float kBehindMaxM = 2.0F;
+constexpr float kShortestStepM = 0.1F;
 constexpr float kStandingMps = 0.05F;   // a plan this slow stands
 constexpr float kHoldBelowMps = 0.2F;   // the brake may take over from here
 constexpr float kTrimRate1ps3 = 0.1F;   // along: a third of the limit of stability, speed_gain * station_gain
@@ -19,6 +21,8 @@ constexpr float kTrimAlongMaxM = 2.0F;
 constexpr float kCurvatureTrimShare = 0.05F;  // across: of that limit, 2 / w^3
 
 /// Where the car is on a plan's path: the nearest point, and its place in the plan as a fractional index.
+/// Behind the start the path goes on backwards with the first point's curvature: a car a little late is not
+/// off it.
 struct Place {
   TrajectoryPoint point;
   float index = 0.0F;
@@ -57,12 +61,23 @@ Place nearest(const Trajectory& trajectory, Point car) {
       best_index = static_cast<float>(i) + t;
     }
   }
-  return {at_index(trajectory, best_index), best_index};
+  Place place{at_index(trajectory, best_index), best_index};
+  const Pose start = place.point.rear_axle;
+  const float behind_m = clamp(-to_local(start, car).x_m, 0.0F, kBehindMaxM);
+  if (best_index > 0.0F || behind_m <= 0.0F) return place;
+  const float turned_rad = place.point.curvature_1pm * behind_m;
+  const Point back = behind_m * direction(start.heading_rad - 0.5F * turned_rad);
+  const Point there = position(start) - back;
+  place.point.rear_axle = {there.x_m, there.y_m, wrap_angle(start.heading_rad - turned_rad)};
+  place.index = -behind_m / max(place.point.speed_mps * kStepS, kShortestStepM);
+  return place;
 }
 
-float steering_for_curvature(float curvature_1pm, const Parameters& parameters) {
+/// Geometry and the tyres' share.
+float steering_for_curvature(float curvature_1pm, float speed_mps, const Parameters& parameters) {
   const float bound = parameters.vehicle.steering_max_rad;
-  return clamp(atan(parameters.vehicle.wheelbase_m * curvature_1pm), -bound, bound);
+  const float tyres_rad = parameters.tracking.understeer * square(speed_mps) * curvature_1pm;
+  return clamp(atan(parameters.vehicle.wheelbase_m * curvature_1pm) + tyres_rad, -bound, bound);
 }
 
 }  // namespace
@@ -108,14 +123,17 @@ gate::Command Tracker::stop(const Plan& last, const EgoState& ego, const Paramet
 float Tracker::steer(const Plan& plan, const EgoState& ego, const Parameters& parameters) {
   const Place place = nearest(plan.trajectory, position(ego.rear_axle));
   const float cross_m = to_local(place.point.rear_axle, position(ego.rear_axle)).y_m;
-  const float turned_rad = wrap_angle(ego.rear_axle.heading_rad - place.point.rear_axle.heading_rad);
+  // In a turn the rear axle slips outwards: the car points inwards of where it goes.
+  const float slip_rad = parameters.tracking.rear_slip * ego.speed_mps * ego.yaw_rate_radps;
+  const float course_rad = ego.rear_axle.heading_rad - slip_rad;
+  const float turned_rad = wrap_angle(course_rad - place.point.rear_axle.heading_rad);
   const float way_m =
       max(parameters.tracking.convergence_m, ego.speed_mps * parameters.tracking.convergence_s);
   const float ahead = parameters.tracking.steering_delay_s / kStepS;
   const float planned_1pm = at_index(plan.trajectory, place.index + ahead).curvature_1pm;
   const float feedback_1pm = -(cross_m / way_m + 2.0F * turned_rad) / way_m;
   const float curvature_1pm = planned_1pm + feedback_1pm + curvature_trim_1pm_;
-  const float steering_rad = steering_for_curvature(curvature_1pm, parameters);
+  const float steering_rad = steering_for_curvature(curvature_1pm, ego.speed_mps, parameters);
 
   const bool saturated = abs(steering_rad) >= parameters.vehicle.steering_max_rad;
   if (!saturated && ego.speed_mps > 1.0F && abs(cross_m) < kTrimCrossMaxM) {

@@ -66,6 +66,7 @@ struct Plant {
   double steering_lag_s = 0.08;
   double drag_mps2 = 0.0;            ///< a slope the controller does not know of
   double steering_offset_rad = 0.0;  ///< nor of this
+  double rear_slip = 0.0;            ///< rad per m/s^2 of lateral acceleration
   double acceleration_mps2 = 0.0;
   double yaw_rate_radps = 0.0;
 
@@ -79,8 +80,9 @@ struct Plant {
       acceleration_mps2 = (speed_mps - before_mps) / 0.001;
       yaw_rate_radps = speed_mps * std::tan(steering_rad + steering_offset_rad) / 2.9;
       heading_rad = std::remainder(heading_rad + 0.001 * yaw_rate_radps, 6.283185307179586);
-      x_m += 0.001 * speed_mps * std::cos(heading_rad);
-      y_m += 0.001 * speed_mps * std::sin(heading_rad);
+      const double course_rad = heading_rad - rear_slip * speed_mps * yaw_rate_radps;
+      x_m += 0.001 * speed_mps * std::cos(course_rad);
+      y_m += 0.001 * speed_mps * std::sin(course_rad);
     }
   }
 };

@@ -27,7 +27,9 @@ Plan plan_of(const Script& script, std::uint32_t start_ms) {
 /// Tracker, gate-less, on the plant; a new plan every 100 ms, each a piece of the script.
 class Drive {
  public:
-  explicit Drive(Script script) : script_(std::move(script)) {}
+  explicit Drive(Script script) : script_(std::move(script)) {
+    parameters.tracking.understeer = parameters.tracking.rear_slip = 0.0F;  // the plant's tyres do not slip
+  }
 
   void run(double duration_s) {
     for (int i = 0; i < static_cast<int>(duration_s * 100.0 + 0.5); ++i) {
@@ -37,6 +39,7 @@ class Drive {
                        static_cast<float>(plant.heading_rad)};
       ego.speed_mps = static_cast<float>(plant.speed_mps);
       ego.acceleration_mps2 = static_cast<float>(plant.acceleration_mps2);
+      ego.yaw_rate_radps = static_cast<float>(plant.yaw_rate_radps);
       ego.steering_rad = static_cast<float>(plant.steering_rad);
       const gate::Command last = command;
       command = tracker.follow(plan, now_ms, ego, parameters);
@@ -174,6 +177,52 @@ TEST(Tracker, FollowsTheLeftTurnWithSlowActuators) {
   drive.plant.drive_lag_s = 0.25;
   drive.run(7.0);
   EXPECT_LT(drive.worst_cross_m, 0.3F);
+}
+
+// On the ring of 200 m radius at 14 m/s (about 1 m/s^2) a car whose rear axle slips 0.0083 rad per m/s^2
+// points 0.008 rad inwards. A controller that knows stays within 5 cm; one that does not would be 2 w 0.008 =
+// 0.18 m off (w = 11 m).
+TEST(Tracker, KnowsThatTheRearAxleSlips) {
+  const Script ring = [](double t) {
+    TrajectoryPoint point;
+    const double turned = 14.0 * t / 200.0;
+    point.rear_axle = {static_cast<float>(200.0 * std::sin(turned)),
+                       static_cast<float>(200.0 * (1.0 - std::cos(turned))),
+                       static_cast<float>(std::remainder(turned, 6.283185307179586))};
+    point.speed_mps = 14.0F;
+    point.curvature_1pm = 1.0F / 200.0F;
+    return point;
+  };
+  double cross_m[2] = {};
+  for (const int knows : {0, 1}) {
+    Drive drive(ring);
+    drive.parameters.tracking.rear_slip = knows != 0 ? 0.0083F : 0.0F;
+    drive.plant.rear_slip = 0.0083;
+    drive.plant.speed_mps = 14.0;
+    drive.run(5.0);
+    cross_m[knows] = static_cast<double>(drive.tracker.error().cross_m);
+  }
+  EXPECT_NEAR(cross_m[1], 0.0, 0.05);
+  EXPECT_GT(std::abs(cross_m[0]), 0.07);
+}
+
+// A car 1 m late on the turn asks for the steering of the place where it is, plan after plan: at each new
+// plan's first tick the steering asked for changes by less than the gate lets pass in a tick (0.007 rad).
+TEST(Tracker, LateIsNotBeside) {
+  const Script script = left_turn(5.0);
+  Drive drive([&script](double t) { return script(t + 0.2); });
+  drive.parameters.tracking.station_gain = 0.0F;  // stays late
+  drive.plant.speed_mps = 5.0;
+  drive.run(2.5);
+  EXPECT_NEAR(drive.tracker.error().along_m, -1.0, 0.15);
+  drive.forget();
+  float worst_rad = 0.0F;
+  for (int i = 0; i < 200; ++i) {
+    const float before_rad = drive.command.steering_rad;
+    drive.run(0.01);
+    worst_rad = std::max(worst_rad, std::abs(drive.command.steering_rad - before_rad));
+  }
+  EXPECT_LT(worst_rad, 0.007F);
 }
 
 // Braking to a stop at 24 m: the car stands within 0.3 m of it and does not creep for 3 s.
