@@ -194,7 +194,8 @@ TEST(Gate, TreatsNotFiniteAsDenied) {
   }
 }
 
-// GATE-011: a damaged, a repeated or a foreign frame is no news: the motion goes stale as without it.
+// GATE-011: a damaged, a repeated, a foreign or a truncated frame is no news: the motion goes stale as
+// without it.
 TEST(Gate, ReadsTheMotionFrameItself) {
   Bench bench;
   const wire::Frame once = bench.frame(5.0F);
@@ -203,6 +204,9 @@ TEST(Gate, ReadsTheMotionFrameItself) {
   wire::Frame foreign = bench.frame(5.0F);
   foreign.id = wire::kMotionId + 1;
   wire::e2e_seal(foreign);
+  wire::Frame truncated = bench.frame(5.0F);
+  truncated.length = 7;
+  wire::e2e_seal(truncated);
   bench.gate.observe(once);
   for (int i = 0; i < 11; ++i) {
     Command command;
@@ -210,6 +214,7 @@ TEST(Gate, ReadsTheMotionFrameItself) {
     bench.gate.observe(once);
     bench.gate.observe(damaged);
     bench.gate.observe(foreign);
+    bench.gate.observe(truncated);
   }
   Command command;
   EXPECT_EQ(bench.gate.apply(true, command) & kMotionStale, kMotionStale);
