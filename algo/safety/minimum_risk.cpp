@@ -1,6 +1,7 @@
 #include "algo/safety/minimum_risk.hpp"
 
 #include "algo/core/math.hpp"
+#include "algo/safety/right_of_way.hpp"
 #include "algo/trajectory/along_path.hpp"
 #include "algo/trajectory/bicycle.hpp"
 #include "algo/trajectory/path_walk.hpp"
@@ -14,7 +15,7 @@ constexpr float kGapM = 1.0F;         // left to a standing leader
 constexpr float kBeforeZoneM = 0.5F;  // stops in a zone become stops before it, if no harder than this:
 constexpr float kForZoneMps2 = 6.0F;
 constexpr float kBeyondZoneM = 0.5F;  // clear of a zone we leave
-constexpr float kLeavingMps2 = 1.5F;  // drive used to leave it
+constexpr float kLeavingMps2 = 2.0F;  // drive used to leave it
 constexpr float kBesideM = 0.4F;      // without a map: who is this near to our way ahead is in it
 constexpr float kBuildUpS = 0.1F;     // at speed, until braking has built up
 constexpr float kStretch = 1.7F;
@@ -58,6 +59,11 @@ float braking_straight_ahead(const Scene& scene, const TrajectoryPoint& start, c
   return braking;
 }
 
+/// Time to drive `way_m` with kLeavingMps2.
+float driving_time_s(float way_m, float speed_mps) {
+  return (sqrt(square(speed_mps) + 2.0F * kLeavingMps2 * way_m) - speed_mps) / kLeavingMps2;
+}
+
 /// The ego path we are nearest to.
 int nearest_path(const Scene& scene) {
   int best = 0;
@@ -65,6 +71,24 @@ int nearest_path(const Scene& scene) {
     if (abs(scene.ego_paths[i].frenet.d_m) < abs(scene.ego_paths[best].frenet.d_m)) best = i;
   }
   return best;
+}
+
+/// Whether everybody lets us drive on by `way_m`, through all zones we touch on it.
+bool may_leave(const Scene& scene, const EgoPath& path, float s_m, float way_m, float speed_mps,
+               const Parameters& parameters) {
+  const float centre_m = rear_axle_to_centre_m(parameters);
+  for (const ConflictZone& zone : path.zones) {
+    const float to_entry_m = zone.entry_s_m - centre_m - s_m;
+    const float to_exit_m = zone.exit_s_m - centre_m - s_m;
+    if (to_exit_m <= 0.0F || to_entry_m > way_m) continue;
+    if (-to_entry_m > to_exit_m) continue;  // most of it is behind us: on
+    const float in_s = driving_time_s(max(to_entry_m, 0.0F), speed_mps);
+    const float out_s = driving_time_s(min(to_exit_m, way_m), speed_mps);
+    for (int i = 0; i < scene.agents.size(); ++i) {
+      if (!leaves_zone_to_us(scene, i, zone, in_s, out_s, /*committed=*/true, parameters)) return false;
+    }
+  }
+  return true;
 }
 
 /// How to drive along the path: a stop beyond the zone we stand in, else braking.
@@ -88,7 +112,9 @@ void shape_braking(const Scene& scene, const EgoPath& path, float s_m, float spe
     const float to_exit_m = zone.exit_s_m - centre_m - s_m;
     const float stop_m = square(speed_mps) / (2.0F * braking) + kBuildUpS * speed_mps;
     const float clear_m = to_exit_m + kBeyondZoneM;
-    if (to_entry_m < 0.0F && to_exit_m > 0.0F && clear_m < free_m && clear_m < max(end_m, 0.0F)) {
+    const bool inside = to_entry_m < 0.0F && to_exit_m > 0.0F;
+    if (inside && clear_m < free_m && clear_m < max(end_m, 0.0F) &&
+        may_leave(scene, path, s_m, clear_m, speed_mps, parameters)) {
       candidate.intent = Intent::kStop;
       candidate.acceleration_mps2 = kLeavingMps2;
       candidate.target_s_m = s_m + max(clear_m, stop_m);

@@ -6,12 +6,26 @@ namespace s4tp {
 namespace {
 
 constexpr float kBrakingMps2 = -1.0F;  // gentler is no answer to us
+constexpr float kMovingMps = 1.0F;     // slower is standing
+constexpr float kNever = 1e3F;         // s
+constexpr float kPassedFirstS = 0.4F;  // others who clear a zone this long before we enter it went first
+constexpr float kTrustedGain = 0.5F;   // share of a present acceleration counted on in that judgement
+constexpr float kBesideS = 0.5F;       // between us and one who should yield but will not
 
 /// Whether its present braking, kept up, ends before the zone.
 bool is_stopping(const Agent& agent, const Approach& approach) {
   const float braking = agent.track.acceleration_mps2;
   return braking < kBrakingMps2 &&
          square(agent.track.speed_mps) <= -2.0F * braking * max(approach.to_entry_m, 0.0F);
+}
+
+/// When the vehicle will have covered `way_m` if it goes on braking as it does, or gaining half as much.
+float clear_time_s(const Track& track, float way_m) {
+  const float gain =
+      track.acceleration_mps2 > 0.0F ? kTrustedGain * track.acceleration_mps2 : track.acceleration_mps2;
+  const float square_m2ps2 = square(track.speed_mps) + 2.0F * gain * way_m;
+  if (square_m2ps2 <= square(kMovingMps)) return kNever;  // it stops, or nearly, before it has cleared
+  return 2.0F * way_m / (track.speed_mps + sqrt(square_m2ps2));
 }
 
 }  // namespace
@@ -46,6 +60,42 @@ bool will_yield(const EgoPath& path, const Agent& agent) {
     owes = true;
   }
   return owes;
+}
+
+float earliest_arrival_s(const Scene& scene, int agent_index, const ConflictZone& zone,
+                         const Parameters& parameters) {
+  const Agent& agent = scene.agents[agent_index];
+  const Approach approach = approach_to(agent, zone);
+  if (!approach.reaches || scene.map == nullptr) return kNever;
+  const float way_m = approach.to_entry_m;
+  if (way_m <= 0.0F) return 0.0F;
+  float limit_mps = scene.map->lanes[zone.other_lane].speed_limit_mps;
+  if (agent.lane != kNoLaneIndex) limit_mps = max(limit_mps, scene.map->lanes[agent.lane].speed_limit_mps);
+  const float speed_mps = agent.track.speed_mps;
+  const float top_mps = max(max(limit_mps * parameters.safety.over_limit, speed_mps), 0.1F);
+  const float gain_mps2 = parameters.rss.acceleration_mps2;
+  const float gaining_s = (top_mps - speed_mps) / gain_mps2;
+  const float gaining_m = 0.5F * (top_mps + speed_mps) * gaining_s;
+  if (way_m >= gaining_m) return min(kNever, gaining_s + (way_m - gaining_m) / top_mps);
+  return (sqrt(square(speed_mps) + 2.0F * gain_mps2 * way_m) - speed_mps) / gain_mps2;
+}
+
+bool leaves_zone_to_us(const Scene& scene, int index, const ConflictZone& zone, float in_s, float out_s,
+                       bool committed, const Parameters& parameters) {
+  const Agent& agent = scene.agents[index];
+  const Approach approach = approach_to(agent, zone);
+  if (!approach.reaches) return true;
+  if (clear_time_s(agent.track, approach.to_exit_m) + kPassedFirstS < in_s) return true;
+  if (approach.to_entry_m <= 0.0F) return false;
+
+  const float arrival_s = earliest_arrival_s(scene, index, zone, parameters);
+  const bool we_yield =
+      zone.priority == Priority::kFirstYields || (zone.priority == Priority::kFirstCome && arrival_s < in_s);
+  if (we_yield && !committed) return arrival_s > out_s + parameters.safety.zone_margin_s;
+  // It owes us the way, or we can no longer stop: will it, at its present speed, be there while we are?
+  if (!we_yield && can_stop_for_us(agent, approach)) return true;
+  const float speed_mps = agent.track.speed_mps;
+  return speed_mps < kMovingMps || approach.to_entry_m / speed_mps > out_s + kBesideS;
 }
 
 }  // namespace s4tp

@@ -20,6 +20,16 @@ struct Approach {
 /// Whether the vehicle can stop before the zone with kTrustedBrakingMps2.
 [[nodiscard]] bool can_stop_for_us(const Agent& agent, const Approach& approach);
 
+/// Seconds until vehicle `agent`, free to accelerate, can reach `zone`'s part of its lane; 0 when inside,
+/// a large number (1e3) when it cannot reach it or has left it (TERM-011).
+[[nodiscard]] float earliest_arrival_s(const Scene& scene, int agent, const ConflictZone& zone,
+                                       const Parameters& parameters);
+
+/// Whether vehicle `agent` leaves us the zone while we are in it, from `in_s` to `out_s`.
+/// \param committed  we are bound to be in it: then the other's present speed counts, not what it might do
+[[nodiscard]] bool leaves_zone_to_us(const Scene& scene, int agent, const ConflictZone& zone, float in_s,
+                                     float out_s, bool committed, const Parameters& parameters);
+
 /// Whether, at every zone of `path` that it may reach, the vehicle owes us the way or is already braking to a
 /// stop before it, and can still do so. False when its way meets ours nowhere.
 [[nodiscard]] bool will_yield(const EgoPath& path, const Agent& agent);

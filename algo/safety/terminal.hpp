@@ -3,6 +3,7 @@
 
 #include "algo/core/parameters.hpp"
 #include "algo/core/trajectory.hpp"
+#include "algo/safety/right_of_way.hpp"
 #include "algo/scene/scene.hpp"
 
 namespace s4tp {
@@ -19,16 +20,13 @@ namespace s4tp {
 /// - the end does not stand in it (TERM-006). Who is inside already has to leave, unless a leader blocks the
 /// way
 ///   (TERM-007).
-/// Also: the end can stop before the road ends, unless the goal comes first (TERM-008), and behind the leader
-/// in the lane of the path, which keeps its speed or braking for the horizon and then brakes with rss b_max
-/// (TERM-009); a lane change leaves the one behind a gap that asks for 2.5 m/s^2 at most (TERM-010).
-/// \param path index of the ego path the trajectory follows
+/// Also: the end can stop before the road ends, unless the goal comes first (TERM-008), with room for the
+/// lane changes still due while that can be had comfortably (TERM-012); and behind the leader in the lane of
+/// the path, which keeps its speed or braking for the horizon and then brakes with rss b_max (TERM-009). A
+/// lane change keeps a distance to the leader there that asks for less than rss b_min at once, and leaves the
+/// one behind 0.3 s and 2.5 m, and a braking of 3 m/s^2 at most (TERM-010); drive beyond comfort is not
+/// counted on for it. \param path index of the ego path the trajectory follows
 [[nodiscard]] bool terminal_safe(const Scene& scene, int path, const Trajectory& trajectory,
                                  const Parameters& parameters);
-
-/// Seconds until vehicle `agent`, free to accelerate, can reach `zone`'s part of its lane; 0 when inside,
-/// a large number (1e3) when it cannot reach it or has left it (TERM-011).
-[[nodiscard]] float earliest_arrival_s(const Scene& scene, int agent, const ConflictZone& zone,
-                                       const Parameters& parameters);
 
 }  // namespace s4tp

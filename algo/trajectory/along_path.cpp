@@ -11,6 +11,8 @@ constexpr float kInOwnLaneM = 0.6F;      // nearer to its own lane's centre it i
 constexpr float kCrossingCos = 0.7071F;  // 45 degrees
 constexpr float kMovingMps = 1.5F;
 constexpr float kFarM = 200.0F;
+constexpr float kChangeRoomM =
+    25.0F;                        // from rest: a car's length and 15 m of way sideways, with some to spare
 constexpr float kAtGoalM = 2.0F;  // a goal at the very end of a road counts as on it
 
 /// Where lane `lane` begins along the path, or false.
@@ -53,7 +55,7 @@ OnPath see_on_path(const Scene& scene, const EgoPath& path, const Agent& agent, 
   seen.half_width_m = 0.5F * (abs(cosine) * agent.track.width_m + sine * agent.track.length_m);
   seen.along_mps = agent.track.speed_mps * cosine;
   seen.left_mps = agent.track.speed_mps * signed_sine;
-  seen.crossing = abs(cosine) < kCrossingCos && agent.track.speed_mps > kMovingMps;
+  seen.crossing = cosine < kCrossingCos && agent.track.speed_mps > kMovingMps;
   seen.overlaps = abs(seen.centre_d_m) < 0.5F * parameters.vehicle.width_m + seen.half_width_m + kStripM;
   return seen;
 }
@@ -89,6 +91,14 @@ Leader find_follower(const Scene& scene, const EgoPath& path, float rear_axle_s_
     follower = {i, gap_m, seen.along_mps, scene.agents[i].track.acceleration_mps2};
   }
   return follower;
+}
+
+float change_room_m(const Scene& scene, const EgoPath& path) {
+  if (path.path.lanes.empty()) return 0.0F;
+  const Lane& last = scene.map->lanes[path.path.lanes[path.path.lanes.size() - 1].lane];
+  const int changes = last.changes_needed < 0 ? -last.changes_needed : last.changes_needed;
+  // Only the last lane itself can be left sideways: half of it is to be driven on in any case.
+  return min(kChangeRoomM * static_cast<float>(changes), 0.5F * last.length_m);
 }
 
 float dead_end_s_m(const Scene& scene, const EgoPath& path) {

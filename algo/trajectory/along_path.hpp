@@ -16,7 +16,7 @@ struct OnPath {
   float half_width_m = 0.0F;
   float left_mps = 0.0F;   ///< speed across the path
   float along_mps = 0.0F;  ///< speed along the path; negative: towards us
-  bool crossing = false;   ///< more than 45 degrees off the path's direction, and moving
+  bool crossing = false;   ///< moving, more than 45 degrees off the path's direction or against it
 };
 
 /// \param whole_road  also vehicles that are plainly in another lane
@@ -43,5 +43,7 @@ struct Leader {
 /// Arc length where `path` ends for good, or kNoDeadEndM: not where only our knowledge ends, nor at the goal.
 inline constexpr float kNoDeadEndM = 1e6F;
 [[nodiscard]] float dead_end_s_m(const Scene& scene, const EgoPath& path);
+/// Room before such an end in which the lane changes still due can be made, even from rest.
+[[nodiscard]] float change_room_m(const Scene& scene, const EgoPath& path);
 
 }  // namespace s4tp

@@ -28,6 +28,8 @@ constexpr float kStretch = 1.7F;  // a lateral motion that is infeasible is trie
 constexpr int kStretches = 4;
 constexpr float kAlikeM = 0.05F;          // two roll-outs nearer than this at half time and end are one
 constexpr float kStopShortOfEndM = 1.0F;  // before the end of a road
+constexpr float kDriveShare = 0.85F;      // of the strongest drive: some is left to follow the plan with
+constexpr float kClearOfZoneM = 1.0F;     // waiting beyond a stop line, before the zone itself
 constexpr float kPassedM = 0.5F;          // a stopping place this far behind us is passed
 constexpr float kPlanOnPathM = 1.5F;      // the running plan belongs to the path its end is this near to
 constexpr float kOnPlanM = 0.01F;         // from where we start exactly on it
@@ -71,12 +73,14 @@ void find_stops(const Scene& scene, const EgoPath& path, const Parameters& param
   for (const ConflictZone& zone : path.zones) {
     // Beyond the stop line there is still the zone itself to stop before.
     const float line_s_m = zone.stop_s_m - front_m;
-    const float edge_s_m = zone.entry_s_m - centre_m - kPassedM;
+    const float edge_s_m = zone.entry_s_m - centre_m - kClearOfZoneM;
     add_stop(line_s_m >= course.where.s_m - kPassedM ? line_s_m : edge_s_m, course);
   }
   const float end_s_m = dead_end_s_m(scene, path);
-  if (end_s_m < kNoDeadEndM) add_stop(end_s_m - front_m - kStopShortOfEndM, course);
-  if (path.changes_needed != 0) add_stop(path.route_end_s_m - front_m - kStopShortOfEndM, course);
+  if (end_s_m >= kNoDeadEndM) return;
+  const float last_s_m = end_s_m - front_m - kStopShortOfEndM;
+  add_stop(last_s_m, course);
+  add_stop(last_s_m - change_room_m(scene, path), course);
 }
 
 void prepare(const Scene& scene, int index, const TrajectoryPoint& start, float lead_s,
@@ -129,7 +133,8 @@ bool shape_longitudinal(const Trial& trial, const Course& course, const Trajecto
   candidate.acceleration_mps2 = parameters.comfort.acceleration_mps2;
   switch (trial.intent) {
     case Intent::kAccelerate:
-      candidate.acceleration_mps2 = min(trial.acceleration_mps2, parameters.vehicle.acceleration_max_mps2);
+      candidate.acceleration_mps2 =
+          min(trial.acceleration_mps2, kDriveShare * parameters.vehicle.acceleration_max_mps2);
       return true;
     case Intent::kStop:
       if (trial.line >= course.stop_count) return false;

@@ -55,6 +55,7 @@ float for_leader(float gap_m, float speed_mps, float leader_mps, const Parameter
 float wanted_acceleration(const ReferenceLine& line, const Candidate& candidate,
                           const LongitudinalState& state, float time_s, const Parameters& parameters) {
   float wanted = min(candidate.acceleration_mps2, for_cap(line, state));
+  if (wanted <= 0.0F && state.speed_mps < kHoldMps) wanted = min(wanted, -kRestMps2);  // nobody crawls
   if (candidate.intent == Intent::kStop) {
     const float left_m = candidate.target_s_m - state.s_m;
     wanted = min(wanted, for_stop(left_m, state.speed_mps, parameters.comfort.braking_mps2));

@@ -237,7 +237,8 @@ TEST(Candidates, StopRestsBeforeItsLine) {
   EXPECT_GT(hardest, -2.9F);
 }
 
-// CAND-006 Every zone gives a place to stop: front at stop_s, or, that passed, box centre before the zone.
+// CAND-006 Every zone gives a place to stop: front at stop_s, or, that passed, box centre 1 m before the
+// zone.
 TEST(Candidates, StopsBeforeConflictZones) {
   LaneMap map = straight_road(1, 300.0F);
   Scene scene;
@@ -259,7 +260,7 @@ TEST(Candidates, StopsBeforeConflictZones) {
   list = generate(scene, start);
   const Candidate* later = find(list, 0, Intent::kStop);
   ASSERT_NE(later, nullptr);
-  EXPECT_NEAR(later->target_s_m, 80.0F - 1.5F - 0.5F, 1e-4F);
+  EXPECT_NEAR(later->target_s_m, 80.0F - 1.5F - 1.0F, 1e-4F);
 }
 
 // CAND-010 From 8 m/s the 10.7 m turn is entered below 6 m/s and driven at sqrt(2.5 * 10.7) = 5.17 m/s, a

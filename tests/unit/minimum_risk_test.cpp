@@ -151,6 +151,23 @@ TEST(MinimumRisk, LeavesAZoneWhenItsWayIsFree) {
   EXPECT_EQ(end_of(manoeuvre(road.scene, start)).rear_axle.x_m, start.rear_axle.x_m);
 }
 
+// MRM-004 The same with only the front in the zone, and somebody 20 m from it at 12 m/s, there in 1.7 s:
+// stay. When he is 60 m away (5 s; leaving takes sqrt(2 * 9.5 / 2) = 3.1 s): go.
+TEST(MinimumRisk, StaysWhenSomebodyComes) {
+  for (const float to_entry_m : {20.0F, 60.0F}) {
+    Road road;
+    const TrajectoryPoint start = road.at(50.0F, 0.0F);
+    const LaneIndex other = add_lane(road.map, {{55.0F, -100.0F}, {55.0F, 100.0F}});
+    ConflictZone& zone = road.zone(51.0F, 60.5F);
+    zone.priority = Priority::kFirstYields;
+    zone.other_lane = other;
+    zone.other_entry_m = 96.0F;
+    zone.other_exit_m = 104.0F;
+    add_vehicle(road.scene, road.map, path_of(road.map, {other}), 96.0F - to_entry_m, 12.0F);
+    EXPECT_EQ(end_of(manoeuvre(road.scene, start)).speed_mps > 1.0F, to_entry_m > 40.0F) << to_entry_m;
+  }
+}
+
 // MRM-006 Nothing known at all, wheels turned: braking on the present curvature, to rest.
 TEST(MinimumRisk, NeedsNoMap) {
   TrajectoryPoint start;

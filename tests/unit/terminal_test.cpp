@@ -56,7 +56,7 @@ struct Crossing {
 // fit. From 5 m further on they do not.
 TEST(Terminal, CanStillStopBeforeTheZone) {
   Crossing crossing(Priority::kFirstYields);
-  crossing.other(60.0F, 10.0F);
+  crossing.other(30.0F, 10.0F);
   EXPECT_TRUE(crossing.safe(40.0F, 10.0F, 0.0F));
   EXPECT_FALSE(crossing.safe(45.0F, 10.0F, 0.0F));
   EXPECT_TRUE(crossing.safe(90.0F, 0.0F, 0.0F));  // standing with the front one metre before the line
@@ -117,14 +117,33 @@ TEST(Terminal, NobodyStopsInAZone) {
   EXPECT_FALSE(crossing.safe(86.5F, 8.0F, -3.0F));
 }
 
-// TERM-007 Already inside, standing still is not safe and driving on is; behind a standing car there is no
-// choice.
-TEST(Terminal, WhoIsInsideLeaves) {
+// TERM-007 Already inside, standing and driving on both are for the collision check to judge.
+TEST(Terminal, WhoIsInsideIsLeftToTheCollisionCheck) {
   Crossing crossing(Priority::kFirstYields);
-  EXPECT_FALSE(crossing.safe(97.0F, 0.0F, 0.0F));
-  EXPECT_TRUE(crossing.safe(97.0F, 0.0F, 1.5F));
-  add_vehicle(crossing.scene, crossing.map, crossing.ours, 107.0F, 0.0F);
+  crossing.other(80.0F, 10.0F);
   EXPECT_TRUE(crossing.safe(97.0F, 0.0F, 0.0F));
+  EXPECT_TRUE(crossing.safe(97.0F, 0.0F, 1.5F));
+}
+
+// TERM-001 Waiting between stop line (rear axle at 91) and zone (94.5): standing at 92 is fine; standing
+// nearer than 0.7 m is too, but nobody creeps on from there.
+TEST(Terminal, NobodyCreepsTowardsTheZone) {
+  Crossing crossing(Priority::kFirstYields);
+  crossing.other(80.0F, 10.0F);
+  EXPECT_TRUE(crossing.safe(92.0F, 0.0F, 0.0F));
+  EXPECT_TRUE(crossing.safe(94.0F, 0.0F, 0.0F));
+  EXPECT_FALSE(crossing.safe(94.0F, 0.1F, 0.0F));
+}
+
+// TERM-012 The road ends at 400 m and one lane change is due: 25 m stay for it. From s = 330 at 10 m/s the
+// front comes to rest at 330 + 30 + 4 + 100 / 5.5 = 382 m: too far; without a change due it is not.
+TEST(Terminal, RoomIsLeftForTheLaneChange) {
+  Crossing crossing(Priority::kFirstYields);
+  crossing.map.lanes[0].on_route = false;
+  EXPECT_TRUE(crossing.safe(330.0F, 10.0F, 0.0F));
+  crossing.map.lanes[0].changes_needed = 1;
+  EXPECT_FALSE(crossing.safe(330.0F, 10.0F, 0.0F));
+  EXPECT_TRUE(crossing.safe(318.0F, 10.0F, 0.0F));
 }
 
 // TERM-008 A road that ends 400 m on: from s = 340 at 10 m/s the end of the plan can stop; from 360 it
@@ -159,7 +178,7 @@ TEST(Terminal, StopsBehindTheLeader) {
 // TERM-010 Changing at 10 m/s in front of one at 10 m/s: 15 m of gap (2.5 + 0.6 * 10 needed) are enough, 6 m
 // not.
 TEST(Terminal, LaneChangeLeavesTheFollowerRoom) {
-  for (const float gap_m : {15.0F, 6.0F}) {
+  for (const float gap_m : {7.0F, 5.0F}) {
     LaneMap map = straight_road(2, 400.0F);
     Scene scene;
     add_way(scene, map, path_of(map, {0}));
@@ -173,7 +192,10 @@ TEST(Terminal, LaneChangeLeavesTheFollowerRoom) {
       trajectory.points[i] = bicycle_step(trajectory.points[i - 1], 0.0F, 0.0F, kStepS);
       trajectory.points[i].rear_axle.y_m = kLaneWidthM * static_cast<float>(i) / 30.0F;
     }
-    EXPECT_EQ(terminal_safe(scene, 1, trajectory, Parameters{}), gap_m > 10.0F) << gap_m;
+    EXPECT_EQ(terminal_safe(scene, 1, trajectory, Parameters{}), gap_m > 6.0F) << gap_m;
+    scene.agents.clear();
+    add_vehicle(scene, map, scene.ego_paths[1].path, 104.0F + gap_m - 1.0F + 2.5F, 10.0F);
+    EXPECT_EQ(terminal_safe(scene, 1, trajectory, Parameters{}), gap_m > 6.0F) << gap_m;
   }
 }
 
