@@ -35,7 +35,7 @@ def collect(root, folders, suffixes):
 
 def findings(root):
     promised = collect(root, PROMISING, {".hpp", ".h", ".def"})
-    cited = collect(root, ["tests"], {".cpp", ".hpp", ".py"})
+    cited = collect(root, ["tests"], {".cpp", ".hpp", ".py", ".sh"})
     result = [f"{promised[name]}: {name} is cited by no test" for name in sorted(promised.keys() - cited.keys())]
     result += [f"{cited[name]}: {name} is promised by no header" for name in sorted(cited.keys() - promised.keys())]
     return result, len(promised)

@@ -50,6 +50,10 @@ extern "C" void reset_handler() {
 }
 
 extern "C" __attribute__((weak)) void systick_handler() {}
+extern "C" __attribute__((weak)) void nmi_handler() {
+  for (;;) {
+  }
+}
 
 namespace {
 using Handler = void (*)();
@@ -63,7 +67,7 @@ struct VectorTable {
 // SysTick.
 extern "C" __attribute__((section(".vectors"), used)) const VectorTable vectors = {
     stack_top,
-    {reset_handler, fault_handler, fault_handler, fault_handler, fault_handler, fault_handler, fault_handler,
+    {reset_handler, nmi_handler, fault_handler, fault_handler, fault_handler, fault_handler, fault_handler,
      nullptr, nullptr, nullptr, fault_handler, fault_handler, nullptr, fault_handler, systick_handler}};
 
 #else

@@ -33,7 +33,7 @@ class Requirements(unittest.TestCase):
     def test_citation_of_an_unknown_id_is_found(self):
         self.assertEqual(len(findings(f"/// {FIRST}\n", f"// {FIRST} {SECOND}\n")), 1)
 
-    # "X-901 .. X-903" cites the one in between too.
+    # First to third cites the one in between too.
     def test_range_cites_what_lies_between(self):
         header = f"/// {FIRST}\n/// {SECOND}\n/// {THIRD}\n"
         self.assertEqual(findings(header, f"// {FIRST} .. {THIRD}\n"), [])
