@@ -89,20 +89,27 @@ void build_reference(const LaneMap& map, const LanePath& path, float from_s_m, f
   cap_speeds(parameters, line);
 }
 
-ReferenceLine::Sample reference_at(const ReferenceLine& line, float s_m) {
+ReferencePlace place_on(const ReferenceLine& line, float s_m) {
   const float place = (s_m - line.start_s_m) / line.spacing_m;
-  const int index =
-      to_int(floor(clamp(place, 0.0F, static_cast<float>(kReferenceSamples))), 0, kReferenceSamples - 2);
-  const ReferenceLine::Sample& a = line.samples[index];
-  const ReferenceLine::Sample& b = line.samples[index + 1];
-  const float t = place - static_cast<float>(index);
-  const float u = clamp(t, 0.0F, 1.0F);
+  const int index = to_int(place - 0.5F, 0, kReferenceSamples - 2);  // the nearest below: t in [0, 1]
+  return {index, place - static_cast<float>(index)};
+}
+
+ReferenceLine::Sample reference_at(const ReferenceLine& line, float s_m) {
+  const ReferencePlace place = place_on(line, s_m);
+  const ReferenceLine::Sample& a = line.samples[place.index];
+  const ReferenceLine::Sample& b = line.samples[place.index + 1];
+  const float t = place.t;  // beyond the ends: straight on
+  const float u = t < 0.0F ? 0.0F : (t > 1.0F ? 1.0F : t);
+  float turn_rad = b.pose.heading_rad - a.pose.heading_rad;
+  if (turn_rad > kPi) turn_rad = turn_rad - kTwoPi;
+  if (turn_rad < -kPi) turn_rad = turn_rad + kTwoPi;
   ReferenceLine::Sample sample;
-  sample.pose.x_m = lerp(a.pose.x_m, b.pose.x_m, t);  // beyond the ends: straight on
-  sample.pose.y_m = lerp(a.pose.y_m, b.pose.y_m, t);
-  sample.pose.heading_rad = lerp_angle(a.pose.heading_rad, b.pose.heading_rad, u);
-  sample.curvature_1pm = lerp(a.curvature_1pm, b.curvature_1pm, u);
-  sample.speed_cap_mps = lerp(a.speed_cap_mps, b.speed_cap_mps, u);
+  sample.pose.x_m = a.pose.x_m + (b.pose.x_m - a.pose.x_m) * t;
+  sample.pose.y_m = a.pose.y_m + (b.pose.y_m - a.pose.y_m) * t;
+  sample.pose.heading_rad = a.pose.heading_rad + turn_rad * u;
+  sample.curvature_1pm = a.curvature_1pm + (b.curvature_1pm - a.curvature_1pm) * u;
+  sample.speed_cap_mps = a.speed_cap_mps + (b.speed_cap_mps - a.speed_cap_mps) * u;
   return sample;
 }
 

@@ -39,7 +39,14 @@ struct ReferenceCoordinates {
 void build_reference(const LaneMap& map, const LanePath& path, float from_s_m, float speed_mps,
                      const Parameters& parameters, ReferenceLine& line);
 
-/// The line at `s_m`, interpolated.
+/// Between which samples `s_m` lies: index and index + 1, t in [0, 1] except beyond the ends.
+struct ReferencePlace {
+  int index;
+  float t;
+};
+[[nodiscard]] ReferencePlace place_on(const ReferenceLine& line, float s_m);
+
+/// The line at `s_m`, interpolated; the heading may be outside [-pi, pi) by a step's turn.
 [[nodiscard]] ReferenceLine::Sample reference_at(const ReferenceLine& line, float s_m);
 
 /// Foot of `point` on the line, near `guess_s_m`.

@@ -21,11 +21,9 @@ constexpr float kHardMps2 = -3.5F;
 
 /// Acceleration that meets the speed cap kReactS ahead.
 float for_cap(const ReferenceLine& line, const LongitudinalState& state) {
-  const float place = (state.s_m + kReactS * state.speed_mps - line.start_s_m) / line.spacing_m;
-  const int index =
-      to_int(floor(clamp(place, 0.0F, static_cast<float>(kReferenceSamples))), 0, kReferenceSamples - 2);
-  const float t = clamp(place - static_cast<float>(index), 0.0F, 1.0F);
-  const float cap_mps = lerp(line.samples[index].speed_cap_mps, line.samples[index + 1].speed_cap_mps, t);
+  const ReferencePlace place = place_on(line, state.s_m + kReactS * state.speed_mps);
+  const float cap_mps = lerp(line.samples[place.index].speed_cap_mps,
+                             line.samples[place.index + 1].speed_cap_mps, clamp(place.t, 0.0F, 1.0F));
   return max(-kCapBrakingMps2, (cap_mps - state.speed_mps) / kReactS);
 }
 
