@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
+#include <fstream>
 #include <iostream>
 #include <string>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "sim_host/campaign/reference_drive.hpp"
 #include "sim_host/campaign/results.hpp"
 #include "sim_host/view/episode_picture.hpp"
+#include "sim_host/view/explanation_table.hpp"
 #include "sim_host/view/report.hpp"
 
 namespace {
@@ -144,7 +146,10 @@ int run_one(const Arguments& arguments) {
     std::cout << "  at " << collision.time_s << " s: " << collision.cause << " vehicle " << collision.other
               << '\n';
   }
-  std::cout << "picture: " << picture.string() << '\n';
+  const fs::path reasons = fs::path(picture).replace_extension(".txt");
+  std::ofstream explanations(reasons);
+  view::print_explanations(explanations, *result.trace, -result.recording.snapshots.front().time_s);
+  std::cout << "picture: " << picture.string() << "\nreasons: " << reasons.string() << '\n';
   if (!arguments.log.empty()) std::cout << "bus log: " << arguments.log.string() << '\n';
   return m.ending == world::Ending::kGoal ? 0 : kNotGoodEnough;
 }

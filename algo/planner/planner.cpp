@@ -167,7 +167,7 @@ void Planner::rank(bool careful, Explanation& explanation) {
     roll_out(scene_, candidate, start_, running_, start_ms_, parameters_, chosen_);
     explanation.rejections[i] = judge(candidate.path, conditioned_, explanation.check);
     if (explanation.rejections[i] != Rejection::kNone) continue;
-    costs_[i] = score_motion(scene_, candidate.path, chosen_, previous, careful, parameters_);
+    costs_[i] = score_motion(scene_, keep_going_, candidate.path, chosen_, previous, careful, parameters_);
     costs_[i].risk = parameters_.scoring.risk *
                      rank_risk(scene_, drivable_, unconditioned_, keep_going_, chosen_, parameters_);
     const DecisionKey key = decision_key(scene_, candidate.path, chosen_, unconditioned_);

@@ -39,7 +39,9 @@ Occupation occupation_of(const TrafficView& view, const Actor& actor, const Meet
     }
     const double limit_mps = view.road().lane(part.lane).speed_limit_mps;
     occupation.coming = true;
-    occupation.inside_junction = view.road().lane(actor.lane).in_junction || in_m <= 0.0;
+    // Who stands inside the junction, but short of the ground shared, waits there: nobody waits for him.
+    const bool under_way = view.road().lane(actor.lane).in_junction && actor.speed_mps > kStanding_mps;
+    occupation.inside_junction = under_way || in_m <= 0.0;
     occupation.from_s =
         time_to_cover_s(in_m, actor.speed_mps, kOther_mps2, std::max(limit_mps, actor.speed_mps));
     occupation.until_s = time_to_cover_s(out_m, std::min(actor.speed_mps, limit_mps), 0.0, limit_mps);

@@ -1,0 +1,58 @@
+#include "sim_host/view/explanation_table.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace s4tp::view {
+namespace {
+
+const char* intent_name(Intent intent) {
+  switch (intent) {
+    case Intent::kAccelerate:
+      return "accelerate";
+    case Intent::kStop:
+      return "stop";
+    case Intent::kFollow:
+      return "follow";
+    case Intent::kPrevious:
+      return "previous";
+  }
+  return "?";
+}
+
+int rejected(const Explanation& explanation, Rejection why) {
+  const Rejection* const end =
+      explanation.rejections + std::min<int>(explanation.candidate_count, kMaxCandidates);
+  return static_cast<int>(std::count(explanation.rejections, end, why));
+}
+
+}  // namespace
+
+void print_explanations(std::ostream& out, const campaign::Trace& trace, double pre_roll_s) {
+  out << "  time s  status         plan   v m/s  path intent       a m/s2  cand infeas coll term  rss"
+         "   progress  speed   jerk    lat   lane   risk   total  runner-up  risk from\n";
+  for (const campaign::CycleTrace& cycle : trace.cycles) {
+    const Explanation& e = cycle.record.explanation;
+    const CostBreakdown& c = e.chosen_cost;
+    const Plan& plan = cycle.record.plan;
+    const float accelerations = plan.trajectory.points[5].acceleration_mps2;
+    char line[260];
+    std::snprintf(line, sizeof line,
+                  "%8.1f  %-13s  %-5s %6.2f  %4d %-11s %7.2f  %4d %6d %4d %4d  %3s  %8.1f %6.1f %6.2f %6.2f "
+                  "%6.1f %6.1f "
+                  "%7.1f  %9.1f  %d\n",
+                  plan.start_ms / 1000.0 - pre_roll_s, status_name(e.status),
+                  plan.kind == PlanKind::kDrive ? "drive" : "stop",
+                  static_cast<double>(plan.trajectory.points[0].speed_mps), e.chosen.path,
+                  e.status == Status::kOk ? intent_name(e.chosen.intent) : "-",
+                  static_cast<double>(accelerations), e.candidate_count, rejected(e, Rejection::kInfeasible),
+                  rejected(e, Rejection::kCollision), rejected(e, Rejection::kTerminal),
+                  e.rss_clipped ? "yes" : "", static_cast<double>(c.progress), static_cast<double>(c.speed),
+                  static_cast<double>(c.jerk), static_cast<double>(c.lateral), static_cast<double>(c.lane),
+                  static_cast<double>(c.risk), static_cast<double>(c.total()),
+                  static_cast<double>(e.runner_up_cost.total()), e.dominating_track);
+    out << line;
+  }
+}
+
+}  // namespace s4tp::view
