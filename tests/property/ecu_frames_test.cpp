@@ -37,7 +37,7 @@ bool inside_the_ranges(const PlannerInput& input) {
 // repeated: the ECU sends one sound command a tick inside the limits of the wire, and the planner never sees
 // a value outside its ranges.
 TEST(EcuFrames, AnythingMayBeOnTheBus) {
-  rc::check([] {
+  EXPECT_TRUE(rc::check([] {
     Rig rig;
     RC_ASSERT(rig.start() == Status::kOk);
     rig.plant.speed_mps = 5.0;
@@ -75,7 +75,7 @@ TEST(EcuFrames, AnythingMayBeOnTheBus) {
       RC_ASSERT(std::abs(rig.command.steering_rad) <= 0.551F);
     }
     RC_ASSERT(good);
-  });
+  }));
 }
 
 // A burst of more frames than a tick takes (256) is worked off in the ticks that follow; none is lost.

@@ -45,7 +45,7 @@ wire::Frame any_frame(wire::E2eSender& sender) {
 // further from the last output than a tick allows; at too much lateral acceleration it goes back at full
 // rate.
 TEST(GateProperty, OutputIsAlwaysInsideTheLimits) {
-  rc::check([] {
+  EXPECT_TRUE(rc::check([] {
     const Limits limits;
     CommandGate gate(limits);
     wire::E2eSender sender;
@@ -88,7 +88,7 @@ TEST(GateProperty, OutputIsAlwaysInsideTheLimits) {
         RC_ASSERT(command.acceleration_mps2 <= last.acceleration_mps2 + 0.2F + 1e-5F);
       last = command;
     }
-  });
+  }));
 }
 
 }  // namespace
