@@ -61,13 +61,12 @@ TEST(RouteGuide, WithoutAGoalLaneAnyWillDo) {
   EXPECT_EQ(advice(scenario, guide, "main_in_2").changes_needed, 0);
 }
 
-// The main road's right turn starts in the right lane: who is in the left one must change there, within 100
-// m.
+// The main road's right turn starts in the right lane: who is in the left one must change there, within 80 m.
 TEST(RouteGuide, ATurnIsPreparedOnTheEdgeBefore) {
   const Scenario scenario = shipped("left_turn");
   const RouteGuide guide(scenario.network, {"west_in", "south_out"}, kNoLane, 29.6);
   EXPECT_EQ(advice(scenario, guide, "west_in_1").changes_needed, -1);
-  EXPECT_NEAR(advice(scenario, guide, "west_in_1").remaining_m, 100.0, 0.01);
+  EXPECT_NEAR(advice(scenario, guide, "west_in_1").remaining_m, 80.0, 0.01);
   EXPECT_EQ(advice(scenario, guide, "west_in_0").next, scenario.network.find(":centre_10_0"));
 }
 
