@@ -107,11 +107,11 @@ TEST(MapNode, PositionsAreRelativeToTheOrigin) {
 TEST(MapNode, KnowsWhichLanesLeadAgainstUs) {
   Shown shown("left_turn");
   const wire::Map& map = shown.node.update({0.0, 0.0});
-  EXPECT_EQ(map.lanes[slot_at(map, -1.6, -9.1)].kind, 1);    // south_out
+  EXPECT_EQ(map.lanes[slot_at(map, -1.6, -9.1)].kind, 1);   // south_out
   EXPECT_EQ(map.lanes[slot_at(map, -89.1, -1.6)].kind, 1);  // west_in_1
-  EXPECT_EQ(map.lanes[slot_at(map, -1.6, 89.1)].kind, 1);    // north_in
-  EXPECT_EQ(map.lanes[slot_at(map, -9.1, 4.8)].kind, 0);     // west_out_0
-  EXPECT_EQ(map.lanes[slot_at(map, 9.1, -1.6)].kind, 0);     // east_out_1
+  EXPECT_EQ(map.lanes[slot_at(map, -1.6, 89.1)].kind, 1);   // north_in
+  EXPECT_EQ(map.lanes[slot_at(map, -9.1, 4.8)].kind, 0);    // west_out_0
+  EXPECT_EQ(map.lanes[slot_at(map, 9.1, -1.6)].kind, 0);    // east_out_1
   EXPECT_EQ(map.lanes[slot_at(map, 89.1, 1.6)].kind, 0);    // east_in_1
 }
 
