@@ -6,6 +6,8 @@
 #include <optional>
 #include <vector>
 
+#include "sim_host/world/box.hpp"
+
 namespace s4tp::metrics {
 namespace {
 
@@ -24,17 +26,6 @@ Vec2 local(const CarState& car, Vec2 point) {
   const double c = std::cos(car.heading_rad);
   const double s = std::sin(car.heading_rad);
   return {c * dx + s * dy, -s * dx + c * dy};
-}
-
-/// Gap between two boxes as `from` sees it; negative when its axes do not separate them.
-double gap_along(const CarState& from, const CarState& to) {
-  const Vec2 centre = local(from, to.centre);
-  const double turn = to.heading_rad - from.heading_rad;
-  const double c = std::abs(std::cos(turn));
-  const double s = std::abs(std::sin(turn));
-  const double gap_x = std::abs(centre.x) - from.length_m / 2 - (c * to.length_m + s * to.width_m) / 2;
-  const double gap_y = std::abs(centre.y) - from.width_m / 2 - (s * to.length_m + c * to.width_m) / 2;
-  return gap_x > 0 && gap_y > 0 ? std::hypot(gap_x, gap_y) : std::max(gap_x, gap_y);
 }
 
 struct Ahead {
@@ -145,8 +136,8 @@ EpisodeMetrics evaluate(const world::Recording& recording) {
       jerk_sum += std::abs(now.ego.acceleration_mps2 - driven[i - 1]->ego.acceleration_mps2) / kStepS;
     }
     for (const CarState& other : now.others) {
-      const double gap_m = std::max(gap_along(now.ego, other), gap_along(other, now.ego));
-      result.min_gap_m = std::min(result.min_gap_m, gap_m);
+      result.min_gap_m =
+          std::min(result.min_gap_m, world::distance_m(world::box_of(now.ego), world::box_of(other)));
     }
     const std::optional<Ahead> ahead = ahead_of(now);
     if (!ahead) continue;

@@ -33,7 +33,7 @@ struct EpisodeMetrics {
   double duration_s = 0.0;             ///< from take-over to the end
   double mean_abs_jerk_mps3 = 0.0;
   double hardest_braking_mps2 = 0.0;  ///< >= 0
-  double min_gap_m = 0.0;             ///< between boxes, to anybody; large when alone
+  double min_gap_m = 0.0;             ///< between boxes, to anybody; 0 when they touch, large when alone
   double mean_gap_m = 0.0;            ///< to the nearest vehicle ahead in our way; 0 when there never was one
   double min_time_to_collision_s = 0.0;  ///< to the same; large when never closing in
   double rss_violation_share = 0.0;      ///< of the time: nearer to the vehicle ahead than RSS allows

@@ -108,6 +108,9 @@ World::Impl::Impl(const Scenario& with_scenario, const WorldOptions& with_option
     ++recording.redrawn;
   }
   traffic = traffic_until(seed, mission.entry_time_s - options.pre_roll_s);
+  if (entry_tick == 0) {
+    free_start_zone(*traffic);
+  }
 }
 
 std::unique_ptr<Traffic> World::Impl::traffic_until(std::uint64_t seed, double traffic_time_s) const {
@@ -132,12 +135,14 @@ bool World::Impl::touched_at_entry(std::uint64_t seed) const {
   free_start_zone(*trial);
   const int ticks = static_cast<int>(std::lround(kUndisturbed_s / kTick_s));
   LaneId before = start_lane;
-  for (int i = 1; i <= ticks; ++i) {
+  for (int i = 0; i <= ticks; ++i) {
     const CarState self = ego_on_lane(i * kTick_s);
-    const LanePlace at = locator.locate(self.centre, self.heading_rad, before);
-    before = at.lane;
-    const Actor actor = locator.actor(self, at);
-    trial->step(&actor);
+    if (i > 0) {
+      const LanePlace at = locator.locate(self.centre, self.heading_rad, before);
+      before = at.lane;
+      const Actor actor = locator.actor(self, at);
+      trial->step(&actor);
+    }
     for (const CarState& car : trial->cars()) {
       if (overlap(box_of(self), box_of(car))) {
         return true;
@@ -260,8 +265,7 @@ void World::Impl::judge() {
 
 void World::Impl::watch() {
   others = traffic->cars();
-  const bool entered = tick_number > entry_tick;
-  if (entered) {
+  if (tick_number >= entry_tick) {
     judge();
   }
   if (tick_number % 10 == 0 || recording.ending != Ending::kRunning) {
@@ -326,14 +330,14 @@ void World::tick(std::vector<wire::Frame>& frames) {
   Impl& w = *impl_;
   ++w.tick_number;
   const int since_entry = w.tick_number - w.entry_tick;
-  if (since_entry == 1) {
-    w.free_start_zone(*w.traffic);
-  }
   if (since_entry > 0) {
     const Actor self = w.locator.actor(w.ego, w.place);
     w.traffic->step(&self);
   } else if (w.mission.entry_time_s + since_entry * kTick_s > 0.5 * kTick_s) {
     w.traffic->step(nullptr);
+  }
+  if (since_entry == 0) {
+    w.free_start_zone(*w.traffic);
   }
   w.move_ego();
   w.watch();

@@ -97,6 +97,18 @@ TEST(Metrics, GapTimeToCollisionAndRss) {
   EXPECT_EQ(evaluate(recording).rss_violation_share, 1.0);
 }
 
+// Diagonally 3 m and 4 m between the corners of cars of 5 x 1.8 m: 5 m, not the 4 m of the larger axis; a car
+// half inside is no farther than one that touches: 0.
+TEST(Metrics, GapIsBetweenBoxes) {
+  Recording recording = cruise(1, 10.0);
+  CarState other = car_at(8.0, 10.0);
+  other.centre.y = 5.8;
+  recording.snapshots[0].others = {other};
+  EXPECT_NEAR(evaluate(recording).min_gap_m, 5.0, 1e-9);
+  recording.snapshots[0].others = {car_at(2.5, 10.0)};
+  EXPECT_EQ(evaluate(recording).min_gap_m, 0.0);
+}
+
 // The pre-roll (negative time) does not count.
 TEST(Metrics, PreRollDoesNotCount) {
   Recording recording = cruise(10, 10.0);
