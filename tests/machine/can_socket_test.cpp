@@ -138,8 +138,8 @@ TEST_F(Vcan, NoIdsMeansAll) {
   EXPECT_EQ(end.ids(), (std::vector<std::uint32_t>{0, 0x7FF}));
 }
 
-// LINUX-021 Frames carry the time they arrived, not the time they were read. (The kernel begins to stamp a moment after
-// the first socket of the machine asks for it.)
+// LINUX-021 Frames carry the time they arrived, not the time they were read. (The kernel begins to stamp a
+// moment after the first socket of the machine asks for it.)
 TEST_F(Vcan, TimesAreThoseOfArrival) {
   End end;
   usleep(500'000);
