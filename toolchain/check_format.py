@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Every C++ file of the project stands as .clang-format wants it.
+"""Every C and C++ file of the project stands as .clang-format wants it.
 
     check_format.py [ROOT]
 """
@@ -12,7 +12,7 @@ FOLDERS = ("algo", "hal", "firmware", "sim_host", "tests")
 
 
 def files(root):
-    return [file for folder in FOLDERS for file in sorted((root / folder).rglob("*")) if file.suffix in (".hpp", ".cpp")]
+    return [file for folder in FOLDERS for file in sorted((root / folder).rglob("*")) if file.suffix in (".hpp", ".cpp", ".h", ".c")]
 
 
 def main(arguments):

@@ -34,10 +34,10 @@ FORBIDDEN = (
     ("console", r"_?(v?s?n?printf|puts|fwrite|fopen)(_r)?|_ZSt4cout"),
 )
 FORBIDDEN_SECTIONS = (".ARM.exidx", ".ARM.extab", ".eh_frame", ".gcc_except_table")
-# What the core may ask for from outside itself: the compiler's own memory and integer helpers, and our assertion.
+# What the core may ask for from outside itself: the compiler's own memory and integer helpers, and our assertion handler.
 WANTED = re.compile(r"mem(cpy|set|move|cmp)|str(cmp|len)|__aeabi_mem(cpy|set|move|clr)[48]?|__aeabi_u?(l|i)div(mod)?|__aeabi_l(mul|lsl|lsr|asr)"
                     r"|__aeabi_f2u?lz|__aeabi_u?l2f|_GLOBAL_OFFSET_TABLE_|__stack_chk_(fail|guard)|__(asan|ubsan)_.*"
-                    r"|_ZN4s4tp16assertion_failedEPKcS1_i")
+                    r"|_ZN4s4tp16assertion_failedEPKcS1_i|s4tp_on_assertion")
 
 PLANNER_BUDGET_BYTES = 64 * 1024
 # What a Cortex-M with a floating-point unit pushes by itself, with alignment.

@@ -1,15 +1,16 @@
 # Identical bits everywhere need identical arithmetic: no contraction, no vectorisation, no errno, never fast-math.
 set(S4TP_ARITHMETIC -ffp-contract=off -fno-tree-vectorize -fno-math-errno)
-set(S4TP_WARNINGS -Wall -Wextra -Wpedantic -Werror)
+set(S4TP_WARNINGS -Wall -Wextra -Wpedantic $<$<BOOL:${PROJECT_IS_TOP_LEVEL}>:-Werror>)
 
 # The core: C++17, no heap, no exceptions, no RTTI.
 function(s4tp_core_target target)
   target_compile_features(${target} PUBLIC cxx_std_17)
   set_target_properties(${target} PROPERTIES CXX_STANDARD 17)
-  target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR})
+  target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
   target_compile_options(${target} PRIVATE
     ${S4TP_ARITHMETIC} ${S4TP_WARNINGS} -Wconversion -Wshadow -Wdouble-promotion
-    -fno-exceptions -fno-rtti -fno-threadsafe-statics -ffunction-sections -fdata-sections -fstack-usage)
+    -fno-exceptions -fno-rtti -fno-threadsafe-statics -ffunction-sections -fdata-sections -fstack-usage
+    -ffile-prefix-map=${PROJECT_BINARY_DIR}/= -ffile-prefix-map=${PROJECT_SOURCE_DIR}/=)  # the same archive in every folder
   target_compile_definitions(${target} PRIVATE EIGEN_DONT_VECTORIZE EIGEN_MAX_ALIGN_BYTES=0)
 endfunction()
 

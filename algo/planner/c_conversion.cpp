@@ -1,0 +1,215 @@
+#include "algo/planner/c_conversion.hpp"
+
+#include <cstdint>
+
+#include "algo/core/math.hpp"
+#include "algo/core/versions.hpp"
+#include "algo/scene/lane_path.hpp"
+
+namespace s4tp {
+namespace {
+
+// The header's numbers are the core's.
+static_assert(S4TP_API_VERSION == kApiVersion && S4TP_MAX_PARAMETERS >= kParameterCount);
+static_assert(S4TP_MAX_TRACKS == kMaxTracks && S4TP_MAX_LANES == kMaxLanes &&
+              S4TP_MAX_LANE_POINTS == kMaxLanePoints && S4TP_MAX_SUCCESSORS == kMaxSuccessors &&
+              S4TP_MAX_CONFLICTS == kMaxConflicts && S4TP_NO_LANE_INDEX == kNoLaneIndex);
+static_assert(S4TP_PLAN_POINTS == kTrajectoryPoints && S4TP_PLAN_STEP_MS == kStepMs &&
+              S4TP_STAGE_COUNT == kStageCount);
+static_assert(sizeof(s4tp_plan) == 8 + sizeof(float) * 6 * kTrajectoryPoints, "no padding");
+
+template <typename Enum>
+constexpr bool same(Enum core, std::uint32_t c) {
+  return static_cast<std::uint32_t>(core) == c;
+}
+static_assert(same(Status::kOk, S4TP_OK) && same(Status::kNotInitialized, S4TP_NOT_INITIALIZED) &&
+              same(Status::kInvalidParameter, S4TP_INVALID_PARAMETER) &&
+              same(Status::kArithmetic, S4TP_ARITHMETIC) && same(Status::kInvalidInput, S4TP_INVALID_INPUT) &&
+              same(Status::kNoLane, S4TP_NO_LANE) && same(Status::kNoSafePlan, S4TP_NO_SAFE_PLAN));
+static_assert(same(LaneKind::kOurs, S4TP_LANE_OURS) && same(LaneKind::kOpposite, S4TP_LANE_OPPOSITE) &&
+              same(LaneKind::kShoulder, S4TP_LANE_SHOULDER));
+static_assert(same(Priority::kFirstYields, S4TP_FIRST_YIELDS) &&
+              same(Priority::kFirstHasPriority, S4TP_FIRST_HAS_PRIORITY) &&
+              same(Priority::kFirstCome, S4TP_FIRST_COME));
+static_assert(same(PlanKind::kNone, S4TP_PLAN_NONE) && same(PlanKind::kDrive, S4TP_PLAN_DRIVE) &&
+              same(PlanKind::kMinimumRisk, S4TP_PLAN_MINIMUM_RISK));
+static_assert(same(Intent::kAccelerate, S4TP_INTENT_ACCELERATE) && same(Intent::kStop, S4TP_INTENT_STOP) &&
+              same(Intent::kFollow, S4TP_INTENT_FOLLOW) && same(Intent::kPrevious, S4TP_INTENT_PREVIOUS));
+static_assert(same(Rejection::kLeftOut, S4TP_REJECTION_COUNT - 1));
+
+Track core_track(const s4tp_track& from) {
+  Track to;
+  to.id = from.id;
+  to.centre = {from.x_m, from.y_m, from.heading_rad};
+  to.speed_mps = from.speed_mps;
+  to.acceleration_mps2 = from.acceleration_mps2;
+  to.yaw_rate_radps = from.yaw_rate_radps;
+  to.length_m = from.length_m;
+  to.width_m = from.width_m;
+  return to;
+}
+
+/// \return false when the lane is not as documented, its links not yet looked at
+bool copy_lane(const s4tp_lane& from, Lane& to) {
+  to = Lane{};
+  if (from.present == 0) return true;
+  if (from.kind > S4TP_LANE_SHOULDER || from.point_count > S4TP_MAX_LANE_POINTS) return false;
+  to.present = true;
+  to.kind = static_cast<LaneKind>(from.kind);
+  to.in_junction = from.in_junction != 0;
+  for (int i = 0; i < kMaxSuccessors; ++i) to.successors[i] = from.successors[i];
+  to.left = from.left;
+  to.right = from.right;
+  to.changes_needed = from.changes_needed;
+  to.on_route = from.on_route != 0;
+  to.point_count = from.point_count;
+  to.width_m = from.width_m;
+  to.speed_limit_mps = from.speed_limit_mps;
+  to.route_remaining_m = from.route_remaining_m;
+  to.goal_distance_m = from.goal_distance_m;
+  to.stop_line_m = from.stop_line_m;
+  for (int i = 0; i < from.point_count; ++i) to.points[i] = {from.x_m[i], from.y_m[i]};
+  if (!usable(to)) return false;
+  to.length_m = centre_line_length(to);
+  return true;
+}
+
+bool present(const LaneMap& map, LaneIndex lane) {
+  return lane >= 0 && lane < kMaxLanes && map.lanes[lane].present;
+}
+
+bool links_exist(const LaneMap& map, const Lane& lane) {
+  const auto good = [&map](LaneIndex link) { return link == kNoLaneIndex || present(map, link); };
+  for (const LaneIndex successor : lane.successors) {
+    if (!good(successor)) return false;
+  }
+  return good(lane.left) && good(lane.right);
+}
+
+bool interval(float entry_m, float exit_m) {
+  constexpr float kLongestM = 10000.0F;
+  return is_finite(entry_m) && is_finite(exit_m) && -kLongestM <= entry_m && entry_m <= exit_m &&
+         exit_m <= kLongestM;
+}
+
+bool copy_conflict(const s4tp_conflict& from, LaneMap& map) {
+  if (!present(map, from.first) || !present(map, from.second) || from.priority > S4TP_FIRST_COME)
+    return false;
+  if (!interval(from.first_entry_m, from.first_exit_m)) return false;
+  if (!interval(from.second_entry_m, from.second_exit_m)) return false;
+  Conflict to;
+  to.first = from.first;
+  to.second = from.second;
+  to.priority = static_cast<Priority>(from.priority);
+  to.first_entry_m = from.first_entry_m;
+  to.first_exit_m = from.first_exit_m;
+  to.second_entry_m = from.second_entry_m;
+  to.second_exit_m = from.second_exit_m;
+  return map.conflicts.push(to);
+}
+
+s4tp_choice c_choice(const Candidate& candidate, const CostBreakdown& cost) {
+  s4tp_choice to = {};
+  to.path = candidate.path;
+  to.intent = static_cast<std::uint8_t>(candidate.intent);
+  to.acceleration_mps2 = candidate.acceleration_mps2;
+  to.cost_total = cost.total();
+  to.cost_progress = cost.progress;
+  to.cost_speed = cost.speed;
+  to.cost_jerk = cost.jerk;
+  to.cost_lateral = cost.lateral;
+  to.cost_lane = cost.lane;
+  to.cost_risk = cost.risk;
+  return to;
+}
+
+}  // namespace
+
+Parameters core_parameters(const s4tp_parameters& from) {
+  Parameters to;
+  for (int i = 0; i < kParameterCount; ++i) set_parameter(to, i, from.values[i]);
+  return to;
+}
+
+EgoState core_ego(const s4tp_ego& from) {
+  EgoState to;
+  to.rear_axle = {from.x_m, from.y_m, from.heading_rad};
+  to.speed_mps = from.speed_mps;
+  to.acceleration_mps2 = from.acceleration_mps2;
+  to.yaw_rate_radps = from.yaw_rate_radps;
+  to.steering_rad = from.steering_rad;
+  return to;
+}
+
+bool copy_tracks(const s4tp_tracks& from, TrackList& to) {
+  if (from.count < 0 || from.count > S4TP_MAX_TRACKS) return false;
+  for (std::int32_t i = 0; i < from.count; ++i) {
+    if (!to.push(core_track(from.items[i]))) return false;
+  }
+  return true;
+}
+
+bool copy_map(const s4tp_lane_map& from, LaneMap& to) {
+  for (int i = 0; i < kMaxLanes; ++i) {
+    if (!copy_lane(from.lanes[i], to.lanes[i])) return false;
+  }
+  for (const Lane& lane : to.lanes) {
+    if (lane.present && !links_exist(to, lane)) return false;
+  }
+  to.conflicts.clear();
+  if (from.conflict_count < 0 || from.conflict_count > S4TP_MAX_CONFLICTS) return false;
+  for (std::int32_t i = 0; i < from.conflict_count; ++i) {
+    if (!copy_conflict(from.conflicts[i], to)) return false;
+  }
+  return true;
+}
+
+bool copy_plan(const s4tp_plan& from, Plan& to) {
+  if (from.kind > S4TP_PLAN_MINIMUM_RISK) return false;
+  to.kind = static_cast<PlanKind>(from.kind);
+  to.start_ms = from.start_ms;
+  for (int i = 0; i < kTrajectoryPoints; ++i) {
+    const s4tp_plan_point& point = from.points[i];
+    const bool finite = is_finite(point.x_m) && is_finite(point.y_m) && is_finite(point.heading_rad) &&
+                        is_finite(point.speed_mps) && is_finite(point.acceleration_mps2) &&
+                        is_finite(point.curvature_1pm);
+    if (!finite) return false;
+    TrajectoryPoint& copy = to.trajectory.points[i];
+    copy.rear_axle = {point.x_m, point.y_m, point.heading_rad};
+    copy.speed_mps = point.speed_mps;
+    copy.acceleration_mps2 = point.acceleration_mps2;
+    copy.curvature_1pm = point.curvature_1pm;
+  }
+  return true;
+}
+
+s4tp_plan_point c_point(const TrajectoryPoint& from) {
+  return {from.rear_axle.x_m, from.rear_axle.y_m,     from.rear_axle.heading_rad,
+          from.speed_mps,     from.acceleration_mps2, from.curvature_1pm};
+}
+
+void copy_back(const Plan& from, s4tp_plan& to) {
+  to.kind = static_cast<std::uint32_t>(from.kind);
+  to.start_ms = from.start_ms;
+  for (int i = 0; i < kTrajectoryPoints; ++i) to.points[i] = c_point(from.trajectory.points[i]);
+}
+
+void copy_back(const Explanation& from, s4tp_explanation& to) {
+  to = s4tp_explanation{};
+  to.status = static_cast<s4tp_status>(from.status);
+  to.parameters_crc = from.parameters_crc;
+  to.chosen = c_choice(from.chosen, from.chosen_cost);
+  to.runner_up = c_choice(from.runner_up, from.runner_up_cost);
+  to.candidates = from.candidate_count;
+  to.left_out = from.left_out;
+  to.decisions = from.decisions;
+  for (int i = 0; i < from.candidate_count; ++i) {
+    if (from.rejections[i] != Rejection::kNone) ++to.rejected[static_cast<int>(from.rejections[i])];
+  }
+  to.dominating_track = from.dominating_track;
+  to.dominating_step = from.dominating_step;
+  to.rss_clipped = from.rss_clipped ? 1U : 0U;
+  for (int i = 0; i < kStageCount; ++i) to.work[i] = from.work[i];
+}
+
+}  // namespace s4tp

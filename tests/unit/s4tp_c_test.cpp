@@ -1,0 +1,368 @@
+// The C facade: same plans as the planner's own, and an answer to everything a caller in C may get wrong.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <memory>
+#include <string>
+
+#include "algo/core/versions.hpp"
+#include "algo/planner/planner.hpp"
+#include "algo/planner/s4tp.h"
+#include "tests/support/lane_maps.hpp"
+
+namespace s4tp {
+namespace {
+
+constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+
+/// A lane map of the core's as a caller in C would write it.
+s4tp_lane_map in_c(const LaneMap& from) {
+  s4tp_lane_map to;
+  EXPECT_EQ(s4tp_clear_map(&to), S4TP_OK);
+  for (int i = 0; i < kMaxLanes; ++i) {
+    const Lane& lane = from.lanes[i];
+    s4tp_lane& c = to.lanes[i];
+    if (!lane.present) continue;
+    c.present = 1;
+    c.kind = static_cast<std::uint8_t>(lane.kind);
+    c.in_junction = lane.in_junction ? 1 : 0;
+    c.on_route = lane.on_route ? 1 : 0;
+    c.changes_needed = lane.changes_needed;
+    c.left = lane.left;
+    c.right = lane.right;
+    for (int k = 0; k < kMaxSuccessors; ++k) c.successors[k] = lane.successors[k];
+    c.point_count = lane.point_count;
+    c.width_m = lane.width_m;
+    c.speed_limit_mps = lane.speed_limit_mps;
+    c.route_remaining_m = lane.route_remaining_m;
+    c.goal_distance_m = lane.goal_distance_m;
+    c.stop_line_m = lane.stop_line_m;
+    for (int k = 0; k < lane.point_count; ++k) {
+      c.x_m[k] = lane.points[k].x_m;
+      c.y_m[k] = lane.points[k].y_m;
+    }
+  }
+  for (const Conflict& conflict : from.conflicts) {
+    to.conflicts[to.conflict_count++] = {
+        conflict.first,         conflict.second,       static_cast<std::uint8_t>(conflict.priority),
+        conflict.first_entry_m, conflict.first_exit_m, conflict.second_entry_m,
+        conflict.second_exit_m};
+  }
+  return to;
+}
+
+/// Entering a cross junction from the west to turn left, somebody comes from the east.
+class CFacade : public testing::Test {
+ protected:
+  CFacade() {
+    test::CrossJunction cross = test::cross_junction();
+    test::set_route(cross, test::CrossJunction::kEast, test::CrossJunction::kLeft);
+    core_map = cross.map;
+    map = in_c(core_map);
+    EXPECT_EQ(s4tp_init(block.get(), nullptr, nullptr), S4TP_OK);
+    input.now_ms = 1000;
+    input.start_ms = 1100;
+    input.ego = {-30.0F, -1.6F, 0.0F, 8.0F, 0.0F, 0.0F, 0.0F};
+    input.tracks = &tracks;
+    input.map = &map;
+    tracks.time_ms = 1000;
+    tracks.count = 1;
+    tracks.items[0] = {5, 40.0F, 1.6F, -3.14159F, 10.0F, 0.0F, 0.0F, 4.6F, 1.8F};
+  }
+
+  s4tp_status plan_now() { return s4tp_make_plan(block.get(), &input, &plan, &why); }
+
+  /// The answer to an input that is not as documented, and what must then be there.
+  void expect_invalid(const std::string& what) {
+    EXPECT_EQ(plan_now(), S4TP_INVALID_INPUT) << what;
+    EXPECT_EQ(why.status, S4TP_INVALID_INPUT) << what;
+    EXPECT_EQ(plan.kind, static_cast<std::uint32_t>(S4TP_PLAN_MINIMUM_RISK)) << what;
+    EXPECT_EQ(plan.start_ms, input.start_ms) << what;
+    for (const s4tp_plan_point& point : plan.points) {
+      EXPECT_TRUE(std::isfinite(point.x_m) && std::isfinite(point.speed_mps) && point.speed_mps >= 0.0F)
+          << what;
+    }
+    EXPECT_LT(plan.points[S4TP_PLAN_POINTS - 1].speed_mps, 0.5F * plan.points[0].speed_mps + 0.01F) << what;
+  }
+
+  std::unique_ptr<s4tp_block> block = std::make_unique<s4tp_block>();
+  LaneMap core_map;
+  s4tp_lane_map map;
+  s4tp_tracks tracks = {};
+  s4tp_input input = {};
+  s4tp_plan plan = {};
+  s4tp_explanation why = {};
+};
+
+// API-011: ten cycles beside the planner itself; every number of every plan and of its explanation is the
+// same.
+TEST_F(CFacade, PlansAsThePlannerDoes) {
+  const auto planner = std::make_unique<Planner>();
+  ASSERT_EQ(planner->init(Parameters{}), Status::kOk);
+  PlannerInput core;
+  Plan expected;
+  Explanation reason;
+  int driven = 0;
+  for (int cycle = 0; cycle < 10; ++cycle) {
+    input.running = &plan;
+    core.running = &expected;
+    core.map = &core_map;
+    core.now_ms = core.tracks_ms = tracks.time_ms = input.now_ms;
+    core.start_ms = input.start_ms = input.now_ms + 100;
+    core.ego.rear_axle = {input.ego.x_m, input.ego.y_m, input.ego.heading_rad};
+    core.ego.speed_mps = input.ego.speed_mps;
+    core.tracks.clear();
+    Track other;
+    other.id = 5;
+    other.centre = {tracks.items[0].x_m, 1.6F, -3.14159F};
+    other.speed_mps = 10.0F;
+    other.length_m = 4.6F;
+    other.width_m = 1.8F;
+    ASSERT_TRUE(core.tracks.push(other));
+
+    Plan next;
+    const Status status = planner->plan(core, next, reason);
+    expected = next;
+    ASSERT_EQ(plan_now(), static_cast<s4tp_status>(status));
+    driven += status == Status::kOk ? 1 : 0;
+
+    ASSERT_EQ(plan.kind, static_cast<std::uint32_t>(expected.kind));
+    ASSERT_EQ(plan.start_ms, expected.start_ms);
+    for (int i = 0; i < kTrajectoryPoints; ++i) {
+      const TrajectoryPoint& point = expected.trajectory.points[i];
+      ASSERT_EQ(plan.points[i].x_m, point.rear_axle.x_m);
+      ASSERT_EQ(plan.points[i].y_m, point.rear_axle.y_m);
+      ASSERT_EQ(plan.points[i].heading_rad, point.rear_axle.heading_rad);
+      ASSERT_EQ(plan.points[i].speed_mps, point.speed_mps);
+      ASSERT_EQ(plan.points[i].acceleration_mps2, point.acceleration_mps2);
+      ASSERT_EQ(plan.points[i].curvature_1pm, point.curvature_1pm);
+    }
+    EXPECT_EQ(why.chosen.cost_total, reason.chosen_cost.total());
+    EXPECT_EQ(why.candidates, reason.candidate_count);
+    EXPECT_EQ(why.dominating_track, reason.dominating_track);
+    EXPECT_EQ(why.parameters_crc, reason.parameters_crc);
+    int rejected = 0;
+    int all = 0;
+    for (int i = 0; i < reason.candidate_count; ++i)
+      rejected += reason.rejections[i] != Rejection::kNone ? 1 : 0;
+    for (const std::uint8_t count : why.rejected) all += count;
+    EXPECT_EQ(all, rejected);
+    for (int i = 0; i < kStageCount; ++i) EXPECT_EQ(why.work[i], reason.work[i]);
+
+    input.now_ms += 100;
+    s4tp_plan_point now;
+    ASSERT_EQ(s4tp_sample(&plan, input.now_ms, &now), S4TP_OK);
+    input.ego = {now.x_m, now.y_m, now.heading_rad, now.speed_mps, 0.0F, 0.0F, 0.0F};
+    tracks.items[0].x_m -= 1.0F;
+  }
+  EXPECT_EQ(driven, 10);
+}
+
+// API-012: whatever is wrong in map, list, running plan or own state, the answer is a plan that comes to
+// rest.
+TEST_F(CFacade, AnswersInvalidInputWithMinimumRisk) {
+  const s4tp_lane_map good_map = map;
+  const s4tp_tracks good_tracks = tracks;
+  const s4tp_ego good_ego = input.ego;
+  const auto with_map = [&](const char* what, auto change) {
+    map = good_map;
+    change(map);
+    expect_invalid(what);
+    map = good_map;
+  };
+  with_map("kind", [](s4tp_lane_map& m) { m.lanes[0].kind = 3; });
+  with_map("one point", [](s4tp_lane_map& m) { m.lanes[0].point_count = 1; });
+  with_map("thirteen points", [](s4tp_lane_map& m) { m.lanes[0].point_count = 13; });
+  with_map("NaN point", [](s4tp_lane_map& m) { m.lanes[0].x_m[1] = kNaN; });
+  with_map("far point", [](s4tp_lane_map& m) { m.lanes[0].y_m[0] = 2e5F; });
+  with_map("width", [](s4tp_lane_map& m) { m.lanes[0].width_m = 0.0F; });
+  with_map("limit", [](s4tp_lane_map& m) { m.lanes[0].speed_limit_mps = -1.0F; });
+  with_map("stop line", [](s4tp_lane_map& m) { m.lanes[0].stop_line_m = kNaN; });
+  with_map("link beyond the map", [](s4tp_lane_map& m) { m.lanes[0].left = S4TP_MAX_LANES; });
+  with_map("link to a free slot", [](s4tp_lane_map& m) { m.lanes[0].successors[2] = S4TP_MAX_LANES - 1; });
+  with_map("negative link", [](s4tp_lane_map& m) { m.lanes[0].right = -2; });
+  with_map("conflict count", [](s4tp_lane_map& m) { m.conflict_count = S4TP_MAX_CONFLICTS + 1; });
+  with_map("negative count", [](s4tp_lane_map& m) { m.conflict_count = -1; });
+  with_map("conflict of nobody", [](s4tp_lane_map& m) { m.conflicts[0].first = S4TP_NO_LANE_INDEX; });
+  with_map("priority", [](s4tp_lane_map& m) { m.conflicts[0].priority = 3; });
+  with_map("exit before entry", [](s4tp_lane_map& m) { m.conflicts[0].first_exit_m = -100.0F; });
+  with_map("endless conflict", [](s4tp_lane_map& m) { m.conflicts[0].second_exit_m = 1e9F; });
+
+  tracks.count = S4TP_MAX_TRACKS + 1;
+  expect_invalid("too many vehicles");
+  tracks.count = -1;
+  expect_invalid("negative number of vehicles");
+  tracks = good_tracks;
+  tracks.items[0].speed_mps = kNaN;
+  expect_invalid("NaN vehicle");
+  tracks = good_tracks;
+
+  s4tp_plan strange = {};
+  input.running = &strange;
+  strange.kind = 3;
+  expect_invalid("kind of the running plan");
+  strange.kind = S4TP_PLAN_DRIVE;
+  strange.points[30].curvature_1pm = kNaN;
+  expect_invalid("NaN in the running plan");
+  input.running = nullptr;
+
+  input.start_ms = input.now_ms + 201;
+  expect_invalid("start too late");
+  input.start_ms = input.now_ms + 100;
+
+  EXPECT_EQ(plan_now(), S4TP_OK);
+  input.ego = good_ego;
+  input.ego.speed_mps = -1.0F;
+  EXPECT_EQ(plan_now(), S4TP_INVALID_INPUT);
+  EXPECT_EQ(plan.kind, static_cast<std::uint32_t>(S4TP_PLAN_MINIMUM_RISK));
+}
+
+// API-012: no map is not an error of the caller's, but there is only one thing to do.
+TEST_F(CFacade, WithoutMapOrListDrivesAsTheCoreDoes) {
+  input.map = nullptr;
+  EXPECT_EQ(plan_now(), S4TP_NO_LANE);
+  EXPECT_EQ(plan.kind, static_cast<std::uint32_t>(S4TP_PLAN_MINIMUM_RISK));
+  input.map = &map;
+  input.tracks = nullptr;
+  EXPECT_EQ(plan_now(), S4TP_OK);
+}
+
+// API-013: without a planner or an argument nothing is written.
+TEST_F(CFacade, WritesNothingWithoutPlannerOrArgument) {
+  plan.start_ms = 77;
+  why.candidates = 99;
+  const auto fresh = std::make_unique<s4tp_block>();
+  EXPECT_EQ(s4tp_make_plan(fresh.get(), &input, &plan, &why), S4TP_NOT_INITIALIZED);
+  EXPECT_EQ(s4tp_make_plan(nullptr, &input, &plan, &why), S4TP_INVALID_ARGUMENT);
+  EXPECT_EQ(s4tp_make_plan(block.get(), nullptr, &plan, &why), S4TP_INVALID_ARGUMENT);
+  EXPECT_EQ(s4tp_make_plan(block.get(), &input, nullptr, &why), S4TP_INVALID_ARGUMENT);
+  EXPECT_EQ(plan.start_ms, 77U);
+  EXPECT_EQ(why.candidates, 99);
+  EXPECT_EQ(s4tp_make_plan(block.get(), &input, &plan, nullptr), S4TP_OK);
+}
+
+// API-013: a copy of a planner is none; the original goes on.
+TEST_F(CFacade, MovedBlockIsNotInitialized) {
+  const auto copy = std::make_unique<s4tp_block>(*block);
+  EXPECT_EQ(s4tp_make_plan(copy.get(), &input, &plan, &why), S4TP_NOT_INITIALIZED);
+  EXPECT_EQ(plan_now(), S4TP_OK);
+}
+
+// API-010: refuses bad parameters by name, and then the earlier planner is gone too.
+TEST_F(CFacade, InitNamesTheFirstBadParameter) {
+  s4tp_parameters parameters;
+  ASSERT_EQ(s4tp_default_parameters(&parameters), S4TP_OK);
+  parameters.values[2] = kNaN;
+  const char* bad = nullptr;
+  EXPECT_EQ(s4tp_init(block.get(), &parameters, &bad), S4TP_INVALID_PARAMETER);
+  EXPECT_STREQ(bad, parameter_info(2).name);
+  EXPECT_EQ(plan_now(), S4TP_NOT_INITIALIZED);
+  EXPECT_EQ(s4tp_init(block.get(), nullptr, &bad), S4TP_OK);
+  EXPECT_EQ(bad, nullptr);
+  EXPECT_EQ(s4tp_init(nullptr, nullptr, nullptr), S4TP_INVALID_ARGUMENT);
+}
+
+// API-010: a block one byte off its alignment is refused, not written to.
+TEST(CFacadeBlock, MisalignedBlockIsRefused) {
+  const auto bytes = std::make_unique<unsigned char[]>(sizeof(s4tp_block) + 8);
+  EXPECT_EQ(s4tp_init(reinterpret_cast<s4tp_block*>(bytes.get() + 1), nullptr, nullptr),
+            S4TP_INVALID_ARGUMENT);
+}
+
+// API-003, API-004, API-005: the table by name; a value outside its range changes nothing.
+TEST(CFacadeParameters, ByName) {
+  s4tp_parameters parameters;
+  ASSERT_EQ(s4tp_default_parameters(&parameters), S4TP_OK);
+  ASSERT_EQ(s4tp_parameter_count(), kParameterCount);
+  for (int i = 0; i < kParameterCount; ++i) {
+    s4tp_parameter_info row;
+    ASSERT_EQ(s4tp_describe_parameter(i, &row), S4TP_OK);
+    float value = -1.0F;
+    EXPECT_EQ(s4tp_get_parameter(&parameters, row.name, &value), S4TP_OK);
+    EXPECT_EQ(value, row.initial);
+    EXPECT_EQ(s4tp_set_parameter(&parameters, row.name, row.maximum), S4TP_OK);
+    EXPECT_EQ(s4tp_set_parameter(&parameters, row.name, std::nextafter(row.maximum, 1e30F)),
+              S4TP_INVALID_PARAMETER);
+    EXPECT_EQ(s4tp_set_parameter(&parameters, row.name, row.minimum - 1.0F), S4TP_INVALID_PARAMETER);
+    EXPECT_EQ(s4tp_set_parameter(&parameters, row.name, kNaN), S4TP_INVALID_PARAMETER);
+    EXPECT_EQ(s4tp_get_parameter(&parameters, row.name, &value), S4TP_OK);
+    EXPECT_EQ(value, row.maximum);
+  }
+  s4tp_parameter_info row;
+  float value = 0.0F;
+  EXPECT_EQ(s4tp_describe_parameter(kParameterCount, &row), S4TP_INVALID_ARGUMENT);
+  EXPECT_EQ(s4tp_describe_parameter(-1, &row), S4TP_INVALID_ARGUMENT);
+  EXPECT_EQ(s4tp_describe_parameter(0, nullptr), S4TP_INVALID_ARGUMENT);
+  EXPECT_EQ(s4tp_set_parameter(&parameters, "vehicle.wings", 2.0F), S4TP_INVALID_ARGUMENT);
+  EXPECT_EQ(s4tp_set_parameter(&parameters, nullptr, 2.0F), S4TP_INVALID_ARGUMENT);
+  EXPECT_EQ(s4tp_get_parameter(&parameters, "vehicle.wings", &value), S4TP_INVALID_ARGUMENT);
+  EXPECT_EQ(s4tp_get_parameter(nullptr, "vehicle.width_m", &value), S4TP_INVALID_ARGUMENT);
+  EXPECT_EQ(s4tp_default_parameters(nullptr), S4TP_INVALID_ARGUMENT);
+}
+
+// API-006: the core's own number, and another one for another value.
+TEST(CFacadeParameters, CrcIsTheCores) {
+  s4tp_parameters parameters;
+  ASSERT_EQ(s4tp_default_parameters(&parameters), S4TP_OK);
+  const std::uint32_t usual = s4tp_parameters_crc(&parameters);
+  EXPECT_EQ(usual, parameters_crc(Parameters{}));
+  ASSERT_EQ(s4tp_set_parameter(&parameters, "comfort.headway_s", 1.5F), S4TP_OK);
+  EXPECT_NE(s4tp_parameters_crc(&parameters), usual);
+  EXPECT_EQ(s4tp_parameters_crc(nullptr), 0U);
+}
+
+// API-007: no lane is linked to another, none has a stop line.
+TEST(CFacadeMap, ClearedMapLinksNothing) {
+  s4tp_lane_map map;
+  std::memset(&map, 1, sizeof(map));
+  ASSERT_EQ(s4tp_clear_map(&map), S4TP_OK);
+  EXPECT_EQ(map.conflict_count, 0);
+  for (const s4tp_lane& lane : map.lanes) {
+    EXPECT_EQ(lane.present, 0);
+    EXPECT_EQ(lane.left, S4TP_NO_LANE_INDEX);
+    EXPECT_EQ(lane.right, S4TP_NO_LANE_INDEX);
+    for (const std::int8_t successor : lane.successors) EXPECT_EQ(successor, S4TP_NO_LANE_INDEX);
+    EXPECT_LT(lane.stop_line_m, 0.0F);
+  }
+  EXPECT_EQ(s4tp_clear_map(nullptr), S4TP_INVALID_ARGUMENT);
+}
+
+// API-001, API-002: every answer has a name of its own; the versions are the build's.
+TEST(CFacadeNames, StatusAndVersions) {
+  EXPECT_STREQ(s4tp_status_name(S4TP_OK), "S4TP_OK");
+  for (s4tp_status a = S4TP_OK; a <= S4TP_INVALID_ARGUMENT; ++a) {
+    EXPECT_EQ(std::string(s4tp_status_name(a)).substr(0, 5), "S4TP_");
+    for (s4tp_status b = S4TP_OK; b < a; ++b) EXPECT_STRNE(s4tp_status_name(a), s4tp_status_name(b));
+  }
+  EXPECT_STREQ(s4tp_status_name(-1), "unknown status");
+  EXPECT_STREQ(s4tp_status_name(8), "unknown status");
+  EXPECT_EQ(s4tp_get_versions().api, S4TP_API_VERSION);
+  EXPECT_EQ(s4tp_get_versions().wire, kWireVersion);
+}
+
+// API-014: 8 m/s to 10 m/s over the second step is 9 m/s at 150 ms; held before the start and after the end.
+TEST(CFacadeSample, InterpolatesAndHolds) {
+  s4tp_plan plan = {};
+  plan.kind = S4TP_PLAN_DRIVE;
+  plan.start_ms = 5000;
+  plan.points[1].speed_mps = 8.0F;
+  plan.points[2].speed_mps = 10.0F;
+  plan.points[30].speed_mps = 3.0F;
+  s4tp_plan_point point;
+  ASSERT_EQ(s4tp_sample(&plan, 5150, &point), S4TP_OK);
+  EXPECT_FLOAT_EQ(point.speed_mps, 9.0F);
+  ASSERT_EQ(s4tp_sample(&plan, 4000, &point), S4TP_OK);
+  EXPECT_EQ(point.speed_mps, 0.0F);
+  ASSERT_EQ(s4tp_sample(&plan, 9000, &point), S4TP_OK);
+  EXPECT_EQ(point.speed_mps, 3.0F);
+  EXPECT_EQ(s4tp_sample(nullptr, 0, &point), S4TP_INVALID_ARGUMENT);
+  EXPECT_EQ(s4tp_sample(&plan, 0, nullptr), S4TP_INVALID_ARGUMENT);
+  plan.kind = 9;
+  EXPECT_EQ(s4tp_sample(&plan, 0, &point), S4TP_INVALID_ARGUMENT);
+}
+
+}  // namespace
+}  // namespace s4tp

@@ -1,0 +1,52 @@
+# The library as a package: targets s4tp::core, s4tp::wire, s4tp::gate, s4tp::ecu and s4tp::hal (interfaces only), the
+# same names with find_package(s4tp) and with add_subdirectory().
+set(package_rooms core hal wire gate ecu)
+set(package_targets ${package_rooms})
+list(TRANSFORM package_targets PREPEND s4tp_)
+foreach(room target IN ZIP_LISTS package_rooms package_targets)
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${room})
+  add_library(s4tp::${room} ALIAS ${target})
+endforeach()
+add_custom_target(s4tp_package DEPENDS ${package_targets})  # all that an installation needs
+
+option(S4TP_INSTALL "Install the library" ${PROJECT_IS_TOP_LEVEL})
+if(NOT S4TP_INSTALL)
+  return()
+endif()
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+set(package_headers ${CMAKE_INSTALL_INCLUDEDIR}/s4tp)
+set(package_config ${CMAKE_INSTALL_LIBDIR}/cmake/s4tp)
+
+install(TARGETS ${package_targets} EXPORT s4tp
+  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} INCLUDES DESTINATION ${package_headers})
+install(EXPORT s4tp NAMESPACE s4tp:: FILE s4tp-targets.cmake DESTINATION ${package_config})
+
+install(DIRECTORY algo DESTINATION ${package_headers} FILES_MATCHING PATTERN *.hpp PATTERN *.def
+  PATTERN c_conversion.hpp EXCLUDE)
+install(FILES algo/planner/s4tp.h DESTINATION ${package_headers})
+foreach(room wire gate ecu)
+  install(DIRECTORY firmware/${room} DESTINATION ${package_headers}/firmware FILES_MATCHING PATTERN *.hpp PATTERN *.dbc)
+endforeach()
+install(FILES ${PROJECT_BINARY_DIR}/generated/firmware/wire/generated/s4tp_codec.hpp
+  DESTINATION ${package_headers}/firmware/wire/generated)
+file(GLOB hal_interfaces CONFIGURE_DEPENDS hal/*.hpp)
+install(FILES ${hal_interfaces} DESTINATION ${package_headers}/hal)
+
+configure_package_config_file(toolchain/s4tp-config.cmake.in ${PROJECT_BINARY_DIR}/s4tp-config.cmake
+  INSTALL_DESTINATION ${package_config} NO_SET_AND_CHECK_MACRO)
+# The file also refuses a consumer whose pointers are of another size: a host's package is no target's.
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/s4tp-config-version.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/s4tp-config.cmake ${PROJECT_BINARY_DIR}/s4tp-config-version.cmake
+  DESTINATION ${package_config})
+install(FILES LICENSE docs/parameters.md docs/bus_load.md DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libs4tp-dev)
+
+# cpack makes the Debian package of the host's library.
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME libs4tp-dev)
+set(CPACK_PACKAGE_CONTACT "s4tp developers <s4tp@localhost>")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "Planner firmware for cars: library and headers")
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION libdevel)
+set(CPACK_STRIP_FILES OFF)
+include(CPack)
