@@ -58,37 +58,34 @@ static void add_point(s4tp_lane* lane, float x_m, float y_m) {
   ++lane->point_count;
 }
 
-/* Two lanes of ours and an oncoming one: 120 m straight along x, then 40 m bending to the left. */
+/* Two lanes of ours and an oncoming one: 60 m straight along x, then 60 m bending to the left on 100 m. */
 static void make_road(void) {
-  static const float y_m[3] = {0.0f, 3.2f, 6.4f};
-  static const float bend_m[3] = {2.0f, 5.3f, 8.6f}; /* y of the bend's middle */
-  static const float end_m[3] = {8.5f, 12.0f, 15.5f};
+  static const float bend_x_m[3][4] = {
+      {60.0f, 79.9f, 98.9f, 116.5f}, {60.0f, 79.2f, 97.7f, 114.7f}, {60.0f, 78.6f, 96.4f, 112.9f}};
+  static const float bend_y_m[3][4] = {
+      {0.0f, 2.0f, 7.9f, 17.5f}, {3.2f, 5.1f, 10.8f, 20.1f}, {6.4f, 8.3f, 13.8f, 22.7f}};
+  s4tp_lane* lane;
   int i;
+  int k;
   s4tp_clear_map(&map);
   for (i = OUTER; i <= INNER; ++i) {
-    s4tp_lane* straight = add_lane(i, S4TP_LANE_OURS, i + OUTER_BEND);
-    s4tp_lane* bend = add_lane(i + OUTER_BEND, S4TP_LANE_OURS, S4TP_NO_LANE_INDEX);
-    add_point(straight, 0.0f, y_m[i]);
-    add_point(straight, 120.0f, y_m[i]);
-    straight->route_remaining_m = straight->goal_distance_m = 160.0f;
-    add_point(bend, 120.0f, y_m[i]);
-    add_point(bend, 140.0f, bend_m[i]);
-    add_point(bend, 159.0f, end_m[i]);
-    bend->route_remaining_m = bend->goal_distance_m = 40.0f;
+    lane = add_lane(i, S4TP_LANE_OURS, i + OUTER_BEND);
+    add_point(lane, 0.0f, bend_y_m[i][0]);
+    add_point(lane, 60.0f, bend_y_m[i][0]);
+    lane->route_remaining_m = lane->goal_distance_m = 120.0f;
+    lane = add_lane(i + OUTER_BEND, S4TP_LANE_OURS, S4TP_NO_LANE_INDEX);
+    for (k = 0; k < 4; ++k) add_point(lane, bend_x_m[i][k], bend_y_m[i][k]);
+    lane->route_remaining_m = lane->goal_distance_m = 60.0f;
   }
   map.lanes[OUTER].left = INNER;
   map.lanes[INNER].right = OUTER;
   map.lanes[OUTER_BEND].left = INNER_BEND;
   map.lanes[INNER_BEND].right = OUTER_BEND;
-  {
-    s4tp_lane* oncoming = add_lane(ONCOMING, S4TP_LANE_OPPOSITE, S4TP_NO_LANE_INDEX);
-    s4tp_lane* bend = add_lane(ONCOMING_BEND, S4TP_LANE_OPPOSITE, ONCOMING);
-    add_point(bend, 159.0f, end_m[2]);
-    add_point(bend, 140.0f, bend_m[2]);
-    add_point(bend, 120.0f, y_m[2]);
-    add_point(oncoming, 120.0f, y_m[2]);
-    add_point(oncoming, 0.0f, y_m[2]);
-  }
+  lane = add_lane(ONCOMING, S4TP_LANE_OPPOSITE, S4TP_NO_LANE_INDEX);
+  add_point(lane, 60.0f, bend_y_m[ONCOMING][0]);
+  add_point(lane, 0.0f, bend_y_m[ONCOMING][0]);
+  lane = add_lane(ONCOMING_BEND, S4TP_LANE_OPPOSITE, ONCOMING);
+  for (k = 3; k >= 0; --k) add_point(lane, bend_x_m[ONCOMING][k], bend_y_m[ONCOMING][k]);
 }
 
 int main(int argc, char** argv) {
@@ -111,9 +108,9 @@ int main(int argc, char** argv) {
 
   make_road();
   tracks.count = 2;
-  tracks.items[0] = vehicle(7, argc > 1 ? 45.001f : 45.0f, 0.0f, 0.0f, 6.0f);
-  tracks.items[1] = vehicle(9, 110.0f, 6.4f, -3.1415925f, 10.0f);
-  input.ego.x_m = 15.0f;
+  tracks.items[0] = vehicle(7, argc > 1 ? 70.001f : 70.0f, 0.5f, 0.1f, 6.0f);
+  tracks.items[1] = vehicle(9, 58.0f, 6.4f, -3.1415925f, 10.0f);
+  input.ego.x_m = 45.0f;
   input.ego.speed_mps = 10.0f;
   input.tracks = &tracks;
   input.map = &map;
