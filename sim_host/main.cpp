@@ -144,20 +144,13 @@ int run_one(const Arguments& arguments) {
   one.parameters = options.parameters;
   campaign::write_json(arguments.out / "run.json", rows, one);
 
-  const metrics::EpisodeMetrics& m = rows.front().metrics;
-  std::cout << scenario.name << " seed " << m.seed << ", " << arguments.planner << ": "
-            << metrics::ending_name(m.ending) << " after " << m.duration_s << " s, smallest gap "
-            << m.min_gap_m << " m, mean |jerk| " << m.mean_abs_jerk_mps3 << " m/s^3\n";
-  for (const world::Collision& collision : result.recording.collisions) {
-    std::cout << "  at " << collision.time_s << " s: " << collision.cause << " vehicle " << collision.other
-              << '\n';
-  }
+  campaign::print_episode(std::cout, rows.front(), result.recording);
   const fs::path reasons = fs::path(picture).replace_extension(".txt");
   std::ofstream explanations(reasons);
   view::print_explanations(explanations, *result.trace, -result.recording.snapshots.front().time_s);
   std::cout << "picture: " << picture.string() << "\nreasons: " << reasons.string() << '\n';
   if (!arguments.log.empty()) std::cout << "bus log: " << arguments.log.string() << '\n';
-  return m.ending == world::Ending::kGoal ? 0 : kNotGoodEnough;
+  return result.recording.ending == world::Ending::kGoal ? 0 : kNotGoodEnough;
 }
 
 int record(const Arguments& arguments) {

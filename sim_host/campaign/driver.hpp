@@ -1,5 +1,5 @@
 #pragma once
-/// An ECU with a planner in it, at its end of the bus. Planners are chosen by name.
+/// An ECU at its end of an in-process bus, with the planner of a name make_ecu() knows.
 
 #include <memory>
 #include <string>
@@ -10,6 +10,7 @@
 #include "firmware/ecu/modes.hpp"
 #include "firmware/wire/frame.hpp"
 #include "hal/telemetry.hpp"
+#include "sim_host/campaign/any_ecu.hpp"
 
 namespace s4tp::campaign {
 
@@ -24,11 +25,7 @@ class Driver {
   [[nodiscard]] virtual ecu::Mode mode() const = 0;
 };
 
-/// Names make_driver() accepts: s4tp, constant_speed, blind.
-[[nodiscard]] const std::vector<std::string>& planner_names();
-
-/// \param telemetry  may be null  \param probe  may be null; only the s4tp planner has one
-/// \throws std::invalid_argument naming the planners there are, or the first bad parameter
+/// \param telemetry  may be null  \throws as make_ecu()
 [[nodiscard]] std::unique_ptr<Driver> make_driver(const std::string& planner, const Parameters& parameters,
                                                   hal::Telemetry* telemetry, Probe* probe);
 

@@ -1,48 +1,14 @@
 #include "sim_host/campaign/episode.hpp"
 
 #include <ctime>
-#include <fstream>
-#include <stdexcept>
 
-#include "algo/core/versions.hpp"
-#include "firmware/wire/candump.hpp"
 #include "firmware/wire/codec.hpp"
+#include "sim_host/campaign/bus_log.hpp"
 #include "sim_host/campaign/driver.hpp"
 #include "sim_host/world/world.hpp"
 
 namespace s4tp::campaign {
 namespace {
-
-/// Writes every frame of the bus in candump's format; time is vehicle time.
-class BusLog {
- public:
-  explicit BusLog(const std::filesystem::path& file, const EpisodeOptions& options)
-      : stream_(file), file_(file) {
-    stream_ << "# s4tp log: seed " << options.seed << ", planner " << options.planner << ", parameters "
-            << parameters_crc(options.parameters) << ", wire " << int{kWireVersion} << '\n';
-    check();
-  }
-
-  void write(std::uint64_t time_us, const std::vector<wire::Frame>& frames) {
-    for (const wire::Frame& frame : frames) {
-      wire::LoggedFrame logged{time_us, "vcan0", frame};
-      char line[wire::kCandumpLineSize];
-      wire::format_candump(logged, line);
-      stream_ << line << '\n';
-    }
-    check();
-  }
-
-  /// The planning cycle that started last comes too late.
-  void write_deadline_miss() { stream_ << "# miss\n"; }
-
- private:
-  void check() const {
-    if (!stream_) throw std::runtime_error(file_.string() + ": cannot write the log");
-  }
-  std::ofstream stream_;
-  std::filesystem::path file_;
-};
 
 double cpu_now_s() {
   timespec now{};
@@ -62,7 +28,7 @@ EpisodeResult run_episode(const world::Scenario& scenario, const EpisodeOptions&
   world_options.seed = options.seed;
   world::World world(scenario, world_options);
   std::optional<BusLog> log;
-  if (options.log) log.emplace(*options.log, options);
+  if (options.log) log.emplace(*options.log, options.seed, ecu_note(options.planner, options.parameters));
 
   std::vector<wire::Frame> from_world;
   std::vector<wire::Frame> delivered;

@@ -99,6 +99,16 @@ void print_table(std::ostream& out, const std::vector<ResultCell>& cells) {
   }
 }
 
+void print_episode(std::ostream& out, const EpisodeRow& row, const world::Recording& recording) {
+  const metrics::EpisodeMetrics& m = row.metrics;
+  out << row.scenario << " seed " << m.seed << ", " << row.planner << ": " << metrics::ending_name(m.ending)
+      << " after " << m.duration_s << " s, smallest gap " << m.min_gap_m << " m, mean |jerk| "
+      << m.mean_abs_jerk_mps3 << " m/s^3\n";
+  for (const world::Collision& collision : recording.collisions) {
+    out << "  at " << collision.time_s << " s: " << collision.cause << " vehicle " << collision.other << '\n';
+  }
+}
+
 void write_json(const std::filesystem::path& file, const std::vector<EpisodeRow>& rows,
                 const CampaignOptions& options) {
   json document{{"first_seed", options.first_seed},

@@ -22,6 +22,9 @@ struct ResultCell {
 
 void print_table(std::ostream& out, const std::vector<ResultCell>& cells);
 
+/// One episode in words, with its collisions.
+void print_episode(std::ostream& out, const EpisodeRow& row, const world::Recording& recording);
+
 /// Cells and every episode. \throws std::runtime_error naming the file
 void write_json(const std::filesystem::path& file, const std::vector<EpisodeRow>& rows,
                 const CampaignOptions& options);
