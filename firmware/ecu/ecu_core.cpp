@@ -219,7 +219,6 @@ gate::Command EcuCore::ask() {
 
 void EcuCore::report(const gate::Command& command) {
   hal::Can& can = *ports_.can;
-  reporter_.command(can, command, mode_, inputs_.tick_number(), inputs_.accepted_frames());
   if (ticks_ % kStatusTicks == kStatusPhase) {
     StatusReport status;
     status.mode = mode_;
@@ -233,6 +232,8 @@ void EcuCore::report(const gate::Command& command) {
   }
   if (ticks_ % kSlowTicks == kStatisticsPhase) reporter_.statistics(can, statistics_);
   if (ticks_ % kSlowTicks == kVersionPhase) reporter_.version(can);
+  // Last, as the tick's is: whoever sees it has seen all of this tick's frames.
+  reporter_.command(can, command, mode_, inputs_.tick_number(), inputs_.accepted_frames());
 }
 
 void EcuCore::publish(RecordKind kind, const void* record, std::uint32_t size) {

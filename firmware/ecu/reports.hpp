@@ -25,7 +25,8 @@ struct StatusReport {
 /// A frame that does not go out (queue full, bus off) is counted by the CAN port; the next one is on its way.
 class Reporter {
  public:
-  /// ECU-065 Each tick; echoes the low 12 bits of the tick's number and of the count of frames taken.
+  /// ECU-065 Each tick, as its last frame; echoes the low 12 bits of the tick's number and of the count of
+  /// frames taken.
   void command(hal::Can& can, const gate::Command& command, Mode mode, std::uint32_t tick,
                std::uint32_t accepted);
   void status(hal::Can& can, const StatusReport& report);         ///< ECU-066 every 100 ms

@@ -151,6 +151,20 @@ TEST(EcuCycle, InjectedMissEqualsARealOne) {
   EXPECT_EQ(real->ecu.core().statistics().slips, 1U);
 }
 
+// ECU-065: after a command nothing more comes in its tick, be it one with status, statistics or version.
+TEST(EcuReports, CommandIsTheLastFrameOfItsTick) {
+  Rig rig;
+  ASSERT_EQ(rig.start(), Status::kOk);
+  std::size_t most = 0;
+  for (int i = 0; i < 120; ++i) {
+    rig.tick();
+    ASSERT_FALSE(rig.from_ecu.empty());
+    EXPECT_EQ(rig.from_ecu.back().id, wire::kCommandId) << i;
+    most = std::max(most, rig.from_ecu.size());
+  }
+  EXPECT_GE(most, 2U);
+}
+
 // ECU-065: each tick one command, echoing its number and the count of frames taken, both modulo 4096.
 TEST(EcuReports, CommandEchoes) {
   Rig rig;
