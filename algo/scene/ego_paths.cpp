@@ -110,6 +110,9 @@ void find_zones(const LaneTable& table, const Parameters& parameters, EgoPath& e
     zone.other_entry_m = view.other_entry_m;
     zone.other_exit_m = view.other_exit_m;
     zone.priority = view.priority;
+    for (const LaneIndex successor : table.map().lanes[view.other].successors) {
+      if (table.valid(successor) && place[successor] >= 0) zone.merging = true;
+    }
     const float edge_s_m = zone.entry_s_m + half_length_m - kStopMarginM;
     const float line_s_m = stop_line(table, path, index, zone.entry_s_m);
     const bool passed = centre_s_m + half_length_m > line_s_m + kPassedLineM;

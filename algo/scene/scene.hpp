@@ -40,6 +40,7 @@ struct ConflictZone {
   float other_entry_m = 0.0F;  ///< on the other lane
   float other_exit_m = 0.0F;
   Priority priority = Priority::kFirstCome;  ///< seen from us: kFirstYields = we yield
+  bool merging = false;  ///< both ways go on in one lane: the other comes after us, not across
 };
 
 /// How the ego may use a lane beside or under it.
