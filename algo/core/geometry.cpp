@@ -1,33 +1,9 @@
 #include "algo/core/geometry.hpp"
 
-#include "algo/core/math.hpp"
+#include "algo/core/inline.hpp"
 
 namespace s4tp {
 
-Point operator+(Point a, Point b) {
-  return {a.x_m + b.x_m, a.y_m + b.y_m};
-}
-Point operator-(Point a, Point b) {
-  return {a.x_m - b.x_m, a.y_m - b.y_m};
-}
-Point operator*(float k, Point a) {
-  return {k * a.x_m, k * a.y_m};
-}
-float dot(Point a, Point b) {
-  return a.x_m * b.x_m + a.y_m * b.y_m;
-}
-float cross(Point a, Point b) {
-  return a.x_m * b.y_m - a.y_m * b.x_m;
-}
-float norm(Point a) {
-  return sqrt(dot(a, a));
-}
-float distance(Point a, Point b) {
-  return norm(a - b);
-}
-Point position(const Pose& pose) {
-  return {pose.x_m, pose.y_m};
-}
 Point direction(float heading_rad) {
   const SinCos both = sin_cos(heading_rad);
   return {both.cos, both.sin};

@@ -1,6 +1,7 @@
-#include "algo/core/math.hpp"
-
+#define S4TP_INLINE  // the bodies in inline.hpp are emitted here
 #include <cstring>
+
+#include "algo/core/inline.hpp"
 
 namespace s4tp {
 namespace {
@@ -63,10 +64,6 @@ float cos_of_rest(float r) {
 }
 
 }  // namespace
-
-float sqrt(float x) {
-  return x > 0.0F ? __builtin_sqrtf(x) : 0.0F;
-}
 
 float exp(float x) {
   if (x < -87.3F) return 0.0F;
@@ -177,25 +174,6 @@ float floor(float x) {
   if (abs(x) >= 8388608.0F) return x;
   const float truncated = static_cast<float>(static_cast<std::int32_t>(x));
   return truncated > x ? truncated - 1.0F : truncated;
-}
-
-float abs(float x) {
-  return __builtin_fabsf(x);
-}
-float min(float a, float b) {
-  return b < a ? b : a;
-}
-float max(float a, float b) {
-  return a < b ? b : a;
-}
-float clamp(float x, float low, float high) {
-  return x < low ? low : (x > high ? high : x);
-}
-float square(float x) {
-  return x * x;
-}
-float lerp(float a, float b, float t) {
-  return a + (b - a) * t;
 }
 
 float wrap_angle(float angle_rad) {

@@ -5,7 +5,7 @@
 #include <type_traits>
 
 #include "algo/core/check.hpp"
-#include "algo/core/math.hpp"
+#include "algo/core/inline.hpp"
 #include "algo/core/versions.hpp"
 
 namespace s4tp {

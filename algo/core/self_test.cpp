@@ -2,7 +2,7 @@
 
 #include <cstring>
 
-#include "algo/core/math.hpp"
+#include "algo/core/inline.hpp"
 
 namespace s4tp {
 namespace {

@@ -1,6 +1,6 @@
 #include "algo/planner/planner.hpp"
 
-#include "algo/core/math.hpp"
+#include "algo/core/inline.hpp"
 #include "algo/core/self_test.hpp"
 #include "algo/planner/scoring.hpp"
 #include "algo/safety/minimum_risk.hpp"

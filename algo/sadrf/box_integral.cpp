@@ -1,6 +1,6 @@
 #include "algo/sadrf/box_integral.hpp"
 
-#include "algo/core/math.hpp"
+#include "algo/core/inline.hpp"
 #include "algo/sadrf/path_coordinates.hpp"
 
 namespace s4tp {

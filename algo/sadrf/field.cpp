@@ -1,6 +1,6 @@
 #include "algo/sadrf/field.hpp"
 
-#include "algo/core/math.hpp"
+#include "algo/core/inline.hpp"
 #include "algo/sadrf/path_coordinates.hpp"
 
 namespace s4tp {

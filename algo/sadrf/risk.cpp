@@ -1,6 +1,6 @@
 #include "algo/sadrf/risk.hpp"
 
-#include "algo/core/math.hpp"
+#include "algo/core/inline.hpp"
 #include "algo/sadrf/box_integral.hpp"
 #include "algo/sadrf/field.hpp"
 #include "algo/sadrf/futures.hpp"

@@ -1,7 +1,7 @@
 #include "algo/sadrf/road_risk.hpp"
 
 #include "algo/core/check.hpp"
-#include "algo/core/math.hpp"
+#include "algo/core/inline.hpp"
 #include "algo/sadrf/box_integral.hpp"
 #include "algo/sadrf/field.hpp"
 

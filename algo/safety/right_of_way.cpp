@@ -1,6 +1,6 @@
 #include "algo/safety/right_of_way.hpp"
 
-#include "algo/core/math.hpp"
+#include "algo/core/inline.hpp"
 
 namespace s4tp {
 namespace {

@@ -1,6 +1,6 @@
 #include "algo/safety/trajectory_check.hpp"
 
-#include "algo/core/math.hpp"
+#include "algo/core/inline.hpp"
 #include "algo/safety/right_of_way.hpp"
 #include "algo/safety/terminal.hpp"
 #include "algo/trajectory/along_path.hpp"

@@ -1,6 +1,6 @@
 #include "algo/satp/car_following.hpp"
 
-#include "algo/core/math.hpp"
+#include "algo/core/inline.hpp"
 
 namespace s4tp {
 namespace {

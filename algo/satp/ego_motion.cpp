@@ -1,6 +1,6 @@
 #include "algo/satp/ego_motion.hpp"
 
-#include "algo/core/math.hpp"
+#include "algo/core/inline.hpp"
 #include "algo/satp/car_following.hpp"
 
 namespace s4tp {

@@ -1,6 +1,6 @@
 #include "algo/satp/predictor.hpp"
 
-#include "algo/core/math.hpp"
+#include "algo/core/inline.hpp"
 #include "algo/satp/way_motion.hpp"
 
 namespace s4tp {

@@ -1,6 +1,6 @@
 #include "algo/satp/way.hpp"
 
-#include "algo/core/math.hpp"
+#include "algo/core/inline.hpp"
 #include "algo/satp/car_following.hpp"
 #include "algo/scene/agent_paths.hpp"
 #include "algo/scene/conflict_view.hpp"

@@ -1,6 +1,6 @@
 #include "algo/scene/ego_paths.hpp"
 
-#include "algo/core/math.hpp"
+#include "algo/core/inline.hpp"
 #include "algo/scene/conflict_view.hpp"
 
 namespace s4tp {

@@ -1,6 +1,6 @@
 #include "algo/scene/relevance.hpp"
 
-#include "algo/core/math.hpp"
+#include "algo/core/inline.hpp"
 #include "algo/scene/agent_paths.hpp"
 
 namespace s4tp {

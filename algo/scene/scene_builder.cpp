@@ -1,4 +1,4 @@
-#include "algo/core/math.hpp"
+#include "algo/core/inline.hpp"
 #include "algo/scene/agent_paths.hpp"
 #include "algo/scene/ego_paths.hpp"
 #include "algo/scene/lane_table.hpp"

@@ -1,6 +1,6 @@
 #include "algo/trajectory/along_path.hpp"
 
-#include "algo/core/math.hpp"
+#include "algo/core/inline.hpp"
 #include "algo/trajectory/bicycle.hpp"
 
 namespace s4tp {

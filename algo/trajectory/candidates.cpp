@@ -1,6 +1,6 @@
 #include "algo/trajectory/candidates.hpp"
 
-#include "algo/core/math.hpp"
+#include "algo/core/inline.hpp"
 #include "algo/trajectory/along_path.hpp"
 #include "algo/trajectory/bicycle.hpp"
 #include "algo/trajectory/roll_out.hpp"

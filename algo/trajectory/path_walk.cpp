@@ -1,6 +1,6 @@
 #include "algo/trajectory/path_walk.hpp"
 
-#include "algo/core/math.hpp"
+#include "algo/core/inline.hpp"
 
 namespace s4tp {
 

@@ -1,4 +1,4 @@
-#include "algo/core/math.hpp"
+#include "algo/core/inline.hpp"
 #include "algo/trajectory/bicycle.hpp"
 #include "algo/trajectory/candidates.hpp"
 

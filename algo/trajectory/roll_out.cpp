@@ -1,6 +1,6 @@
 #include "algo/trajectory/roll_out.hpp"
 
-#include "algo/core/math.hpp"
+#include "algo/core/inline.hpp"
 #include "algo/trajectory/speed_profile.hpp"
 
 namespace s4tp {

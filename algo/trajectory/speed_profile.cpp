@@ -1,6 +1,6 @@
 #include "algo/trajectory/speed_profile.hpp"
 
-#include "algo/core/math.hpp"
+#include "algo/core/inline.hpp"
 #include "algo/safety/rss.hpp"
 
 namespace s4tp {
