@@ -143,7 +143,7 @@ void Planner::rank(bool careful, Explanation& explanation) {
   int left_out = 0;
   {
     const StageScope scope(probe, Stage::kCandidates);
-    generate_candidates(scene_, start_, running_, start_ms_, parameters_, candidates_, left_out);
+    generate_candidates(scene_, start_, running_, start_ms_, parameters_, lines_, candidates_, left_out);
     if (candidates_.size() > allowance.candidates) {
       left_out = left_out + candidates_.size() - allowance.candidates;
       candidates_.truncate(allowance.candidates);
@@ -164,7 +164,7 @@ void Planner::rank(bool careful, Explanation& explanation) {
       explanation.rejections[i] = Rejection::kLeftOut;
       continue;
     }
-    roll_out(scene_, candidate, start_, running_, start_ms_, parameters_, chosen_);
+    roll_out(lines_[candidate.path], candidate, start_, running_, start_ms_, parameters_, chosen_);
     explanation.rejections[i] = judge(candidate.path, conditioned_, explanation.check);
     if (explanation.rejections[i] != Rejection::kNone) continue;
     costs_[i] = score_motion(scene_, keep_going_, candidate.path, chosen_, previous, careful, parameters_);
@@ -233,7 +233,7 @@ Status Planner::choose(Explanation& explanation) {
 
 bool Planner::evaluate(int index, Explanation& explanation) {
   const Candidate& candidate = candidates_[index];
-  roll_out(scene_, candidate, start_, running_, start_ms_, parameters_, chosen_);
+  roll_out(lines_[candidate.path], candidate, start_, running_, start_ms_, parameters_, chosen_);
   {
     const StageScope scope(probe, Stage::kPredict);
     const int before = predictor_.work();

@@ -77,6 +77,7 @@ class Planner {
   TrajectoryPoint start_;
   PredictionSet unconditioned_;
   KinematicSet keep_going_;
+  ReferenceLines lines_;
   CandidateList candidates_;
   CostBreakdown costs_[kMaxCandidates];
   DecisionList decisions_;

@@ -80,14 +80,16 @@ bool clear_of(const Scene& scene, int path, const Trajectory& trajectory, const 
 
 int first_collision(const Trajectory& trajectory, const Mode& mode, const Track& track, int steps,
                     float margin_m, const Parameters& parameters) {
+  // From rear axle to box centre, and above both half diagonals.
   const float reach_m =
-      0.5F * (parameters.vehicle.length_m + parameters.vehicle.width_m + track.length_m + track.width_m) +
-      margin_m;  // above both half diagonals
+      abs(rear_axle_to_centre_m(parameters)) + margin_m +
+      0.5F * (parameters.vehicle.length_m + parameters.vehicle.width_m + track.length_m + track.width_m);
   float least_m = margin_m;
   for (int i = 0; i < steps && i < kHorizonSteps; ++i) {
-    const Box own = ego_box(trajectory.points[i + 1].rear_axle, parameters);
-    const Point apart = position(own.centre) - position(mode.steps[i]);
+    const Pose& rear_axle = trajectory.points[i + 1].rear_axle;
+    const Point apart = position(rear_axle) - position(mode.steps[i]);
     if (dot(apart, apart) > square(reach_m)) continue;
+    const Box own = ego_box(rear_axle, parameters);
     const float gap_m = separation(own, {mode.steps[i], track.length_m, track.width_m});
     if (gap_m >= least_m) continue;
     if (i > 0) return i;

@@ -105,6 +105,7 @@ void PathCursor::seek(float s_m) {
     start_s_m += length_m;
   }
   segment_ = lane_segment(lane, index);
+  chord_ = direction(segment_.heading_rad);
   constexpr float kFar = 1e9F;
   start_s_m_ = start_s_m;
   from_s_m_ = lane_ == 0 && index == 0 ? -kFar : start_s_m;
@@ -120,9 +121,9 @@ PathPoint PathCursor::at(float s_m) {
   const float inside_m = clamp(x_m, 0.0F, segment_.length_m);
   PathPoint point;
   point.pose.heading_rad = wrap_angle(segment_.heading_rad + heading_deviation(segment_, inside_m));
-  const Pose chord{segment_.start.x_m, segment_.start.y_m, segment_.heading_rad};
   const float left_m = segment_.bulge * inside_m * (1.0F - inside_m / max(segment_.length_m, kShortestM));
-  Point at = offset_point(chord, inside_m, left_m);
+  Point at = {segment_.start.x_m + (inside_m * chord_.x_m - left_m * chord_.y_m),
+              segment_.start.y_m + (inside_m * chord_.y_m + left_m * chord_.x_m)};
   if (inside_m == x_m) {
     point.curvature_1pm = curvature(segment_, inside_m);
   } else {

@@ -69,6 +69,7 @@ class PathCursor {
   const LaneMap& map_;
   const LanePath& path_;
   LaneSegment segment_;
+  Point chord_;            ///< its unit vector
   int lane_ = 0;           ///< index into path_.lanes
   float from_s_m_ = 0.0F;  ///< the loaded segment answers for [from, to)
   float to_s_m_ = -1.0F;

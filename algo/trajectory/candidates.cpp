@@ -38,7 +38,6 @@ constexpr float kMaxLeadS = 0.5F;  // plan start after the scene's time
 
 /// One path with all that its candidates share.
 struct Course {
-  ReferenceLine line;
   ReferenceCoordinates where;  ///< of the start
   Leader leader;
   float leader_touch_s_m = 0.0F;  ///< where our rear axle would be with our front at its rear, at scene time
@@ -83,31 +82,27 @@ void find_stops(const Scene& scene, const EgoPath& path, const Parameters& param
   add_stop(last_s_m - change_room_m(scene, path), course);
 }
 
-void prepare(const Scene& scene, int index, const TrajectoryPoint& start, float lead_s,
-             const Parameters& parameters, Course& course) {
-  const EgoPath& path = scene.ego_paths[index];
+void prepare(const Scene& scene, const EgoPath& path, const TrajectoryPoint& start, float lead_s,
+             const Parameters& parameters, ReferenceLine& line, Course& course) {
   const float guess_s_m = path.frenet.s_m + lead_s * scene.ego.speed_mps;
   const Frenet frenet = project(*scene.map, path.path, position(start.rear_axle), guess_s_m, 10.0F);
-  build_reference(*scene.map, path.path, frenet.s_m, start.speed_mps, parameters, course.line);
-  course.where = locate_on(course.line, position(start.rear_axle), frenet.s_m);
+  build_reference(*scene.map, path.path, frenet.s_m, start.speed_mps, parameters, line);
+  course.where = locate_on(line, position(start.rear_axle), frenet.s_m);
   course.leader = find_leader(scene, path, path.frenet.s_m, parameters);
   course.leader_touch_s_m = path.frenet.s_m + course.leader.gap_m;
-  course.lateral_length_m = lateral_length_m(course.line, start, course.where, parameters);
-  course.attempts = kStretches;
-  course.stop_count = 0;
   find_stops(scene, path, parameters, course);
 }
 
 /// Whether the running plan goes on from exactly here and stays on this path.
 bool continues(const Plan& running, const TrajectoryPoint& start, std::uint32_t start_ms,
-               const Course& course) {
+               const ReferenceLine& line, const Course& course) {
   if (running.kind != PlanKind::kDrive || !plan_covers(running, start_ms)) return false;
   if (static_cast<std::int32_t>(start_ms - running.start_ms) % kStepMs != 0) return false;
   const TrajectoryPoint planned = sample(running, start_ms);
   if (distance(position(planned.rear_axle), position(start.rear_axle)) > kOnPlanM) return false;
   const Point end = position(running.trajectory.points[kHorizonSteps].rear_axle);
   const float guess_s_m = course.where.s_m + distance(end, position(start.rear_axle));
-  return abs(locate_on(course.line, end, guess_s_m).d_m) < kPlanOnPathM;
+  return abs(locate_on(line, end, guess_s_m).d_m) < kPlanOnPathM;
 }
 
 Reach reach_of(const Candidate& candidate, const Trajectory& trajectory) {
@@ -126,9 +121,9 @@ bool has_twin(const Reach* reaches, int count, const Reach& reach) {
 }
 
 /// The longitudinal half of a recipe. \return false when this path has no such thing
-bool shape_longitudinal(const Trial& trial, const Course& course, const TrajectoryPoint& start,
-                        const Plan& running, std::uint32_t start_ms, float lead_s,
-                        const Parameters& parameters, Candidate& candidate) {
+bool shape_longitudinal(const Trial& trial, const ReferenceLine& line, const Course& course,
+                        const TrajectoryPoint& start, const Plan& running, std::uint32_t start_ms,
+                        float lead_s, const Parameters& parameters, Candidate& candidate) {
   candidate.intent = trial.intent;
   candidate.acceleration_mps2 = parameters.comfort.acceleration_mps2;
   switch (trial.intent) {
@@ -147,18 +142,18 @@ bool shape_longitudinal(const Trial& trial, const Course& course, const Trajecto
       candidate.target_speed_mps = course.leader.speed_mps;
       return true;
     case Intent::kPrevious:
-      return continues(running, start, start_ms, course);
+      return continues(running, start, start_ms, line, course);
   }
   return false;
 }
 
 /// Finds a lateral length with which the candidate can be driven. \return false when there is none
-bool make_feasible(const TrajectoryPoint& start, const Plan& running, std::uint32_t start_ms,
-                   const Parameters& parameters, Course& course, Candidate& candidate,
+bool make_feasible(const ReferenceLine& line, const TrajectoryPoint& start, const Plan& running,
+                   std::uint32_t start_ms, const Parameters& parameters, Course& course, Candidate& candidate,
                    Trajectory& trajectory) {
   for (int i = 0; i < course.attempts; ++i) {
-    shape_lateral(course.line, start, course.where, 0.0F, course.lateral_length_m, candidate);
-    roll_out_on(course.line, candidate, start, running, start_ms, parameters, trajectory);
+    shape_lateral(line, start, course.where, 0.0F, course.lateral_length_m, candidate);
+    roll_out(line, candidate, start, running, start_ms, parameters, trajectory);
     if (feasible(trajectory, parameters)) return true;
     if (candidate.intent == Intent::kPrevious) return false;
     if (i + 1 < course.attempts) course.lateral_length_m *= kStretch;
@@ -170,28 +165,36 @@ bool make_feasible(const TrajectoryPoint& start, const Plan& running, std::uint3
 }  // namespace
 
 void generate_candidates(const Scene& scene, const TrajectoryPoint& start, const Plan& running,
-                         std::uint32_t start_ms, const Parameters& parameters, CandidateList& candidates,
-                         int& left_out) {
+                         std::uint32_t start_ms, const Parameters& parameters, ReferenceLines& lines,
+                         CandidateList& candidates, int& left_out) {
   candidates.clear();
   left_out = 0;
   if (scene.map == nullptr) return;
   const std::int32_t lead_ms = static_cast<std::int32_t>(start_ms - scene.time_ms);
   const float lead_s = clamp(0.001F * static_cast<float>(lead_ms), 0.0F, kMaxLeadS);
-  Course course;
+  Course courses[decltype(Scene::ego_paths)::kCapacity];
+  for (int path = 0; path < scene.ego_paths.size(); ++path) {
+    prepare(scene, scene.ego_paths[path], start, lead_s, parameters, lines[path], courses[path]);
+  }
   Trajectory trajectory;
   Reach reaches[kMaxCandidates];
-  // Two rounds over the paths: a line is held for one path at a time, what matters most finds room first.
+  // Two rounds over the paths: what matters most finds room first.
   for (int round = 0; round < 2; ++round) {
     const int first = round == 0 ? 0 : kFirstRound;
     const int last = round == 0 ? kFirstRound : kTrialCount;
     for (int path = 0; path < scene.ego_paths.size(); ++path) {
-      prepare(scene, path, start, lead_s, parameters, course);
+      const ReferenceLine& line = lines[path];
+      Course& course = courses[path];
+      course.lateral_length_m = lateral_length_m(line, start, course.where, parameters);
+      course.attempts = kStretches;
       for (int k = first; k < last; ++k) {
         Candidate candidate;
         candidate.path = static_cast<std::uint8_t>(path);
-        if (!shape_longitudinal(kTrials[k], course, start, running, start_ms, lead_s, parameters, candidate))
+        if (!shape_longitudinal(kTrials[k], line, course, start, running, start_ms, lead_s, parameters,
+                                candidate))
           continue;
-        if (!make_feasible(start, running, start_ms, parameters, course, candidate, trajectory)) continue;
+        if (!make_feasible(line, start, running, start_ms, parameters, course, candidate, trajectory))
+          continue;
         const Reach reach = reach_of(candidate, trajectory);
         if (candidate.intent != Intent::kPrevious && has_twin(reaches, candidates.size(), reach)) continue;
         if (candidates.push(candidate)) {

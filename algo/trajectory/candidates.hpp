@@ -10,6 +10,7 @@
 #include "algo/core/parameters.hpp"
 #include "algo/core/trajectory.hpp"
 #include "algo/scene/scene.hpp"
+#include "algo/trajectory/reference_line.hpp"
 
 namespace s4tp {
 
@@ -45,6 +46,9 @@ enum class Rejection : std::uint8_t {
 
 using CandidateList = BoundedVector<Candidate, kMaxCandidates>;
 
+/// One line for each of Scene::ego_paths, in their order.
+using ReferenceLines = ReferenceLine[decltype(Scene::ego_paths)::kCapacity];
+
 /// Whether `time_ms` lies within the plan's validity. False for a plan of kind none.
 [[nodiscard]] bool plan_covers(const Plan& plan, std::uint32_t time_ms);
 
@@ -56,15 +60,16 @@ using CandidateList = BoundedVector<Candidate, kMaxCandidates>;
 
 /// All feasible candidates from `start`, at most kMaxCandidates (CAND-009): diversity over (path, intent)
 /// first, then progress; two that move alike count once. The keep path's hard braking and stops are always
-/// among those tried first. \param left_out  receives how many feasible ones did not fit
+/// among those tried first. \param lines  receives what the candidates are rolled out on
+/// \param left_out  receives how many feasible ones did not fit
 void generate_candidates(const Scene& scene, const TrajectoryPoint& start, const Plan& running,
-                         std::uint32_t start_ms, const Parameters& parameters, CandidateList& candidates,
-                         int& left_out);
+                         std::uint32_t start_ms, const Parameters& parameters, ReferenceLines& lines,
+                         CandidateList& candidates, int& left_out);
 
-/// Rolls a candidate out. points[0] is `start` itself; speeds >= 0; each point lies where its speed leads
-/// (CAND-010). For kPrevious `running` is shifted and continued along the path at its last acceleration, to
-/// rest or the limit.
-void roll_out(const Scene& scene, const Candidate& candidate, const TrajectoryPoint& start,
+/// Rolls a candidate out on the line of its path. points[0] is `start` itself; speeds >= 0; each point lies
+/// where its speed leads (CAND-010). For kPrevious `running` is shifted and continued along the path at its
+/// last acceleration, to rest or the limit.
+void roll_out(const ReferenceLine& line, const Candidate& candidate, const TrajectoryPoint& start,
               const Plan& running, std::uint32_t start_ms, const Parameters& parameters,
               Trajectory& trajectory);
 

@@ -156,24 +156,15 @@ void shape_lateral(const ReferenceLine& line, const TrajectoryPoint& start, Refe
   candidate.start_s_m = where.s_m;
 }
 
-void roll_out_on(const ReferenceLine& line, const Candidate& candidate, const TrajectoryPoint& start,
-                 const Plan& running, std::uint32_t start_ms, const Parameters& parameters,
-                 Trajectory& trajectory) {
+void roll_out(const ReferenceLine& line, const Candidate& candidate, const TrajectoryPoint& start,
+              const Plan& running, std::uint32_t start_ms, const Parameters& parameters,
+              Trajectory& trajectory) {
   trajectory.points[0] = start;
   if (candidate.intent == Intent::kPrevious && plan_covers(running, start_ms)) {
     shift_plan(line, candidate, running, start_ms, parameters, trajectory);
   } else {
     march(line, candidate, 0, parameters, trajectory);
   }
-}
-
-void roll_out(const Scene& scene, const Candidate& candidate, const TrajectoryPoint& start,
-              const Plan& running, std::uint32_t start_ms, const Parameters& parameters,
-              Trajectory& trajectory) {
-  ReferenceLine line;
-  build_reference(*scene.map, scene.ego_paths[candidate.path].path, candidate.start_s_m, start.speed_mps,
-                  parameters, line);
-  roll_out_on(line, candidate, start, running, start_ms, parameters, trajectory);
 }
 
 }  // namespace s4tp

@@ -16,9 +16,4 @@ namespace s4tp {
 void shape_lateral(const ReferenceLine& line, const TrajectoryPoint& start, ReferenceCoordinates where,
                    float end_d_m, float length_m, Candidate& candidate);
 
-/// As roll_out(), on a line built already.
-void roll_out_on(const ReferenceLine& line, const Candidate& candidate, const TrajectoryPoint& start,
-                 const Plan& running, std::uint32_t start_ms, const Parameters& parameters,
-                 Trajectory& trajectory);
-
 }  // namespace s4tp

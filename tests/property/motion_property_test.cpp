@@ -76,14 +76,15 @@ TEST(MotionProperty, CandidatesAreMotions) {
   EXPECT_TRUE(rc::check([] {
     const World world;
     const Parameters parameters;
+    ReferenceLines lines;
     CandidateList list;
     int left_out = 0;
-    generate_candidates(world.scene, world.start, Plan{}, kNow, parameters, list, left_out);
+    generate_candidates(world.scene, world.start, Plan{}, kNow, parameters, lines, list, left_out);
     RC_ASSERT(list.size() <= kMaxCandidates);
     RC_ASSERT(left_out >= 0);
     for (const Candidate& candidate : list) {
       Trajectory trajectory;
-      roll_out(world.scene, candidate, world.start, Plan{}, kNow, parameters, trajectory);
+      roll_out(lines[candidate.path], candidate, world.start, Plan{}, kNow, parameters, trajectory);
       RC_ASSERT(trajectory.points[0].rear_axle.x_m == world.start.rear_axle.x_m);
       RC_ASSERT(trajectory.points[0].curvature_1pm == world.start.curvature_1pm);
       RC_ASSERT(feasible(trajectory, parameters));
@@ -107,13 +108,14 @@ TEST(MotionProperty, OrdinaryStatesHaveCandidates) {
     world.start.curvature_1pm =
         path_point(world.map, world.scene.ego_paths[0].path, world.scene.ego_paths[0].frenet.s_m)
             .curvature_1pm;
+    ReferenceLines lines;
     CandidateList list;
     int left_out = 0;
-    generate_candidates(world.scene, world.start, Plan{}, kNow, Parameters{}, list, left_out);
+    generate_candidates(world.scene, world.start, Plan{}, kNow, Parameters{}, lines, list, left_out);
     bool brakes = false;
     for (const Candidate& candidate : list) {
       Trajectory trajectory;
-      roll_out(world.scene, candidate, world.start, Plan{}, kNow, Parameters{}, trajectory);
+      roll_out(lines[candidate.path], candidate, world.start, Plan{}, kNow, Parameters{}, trajectory);
       brakes = brakes || trajectory.points[kHorizonSteps].speed_mps == 0.0F;
     }
     RC_ASSERT(brakes);
@@ -137,15 +139,16 @@ TEST(MotionProperty, StopsRestBeforeTheirPlace) {
     scene.time_ms = kNow;
     for (int i = 0; i < 400; ++i) {
       put_ego(scene, state);
+      ReferenceLines lines;
       CandidateList list;
       int left_out = 0;
-      generate_candidates(scene, state, Plan{}, kNow, Parameters{}, list, left_out);
+      generate_candidates(scene, state, Plan{}, kNow, Parameters{}, lines, list, left_out);
       const Candidate* stop = nullptr;
       for (const Candidate& candidate : list)
         if (candidate.intent == Intent::kStop) stop = &candidate;
       if (stop == nullptr) break;
       Trajectory trajectory;
-      roll_out(scene, *stop, state, Plan{}, kNow, Parameters{}, trajectory);
+      roll_out(lines[stop->path], *stop, state, Plan{}, kNow, Parameters{}, trajectory);
       const bool rests = i > 5 && state.speed_mps == 0.0F && trajectory.points[1].speed_mps == 0.0F;
       state = trajectory.points[1];
       RC_ASSERT(state.rear_axle.x_m <= 20.0F + room_m + 0.01F);

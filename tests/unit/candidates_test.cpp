@@ -50,17 +50,21 @@ struct Roads {
 
 CandidateList generate(const Scene& scene, const TrajectoryPoint& start, const Plan& running = {},
                        int* left_out = nullptr) {
+  ReferenceLines lines;
   CandidateList list;
   int missing = 0;
-  generate_candidates(scene, start, running, kNow, Parameters{}, list, missing);
+  generate_candidates(scene, start, running, kNow, Parameters{}, lines, list, missing);
   if (left_out != nullptr) *left_out = missing;
   return list;
 }
 
 Trajectory rolled(const Scene& scene, const Candidate& candidate, const TrajectoryPoint& start,
                   const Plan& running = {}) {
+  ReferenceLine line;
+  build_reference(*scene.map, scene.ego_paths[candidate.path].path, candidate.start_s_m, start.speed_mps,
+                  Parameters{}, line);
   Trajectory trajectory;
-  roll_out(scene, candidate, start, running, kNow, Parameters{}, trajectory);
+  roll_out(line, candidate, start, running, kNow, Parameters{}, trajectory);
   return trajectory;
 }
 
