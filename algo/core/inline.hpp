@@ -4,6 +4,8 @@
 /// compile floating point with other flags. gnu_inline: never emitted from here but only by math.cpp, which
 /// sets S4TP_INLINE to nothing.
 
+#include <cstring>
+
 #include "algo/core/geometry.hpp"
 #include "algo/core/math.hpp"
 
@@ -33,6 +35,25 @@ S4TP_INLINE float square(float x) {
 }
 S4TP_INLINE float lerp(float a, float b, float t) {
   return a + (b - a) * t;
+}
+
+S4TP_INLINE bool is_finite(float x) {
+  std::uint32_t bits = 0;
+  std::memcpy(&bits, &x, sizeof(bits));
+  return (bits & 0x7F800000U) != 0x7F800000U;
+}
+S4TP_INLINE std::int32_t to_int(float x, std::int32_t low, std::int32_t high) {
+  constexpr float kBeyond = 2147483648.0F;
+  if (!(x > -kBeyond)) return low;  // not a number as well
+  if (x >= kBeyond) return high;
+  constexpr float kNoHalves = 8388608.0F;
+  float whole = x;
+  if (abs(x) < kNoHalves) {
+    const float rounded = (abs(x) + kNoHalves) - kNoHalves;
+    whole = x < 0.0F ? -rounded : rounded;
+  }
+  const std::int32_t value = static_cast<std::int32_t>(whole);
+  return value < low ? low : (value > high ? high : value);
 }
 
 S4TP_INLINE Point operator+(Point a, Point b) {

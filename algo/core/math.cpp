@@ -10,12 +10,6 @@ namespace {
 // remainder of each is below 2e-8 relative, so that rounding sets the error. Split constants have so few bits
 // in their leading parts that the product with the (small) integer is exact.
 
-std::uint32_t bits_of(float x) {
-  std::uint32_t bits = 0;
-  std::memcpy(&bits, &x, sizeof(bits));
-  return bits;
-}
-
 float from_bits(std::uint32_t bits) {
   float x = 0.0F;
   std::memcpy(&x, &bits, sizeof(x));
@@ -188,24 +182,6 @@ float wrap_angle(float angle_rad) {
 
 float lerp_angle(float a_rad, float b_rad, float t) {
   return wrap_angle(a_rad + wrap_angle(b_rad - a_rad) * t);
-}
-
-bool is_finite(float x) {
-  return (bits_of(x) & 0x7F800000U) != 0x7F800000U;
-}
-
-std::int32_t to_int(float x, std::int32_t low, std::int32_t high) {
-  constexpr float kBeyond = 2147483648.0F;
-  if (!(x > -kBeyond)) return low;  // not a number as well
-  if (x >= kBeyond) return high;
-  constexpr float kNoHalves = 8388608.0F;
-  float whole = x;
-  if (abs(x) < kNoHalves) {
-    const float rounded = (abs(x) + kNoHalves) - kNoHalves;
-    whole = x < 0.0F ? -rounded : rounded;
-  }
-  const std::int32_t value = static_cast<std::int32_t>(whole);
-  return value < low ? low : (value > high ? high : value);
 }
 
 }  // namespace s4tp

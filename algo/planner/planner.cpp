@@ -200,21 +200,21 @@ Rejection Planner::judge(int path, const PredictionSet& conditioned, CheckReport
 Status Planner::choose(Explanation& explanation) {
   int best = -1;
   int second = -1;
-  for (int i = 0; i < decisions_.size(); ++i) {
+  int held = -1;  // whose trajectory, prediction and risk the buffers hold
+  for (int i = decisions_.size() - 1; i >= 0; --i) {  // the likely winner last: it is then held already
     const int index = decisions_[i].candidate;
+    held = index;
     if (!evaluate(index, explanation)) continue;
     ++explanation.decisions;
-    if (best < 0 || costs_[index].total() < costs_[best].total()) {
+    if (best < 0 || costs_[index].total() <= costs_[best].total()) {
       second = best;
       best = index;
-    } else if (second < 0 || costs_[index].total() < costs_[second].total()) {
+    } else if (second < 0 || costs_[index].total() <= costs_[second].total()) {
       second = index;
     }
   }
   if (best < 0) return Status::kNoSafePlan;
-
-  // The last one evaluated is what the buffers hold; the best one goes through again before it is refined.
-  if (!evaluate(best, explanation)) return Status::kNoSafePlan;
+  if (best != held && !evaluate(best, explanation)) return Status::kNoSafePlan;
   refine(candidates_[best].path, explanation);
 
   const StageScope scope(probe, Stage::kExplain);

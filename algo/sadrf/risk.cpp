@@ -88,8 +88,8 @@ float own_part(const Field& field, const FeltBoxes& felt, int index) {
 
 /// R_ego of the vehicles: our field over their boxes.
 void add_obstacles(const Scene& scene, const Futures& futures, const Field& field, int step,
-                   const Parameters& parameters, StepRisk& risk) {
-  FeltBoxes felt;
+                   const Parameters& parameters, FeltBoxes& felt, StepRisk& risk) {
+  felt.clear();
   for (const Future& future : futures) {
     const Track& track = scene.agents[future.agent].track;
     const Pose& centre = future.mode->steps[step];
@@ -153,8 +153,9 @@ void add_social(const Scene& scene, const Futures& futures, const Box& ego, int 
 }
 
 /// Both sides at step `step` + 1 of the trajectory.
+/// \param felt  scratch, too large to be made anew at every step
 StepRisk risk_at(const Scene& scene, const Futures& futures, const Trajectory& trajectory, int step,
-                 const Parameters& parameters) {
+                 const Parameters& parameters, FeltBoxes& felt) {
   const auto& vehicle = parameters.vehicle;
   const TrajectoryPoint& point = trajectory.points[step + 1];
   const float look_ahead_s =
@@ -169,7 +170,7 @@ StepRisk risk_at(const Scene& scene, const Futures& futures, const Trajectory& t
       position(point.rear_axle) + (0.5F * vehicle.length_m - vehicle.rear_overhang_m) * ahead;
   const Box ego = {{centre.x_m, centre.y_m, point.rear_axle.heading_rad}, vehicle.length_m, vehicle.width_m};
   StepRisk risk;
-  add_obstacles(scene, futures, field, step, parameters, risk);
+  add_obstacles(scene, futures, field, step, parameters, felt, risk);
   add_social(scene, futures, ego, step, look_ahead_s, parameters, risk);
   return risk;
 }
@@ -197,8 +198,9 @@ void exact_risk(const Scene& scene, const DrivableArea& area, const PredictionSe
   profile.dominating_agent = 255;
   profile.dominating_step = 0;
   float largest = 0.0F;
+  FeltBoxes felt;
   for (int i = 0; i < kHorizonSteps; ++i) {
-    const StepRisk risk = risk_at(scene, futures, trajectory, i, parameters);
+    const StepRisk risk = risk_at(scene, futures, trajectory, i, parameters, felt);
     profile.obstacle[i] = risk.obstacle;
     profile.social[i] = risk.social;
     for (int agent = 0; agent < scene.agents.size(); ++agent) {
@@ -217,9 +219,10 @@ float rank_risk(const Scene& scene, const DrivableArea& area, const PredictionSe
   const Futures futures = likeliest(all_modes(scene, prediction, others));
   float road[kHorizonSteps] = {};
   road_risk(area, trajectory, parameters, kMiddle + 1, kStride, road);
+  FeltBoxes felt;
   float sum = 0.0F;
   for (int i = kMiddle; i < kHorizonSteps; i += kStride) {
-    const StepRisk risk = risk_at(scene, futures, trajectory, i, parameters);
+    const StepRisk risk = risk_at(scene, futures, trajectory, i, parameters, felt);
     sum += instant(risk.obstacle, road[i], risk.social, parameters);
   }
   return static_cast<float>(kStride) * kStepS * sum;

@@ -181,7 +181,9 @@ Frenet project(const LaneMap& map, const LanePath& path, Point point, float gues
   Point local = to_local(centre.pose, point);
   for (int i = 0; i < kCorrections; ++i) {
     const float stretch = max(1.0F - centre.curvature_1pm * local.y_m, 0.3F);
-    best_s_m = clamp(best_s_m + local.x_m / stretch, low_s_m, high_s_m);
+    const float corrected_s_m = clamp(best_s_m + local.x_m / stretch, low_s_m, high_s_m);
+    if (corrected_s_m == best_s_m) break;
+    best_s_m = corrected_s_m;
     centre = cursor.at(best_s_m);
     local = to_local(centre.pose, point);
   }

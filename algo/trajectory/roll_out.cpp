@@ -38,11 +38,16 @@ Lateral lateral_at(const Candidate& candidate, float s_m) {
   return {d, d1 * per_m, d2 * per_m * per_m};
 }
 
+float curvature_at(const ReferenceLine& line, float s_m) {
+  const ReferencePlace place = place_on(line, s_m);
+  return lerp(line.samples[place.index].curvature_1pm, line.samples[place.index + 1].curvature_1pm,
+              clamp(place.t, 0.0F, 1.0F));
+}
+
 /// Slope of the line's curvature [1/m^2].
 float curvature_slope(const ReferenceLine& line, float s_m) {
   const float h_m = line.spacing_m;
-  return (reference_at(line, s_m + h_m).curvature_1pm - reference_at(line, s_m - h_m).curvature_1pm) /
-         (2.0F * h_m);
+  return (curvature_at(line, s_m + h_m) - curvature_at(line, s_m - h_m)) / (2.0F * h_m);
 }
 
 /// Writes pose and curvature at `s_m`. \return ds per metre of our own way
