@@ -23,7 +23,7 @@ install(TARGETS ${package_targets} EXPORT s4tp
 install(EXPORT s4tp NAMESPACE s4tp:: FILE s4tp-targets.cmake DESTINATION ${package_config})
 
 install(DIRECTORY algo DESTINATION ${package_headers} FILES_MATCHING PATTERN *.hpp PATTERN *.def
-  PATTERN c_conversion.hpp EXCLUDE)
+  PATTERN c_conversion.hpp EXCLUDE PATTERN inline.hpp EXCLUDE)
 install(FILES algo/planner/s4tp.h DESTINATION ${package_headers})
 foreach(room wire gate ecu)
   install(DIRECTORY firmware/${room} DESTINATION ${package_headers}/firmware FILES_MATCHING PATTERN *.hpp PATTERN *.dbc)
