@@ -31,6 +31,16 @@ DecisionKey decision_key(const Scene& scene, int path_index, const Trajectory& t
   return key;
 }
 
+bool DecisionList::open_to(DecisionKey key, float least, int count) const {
+  int better = 0;
+  for (const Decision& decision : decisions_) {
+    if (least < decision.score) continue;
+    if (decision.key == key) return false;
+    ++better;
+  }
+  return better < count;
+}
+
 void DecisionList::offer(DecisionKey key, int candidate, float score) {
   const Decision offered{key, static_cast<std::uint8_t>(candidate), score};
   for (Decision& decision : decisions_) {

@@ -28,6 +28,9 @@ struct Decision {
 /// The best candidate of each decision, cheapest decisions first.
 class DecisionList {
  public:
+  /// False when a candidate of decision `key` that scores `least` or more can change nothing: its decision
+  /// has a better one, or it would not be among the `count` best decisions.
+  [[nodiscard]] bool open_to(DecisionKey key, float least, int count) const;
   /// Offers a candidate; kept when it is the best of its decision so far.
   void offer(DecisionKey key, int candidate, float score);
   /// Keeps at most `count`, cheapest first, but never drops `must_keep` when it is there.

@@ -168,15 +168,19 @@ void Planner::rank(bool careful, Explanation& explanation) {
     explanation.rejections[i] = judge(candidate.path, conditioned_, explanation.check);
     if (explanation.rejections[i] != Rejection::kNone) continue;
     costs_[i] = score_motion(scene_, keep_going_, candidate.path, chosen_, previous, careful, parameters_);
-    costs_[i].risk = parameters_.scoring.risk *
-                     rank_risk(scene_, drivable_, unconditioned_, keep_going_, chosen_, parameters_);
+    count(explanation, Stage::kRank, 1);
     const DecisionKey key = decision_key(scene_, candidate.path, chosen_, unconditioned_);
     if (previous) {
       keeps_plan_ = true;
       plan_key_ = key;
     }
+    // Risk only adds to the score: who is beaten without it needs none computed. The plan's own decision
+    // stays anyway.
+    const int places = keeps_plan_ && key == plan_key_ ? kMaxCandidates : allowance.decisions;
+    if (!decisions_.open_to(key, costs_[i].total(), places)) continue;
+    costs_[i].risk = parameters_.scoring.risk *
+                     rank_risk(scene_, drivable_, unconditioned_, keep_going_, chosen_, parameters_);
     decisions_.offer(key, i, costs_[i].total());
-    count(explanation, Stage::kRank, 1);
   }
   decisions_.shortlist(allowance.decisions, keeps_plan_, plan_key_);
 }
