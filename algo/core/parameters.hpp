@@ -9,11 +9,13 @@ namespace s4tp {
 
 /// All fields are float, so the struct is also an array of kParameterCount floats in table order.
 struct Parameters {
+// NOLINTBEGIN(bugprone-macro-parentheses): arguments that are names stand as they are
 #define GROUP_BEGIN(group) struct {
 #define P(group, field, unit, initial, minimum, maximum, meaning) float field = initial;
 #define GROUP_END(group) \
   }                      \
   group;
+// NOLINTEND(bugprone-macro-parentheses)
 #include "algo/core/parameters.def"
 #undef GROUP_BEGIN
 #undef P

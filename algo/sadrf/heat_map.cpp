@@ -14,8 +14,9 @@ constexpr int kStride = 3;            // steps of the horizon from field to fiel
 constexpr float kCellRadiusM = 0.5F;  // a cell is its centre
 
 Point cell_centre(const Scene& scene, int row, int column) {
+  constexpr int kRowsRight = kHeatRows / 2;
   return offset_point(scene.ego.rear_axle, static_cast<float>(column - kHeatBehind) + 0.5F,
-                      static_cast<float>(row - kHeatRows / 2) + 0.5F);
+                      static_cast<float>(row - kRowsRight) + 0.5F);
 }
 
 /// Adds one driver's field to the sums of a row.

@@ -65,8 +65,9 @@ float own_part(const Field& field, const FeltBoxes& felt, int index) {
   float own = 0.0F;
   float whole = 0.0F;
   for (int i = 0; i < kSamples * kSamples; ++i) {
+    const int row = i / kSamples;
     const float ahead = (static_cast<float>(i % kSamples) + 0.5F) / static_cast<float>(kSamples) - 0.5F;
-    const float left = (static_cast<float>(i / kSamples) + 0.5F) / static_cast<float>(kSamples) - 0.5F;
+    const float left = (static_cast<float>(row) + 0.5F) / static_cast<float>(kSamples) - 0.5F;
     const Point to_left = {-one.ahead.y_m, one.ahead.x_m};
     const Point point = position(one.box.centre) + (ahead * one.box.length_m) * one.ahead +
                         (left * one.box.width_m) * to_left;

@@ -25,9 +25,9 @@ struct Approach {
 [[nodiscard]] float earliest_arrival_s(const Scene& scene, int agent, const ConflictZone& zone,
                                        const Parameters& parameters);
 
-/// Whether vehicle `agent` leaves us the zone while we are in it, from `in_s` to `out_s`.
+/// Whether vehicle `index` leaves us the zone while we are in it, from `in_s` to `out_s`.
 /// \param committed  we are bound to be in it: then the other's present speed counts, not what it might do
-[[nodiscard]] bool leaves_zone_to_us(const Scene& scene, int agent, const ConflictZone& zone, float in_s,
+[[nodiscard]] bool leaves_zone_to_us(const Scene& scene, int index, const ConflictZone& zone, float in_s,
                                      float out_s, bool committed, const Parameters& parameters);
 
 /// Whether, at every zone of `path` that it may reach, the vehicle owes us the way or is already braking to a

@@ -107,12 +107,11 @@ CheckReport check_trajectory(const Scene& scene, int ego_path, const Trajectory&
     report.result = CheckResult::kNotFinite;
   } else if (!feasible(trajectory, parameters)) {
     report.result = CheckResult::kInfeasible;
-  } else if (ego_path < 0 || ego_path >= scene.ego_paths.size()) {
-    report.result = CheckResult::kTerminal;  // without a path nothing is known of the end
-  } else if (clear_of(scene, ego_path, trajectory, keep_going, parameters, report) &&
-             clear_of(scene, ego_path, trajectory, unconditioned, parameters, report) &&
-             clear_of(scene, ego_path, trajectory, conditioned, parameters, report) &&
-             !terminal_safe(scene, ego_path, trajectory, parameters)) {
+  } else if (ego_path < 0 || ego_path >= scene.ego_paths.size() ||  // then nothing is known of the end
+             (clear_of(scene, ego_path, trajectory, keep_going, parameters, report) &&
+              clear_of(scene, ego_path, trajectory, unconditioned, parameters, report) &&
+              clear_of(scene, ego_path, trajectory, conditioned, parameters, report) &&
+              !terminal_safe(scene, ego_path, trajectory, parameters))) {
     report.result = CheckResult::kTerminal;
   }
   return report;

@@ -7,7 +7,6 @@ namespace s4tp {
 namespace {
 
 constexpr int kStepsPerUpdate = 2;  // drivers are updated every 0.2 s
-constexpr float kUpdateS = kStepsPerUpdate * kStepS;
 constexpr float kHardestMps2 = 6.0F;
 constexpr float kSlowDownMps2 = 2.0F;
 constexpr float kUnbound = 1e3F;

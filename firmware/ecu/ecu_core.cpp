@@ -236,7 +236,7 @@ void EcuCore::report(const gate::Command& command) {
   reporter_.command(can, command, mode_, inputs_.tick_number(), inputs_.accepted_frames());
 }
 
-void EcuCore::publish(RecordKind kind, const void* record, std::uint32_t size) {
+void EcuCore::publish(RecordKind kind, const void* record, std::uint32_t size) const {
   if (ports_.telemetry == nullptr) return;
   static_cast<void>(ports_.telemetry->publish(static_cast<std::uint16_t>(kind), record, size));
 }

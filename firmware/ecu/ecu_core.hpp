@@ -69,7 +69,7 @@ class EcuCore {
   [[nodiscard]] bool following() const { return mode_ == Mode::kDriving || mode_ == Mode::kDegraded; }
   [[nodiscard]] gate::Command ask();
   void report(const gate::Command& command);
-  void publish(RecordKind kind, const void* record, std::uint32_t size);
+  void publish(RecordKind kind, const void* record, std::uint32_t size) const;
 
   Ports ports_;
   Parameters parameters_;
