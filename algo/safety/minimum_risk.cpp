@@ -202,7 +202,7 @@ void minimum_risk(const Scene& scene, const TrajectoryPoint& start, const Plan& 
   if (has_lane && along_lane(scene, start, parameters, trajectory)) return;
   if (plan_covers(running, start_ms)) {
     along_plan(scene, start, running, start_ms, parameters, trajectory);
-  } else if (!has_lane) {
+  } else if (!has_lane || !as_far_as_driven(trajectory)) {
     as_steered(scene, start, parameters, trajectory);
   }
 }

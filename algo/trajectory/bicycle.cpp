@@ -10,6 +10,8 @@ namespace {
 constexpr float kTolerance = 1.01F;
 constexpr float kLateralToleranceMps2 = 0.01F;
 constexpr float kRateToleranceRadps = 0.02F;
+constexpr float kWayTolerance = 0.05F;  // of the way, for a curvature that changes within the step, and:
+constexpr float kWayToleranceM = 0.05F;
 
 }  // namespace
 
@@ -55,6 +57,19 @@ Box ego_box(const Pose& rear_axle, const Parameters& parameters) {
           parameters.vehicle.width_m};
 }
 
+bool as_far_as_driven(const Trajectory& trajectory) {
+  for (int i = 1; i < kTrajectoryPoints; ++i) {
+    const TrajectoryPoint& a = trajectory.points[i - 1];
+    const TrajectoryPoint& b = trajectory.points[i];
+    const float driven_m = 0.5F * (a.speed_mps + b.speed_mps) * kStepS;
+    const float off_m = kWayTolerance * driven_m + kWayToleranceM;
+    const Point moved = position(b.rear_axle) - position(a.rear_axle);
+    const float moved_m2 = dot(moved, moved);
+    if (moved_m2 > square(driven_m + off_m) || moved_m2 < square(max(0.0F, driven_m - off_m))) return false;
+  }
+  return true;
+}
+
 bool feasible(const Trajectory& trajectory, const Parameters& parameters) {
   const auto& vehicle = parameters.vehicle;
   const TrajectoryPoint& start = trajectory.points[0];
@@ -81,7 +96,7 @@ bool feasible(const Trajectory& trajectory, const Parameters& parameters) {
     if (point.acceleration_mps2 > drive_limit_mps2 || point.acceleration_mps2 < -brake_limit_mps2)
       return false;
   }
-  return true;
+  return as_far_as_driven(trajectory);
 }
 
 }  // namespace s4tp

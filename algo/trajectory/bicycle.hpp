@@ -22,9 +22,13 @@ namespace s4tp {
 [[nodiscard]] float rear_axle_to_centre_m(const Parameters& parameters);
 [[nodiscard]] float rear_axle_to_front_m(const Parameters& parameters);
 
+/// Whether points lie as far apart as their speeds say: beyond a line's centre of curvature, a path that
+/// keeps its distance from the line does not (CAND-012).
+[[nodiscard]] bool as_far_as_driven(const Trajectory& trajectory);
+
 /// Lateral acceleration, steering angle (hence curvature) and rate, acceleration within the vehicle's limits
-/// (CAND-003). A limit that points[0] itself violates is widened to that value: the past never makes every
-/// motion infeasible (CAND-004).
+/// (CAND-003), and as far as driven. A limit that points[0] itself violates is widened
+/// to that value: the past never makes every motion infeasible (CAND-004).
 [[nodiscard]] bool feasible(const Trajectory& trajectory, const Parameters& parameters);
 
 }  // namespace s4tp

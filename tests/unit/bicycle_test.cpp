@@ -90,6 +90,17 @@ TEST(Feasible, EachLimitCounts) {
   EXPECT_TRUE(feasible(steady(driving(30.0F, 0.0F), -8.0F, 0.0F), parameters));
 }
 
+// CAND-012 At 10 m/s points lie 1 m apart, give or take 10 cm: a point moved on or back by 0.2 m is no
+// motion.
+TEST(Feasible, PointsLieAsFarApartAsTheirSpeedsSay) {
+  const Parameters parameters;
+  for (const float moved_m : {-0.2F, 0.2F}) {
+    Trajectory trajectory = steady(driving(10.0F, 0.0F), 0.0F, 0.0F);
+    for (int i = 7; i < kTrajectoryPoints; ++i) trajectory.points[i].rear_axle.x_m += moved_m;
+    EXPECT_FALSE(feasible(trajectory, parameters)) << moved_m;
+  }
+}
+
 // CAND-004 A start at 10 m/s on radius 15 m pulls 6.7 m/s^2, over the limit: slowing down is still feasible,
 // and speeding up is not.
 TEST(Feasible, StartOutsideTheLimitsOnlyMustNotGetWorse) {
