@@ -4,19 +4,19 @@
 
 namespace s4tp::hal::linux_host {
 
-bool NamedBus::open(const char* text, const CanSocketOptions& options, Reason& reason) {
-  BusName name;
-  if (!parse_bus_name(text, name, reason)) return false;
-  if (name.kind != BusKind::kInterface) {
+bool NamedBus::open(const char* name, const CanSocketOptions& options, Reason& reason) {
+  BusName bus;
+  if (!parse_bus_name(name, bus, reason)) return false;
+  if (bus.kind != BusKind::kInterface) {
     can_ = &slcan_;
-    return link_.open(name, reason);
+    return link_.open(bus, reason);
   }
   can_ = &socket_can_;
-  socket_.configure(name.place, options);
+  socket_.configure(bus.place, options);
   if (!socket_can_.open(reason)) return false;
   if (socket_.look() == LinkState::kUp) return true;
-  snprintf(reason.text, sizeof reason.text, "%s: the interface is down: ip link set %s up", name.place,
-           name.place);
+  snprintf(reason.text, sizeof reason.text, "%s: the interface is down: ip link set %s up", bus.place,
+           bus.place);
   return false;
 }
 
