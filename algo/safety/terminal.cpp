@@ -154,7 +154,10 @@ bool terminal_safe(const Scene& scene, int path_index, const Trajectory& traject
   measure(scene, path, trajectory, along);
 
   const float end_of_road_m = dead_end_s_m(scene, path) - rear_axle_to_front_m(parameters);
-  if (along.start_s_m() < end_of_road_m && !stops_before(along, end_of_road_m, parameters)) return false;
+  // With the bumper over the end of the road already, what is left is to stop at once.
+  const float at_once_m =
+      along.start_s_m() + square(along.start_mps) / (2.0F * parameters.comfort.braking_mps2);
+  if (!stops_before(along, max(end_of_road_m, at_once_m), parameters)) return false;
   // Where the road ends in the wrong lane, room is left to change lanes from rest; who is past it, is.
   const float last_change_m = end_of_road_m - change_room_m(scene, path);
   const float room_m = last_change_m - along.start_s_m();

@@ -157,6 +157,26 @@ TEST(Terminal, RoadEndsCount) {
   EXPECT_TRUE(crossing.safe(360.0F, 10.0F, 0.0F));
 }
 
+// TERM-008 With the front at 400.5 m already, over the end of that road, going on is no plan; standing is.
+TEST(Terminal, NobodyLeavesTheRoadForBeingAtItsEnd) {
+  Crossing crossing(Priority::kFirstYields);
+  crossing.map.lanes[0].on_route = false;
+  const float s_m = 400.5F - rear_axle_to_front_m(crossing.parameters);
+  EXPECT_FALSE(crossing.safe(s_m, 0.5F, 2.0F));
+  EXPECT_TRUE(crossing.safe(s_m, 0.0F, 0.0F));
+}
+
+// TERM-003 Who comes after us into the same lane may meet us on the way in: he must not be at the zone's exit 1 s
+// after we have left it. From s = 80 at 8 m/s we leave after 2.8 s; he, at 13 m/s gaining 2 m/s^2 up to 15.28, needs
+// 3.6 s for the 54 m to the entry and 4.1 s for the 62 m to the exit: enough when he merges, too near when he crosses.
+TEST(Terminal, AMergeIsLeftBehind) {
+  Crossing crossing(Priority::kFirstYields);
+  crossing.other(96.0F - 54.0F, 13.0F);
+  EXPECT_FALSE(crossing.safe(80.0F, 8.0F, 0.0F));
+  crossing.scene.ego_paths[0].zones[0].merging = true;
+  EXPECT_TRUE(crossing.safe(80.0F, 8.0F, 0.0F));
+}
+
 // TERM-009 Behind a leader at 10 m/s we drive 10.1: it needs 100 / 16 = 6.25 m to stop, we 102 / 12 = 8.5 m.
 // Of a gap of 3 m, 0.3 m are used up in 3 s and 0.45 m are left when both stand (0.3 needed); of 1 m nothing.
 // Behind one that brakes with 4 m/s^2, keeping on is not safe from 10 m, braking likewise is.
