@@ -10,10 +10,11 @@
 #include "algo/core/math.hpp"
 
 #ifndef S4TP_INLINE
-#define S4TP_INLINE [[gnu::gnu_inline]] inline
+#define S4TP_INLINE [[gnu::gnu_inline]] extern inline
 #endif
 
 namespace s4tp {
+// NOLINTBEGIN(misc-definitions-in-headers): math.cpp alone emits them
 
 S4TP_INLINE float sqrt(float x) {
   return x > 0.0F ? __builtin_sqrtf(x) : 0.0F;
@@ -80,5 +81,6 @@ S4TP_INLINE float distance(Point a, Point b) {
 S4TP_INLINE Point position(const Pose& pose) {
   return {pose.x_m, pose.y_m};
 }
+// NOLINTEND(misc-definitions-in-headers)
 
 }  // namespace s4tp
