@@ -268,8 +268,8 @@ TEST(Candidates, StopsBeforeConflictZones) {
 }
 
 // CAND-010 From 8 m/s the 10.7 m turn is entered below 6 m/s and driven at sqrt(3 * 10.7) = 5.67 m/s, a
-// little inside the lane's centre (5 % of speed, 20 % of lateral acceleration: 3.6 m/s^2); each cycle has
-// feasible candidates.
+// little inside the lane's centre; each cycle has feasible candidates, and no lateral acceleration over
+// 3.7 m/s^2.
 TEST(Candidates, SlowDownForTheLeftTurn) {
   LeftTurn road;
   Scene scene;
