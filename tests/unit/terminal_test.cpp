@@ -166,9 +166,10 @@ TEST(Terminal, NobodyLeavesTheRoadForBeingAtItsEnd) {
   EXPECT_TRUE(crossing.safe(s_m, 0.0F, 0.0F));
 }
 
-// TERM-003 Who comes after us into the same lane may meet us on the way in: he must not be at the zone's exit 1 s
-// after we have left it. From s = 80 at 8 m/s we leave after 2.8 s; he, at 13 m/s gaining 2 m/s^2 up to 15.28, needs
-// 3.6 s for the 54 m to the entry and 4.1 s for the 62 m to the exit: enough when he merges, too near when he crosses.
+// TERM-003 Who comes after us into the same lane may meet us on the way in: he must not be at the zone's exit
+// 1 s after we have left it. From s = 80 at 8 m/s we leave after 2.8 s; he, at 13 m/s gaining 2 m/s^2 up
+// to 15.28, needs 3.6 s for the 54 m to the entry and 4.1 s for the 62 m to the exit: enough when he merges,
+// too near when he crosses.
 TEST(Terminal, AMergeIsLeftBehind) {
   Crossing crossing(Priority::kFirstYields);
   crossing.other(96.0F - 54.0F, 13.0F);
