@@ -51,7 +51,7 @@ Parameters parameters_of(const Arguments& arguments) {
                                            : campaign::load_parameters(arguments.parameters_file);
 }
 
-/// Runs the campaign with progress, table, JSON, pictures of s4tp's episodes, and the page that shows them.
+/// Runs the campaign with progress, table, JSON, a picture of every episode, and the page that shows them.
 std::vector<campaign::EpisodeRow> drive(const Arguments& arguments) {
   std::vector<world::Scenario> scenarios;
   for (const std::string& name : arguments.scenarios) scenarios.push_back(find_scenario(arguments, name));
@@ -62,7 +62,7 @@ std::vector<campaign::EpisodeRow> drive(const Arguments& arguments) {
   options.episodes = arguments.episodes;
   options.first_seed = arguments.seed;
   options.parameters = parameters_of(arguments);
-  options.traces = [](const std::string& planner) { return planner == "s4tp"; };
+  options.trace = true;
   const std::size_t total =
       scenarios.size() * options.planners.size() * static_cast<std::size_t>(options.episodes);
   std::size_t done = 0;
@@ -71,10 +71,8 @@ std::vector<campaign::EpisodeRow> drive(const Arguments& arguments) {
     const world::Recording& recording = result.recording;
     std::cerr << '[' << ++done << '/' << total << "] " << planner << ' ' << scenario.name << " seed "
               << recording.seed << ": " << metrics::ending_name(recording.ending) << '\n';
-    if (result.trace) {
-      view::draw_episode(scenario, result,
-                         arguments.out / view::picture_name(scenario.name, planner, recording.seed));
-    }
+    view::draw_episode(scenario, result,
+                       arguments.out / view::picture_name(scenario.name, planner, recording.seed));
   };
   std::cerr << "seeds " << arguments.seed << " to "
             << arguments.seed + static_cast<std::uint64_t>(arguments.episodes) - 1 << '\n';

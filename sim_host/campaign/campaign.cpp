@@ -36,7 +36,7 @@ std::vector<EpisodeRow> run_campaign(const std::vector<world::Scenario>& scenari
         episode.seed = job.seed;
         episode.planner = *job.planner;
         episode.parameters = options.parameters;
-        episode.trace = options.traces && options.traces(*job.planner);
+        episode.trace = options.trace;
         const EpisodeResult result = run_episode(*job.scenario, episode);
         rows[i] = {job.scenario->name, *job.planner, metrics::evaluate(result.recording)};
         const std::lock_guard lock(report_mutex);

@@ -20,10 +20,9 @@ struct CampaignOptions {
   std::uint64_t first_seed = 0;  ///< the others follow
   Parameters parameters;
   int threads = 0;  ///< 0: one per core
-  /// Called after each episode, one call at a time. `traced` says whether the result carries a trace.
+  /// Called after each episode, one call at a time.
   std::function<void(const world::Scenario&, const std::string& planner, const EpisodeResult&)> on_episode;
-  /// Whose episodes keep a trace (costs memory while they run).
-  std::function<bool(const std::string& planner)> traces;
+  bool trace = false;  ///< results carry what the planner thought, for pictures
 };
 
 /// One episode's outcome.

@@ -29,16 +29,17 @@ double obstacle_peak(const CycleTrace& cycle) {
   return *std::max_element(std::begin(cycle.risk.obstacle), std::end(cycle.risk.obstacle));
 }
 
-/// The cycle the picture shows: the last before a collision, else the one of the highest risk after entry.
+/// The cycle the picture shows: the last one before a collision, else the one of the highest risk after
+/// entry, else (a planner that feels none) the one half-way.
 const CycleTrace* tensest(const EpisodeResult& result, double entry_ms) {
   const std::vector<CycleTrace>& cycles = result.trace->cycles;
-  const CycleTrace* best = nullptr;
+  if (cycles.empty()) return nullptr;
+  if (result.recording.ending == world::Ending::kCollision) return &cycles.back();
+  const CycleTrace* best = &cycles[cycles.size() / 2];
   for (const CycleTrace& cycle : cycles) {
-    if (cycle.record.plan.start_ms < entry_ms) continue;
-    const bool later_counts = result.recording.ending == world::Ending::kCollision;
-    if (best == nullptr || later_counts || obstacle_peak(cycle) > obstacle_peak(*best)) best = &cycle;
+    if (cycle.record.plan.start_ms >= entry_ms && obstacle_peak(cycle) > obstacle_peak(*best)) best = &cycle;
   }
-  return best != nullptr || cycles.empty() ? best : &cycles.back();
+  return best;
 }
 
 void draw_road(Svg& svg, const world::Network& network) {
