@@ -8,11 +8,13 @@
 #include <string>
 #include <vector>
 
+#include "sim_host/campaign/bus_log.hpp"
 #include "sim_host/campaign/campaign.hpp"
 #include "sim_host/campaign/driver.hpp"
 #include "sim_host/campaign/parameters_file.hpp"
 #include "sim_host/campaign/reference_drive.hpp"
 #include "sim_host/campaign/results.hpp"
+#include "sim_host/processes/drive_on_bus.hpp"
 #include "sim_host/view/episode_picture.hpp"
 #include "sim_host/view/explanation_table.hpp"
 #include "sim_host/view/report.hpp"
@@ -34,6 +36,9 @@ struct Arguments {
   std::vector<std::string> planners{"s4tp"};
   std::string planner = "s4tp";
   std::string parameters_file;
+  std::string bus;
+  bool realtime = false;
+  bool no_ecu = false;
   fs::path out;
   fs::path log;
   int episodes = 20;
@@ -151,6 +156,32 @@ int run_one(const Arguments& arguments) {
   return result.recording.ending == world::Ending::kGoal ? 0 : kNotGoodEnough;
 }
 
+/// The same episode, with the ECU at the other end of a real bus.
+int run_on_bus(const Arguments& arguments) {
+  const bool calls = arguments.bus.starts_with("slcan:tcp:");
+  processes::DriveOptions options;
+  options.start_ecu = !arguments.no_ecu;
+  // With both ends ours, one has to listen.
+  options.world.bus = calls && options.start_ecu ? "slcan:listen:" + arguments.bus.substr(10) : arguments.bus;
+  if (options.start_ecu && !processes::has_two_ends(options.world.bus)) {
+    throw std::runtime_error(arguments.bus + ": the ECU has to be at its other end already; add --no-ecu");
+  }
+  options.world.seed = arguments.seed;
+  options.world.realtime = arguments.realtime;
+  if (!arguments.log.empty()) options.world.log = arguments.log;
+  options.out = arguments.out;
+  if (options.start_ecu) {
+    options.planner = arguments.planner;
+    options.world.ecu_note = campaign::ecu_note(arguments.planner, parameters_of(arguments));
+    options.ecu_arguments = {"--planner", arguments.planner};
+    if (!arguments.parameters_file.empty()) {
+      options.ecu_arguments.insert(options.ecu_arguments.end(), {"--parameters", arguments.parameters_file});
+    }
+    if (arguments.realtime) options.ecu_arguments.push_back("--realtime");
+  }
+  return processes::drive_on_bus(find_scenario(arguments, arguments.scenario), options, std::cout);
+}
+
 int record(const Arguments& arguments) {
   const std::uint64_t seed =
       campaign::record_reference_drive(find_scenario(arguments, "left_turn"), arguments.log);
@@ -194,6 +225,13 @@ int main(int argc, char** argv) {
       ->check(CLI::IsMember(campaign::planner_names()));
   run->add_option("--log", arguments.log, "write every frame on the bus here, in candump's format");
 
+  CLI::Option* const bus =
+      run->add_option("--bus", arguments.bus,
+                      "ECU and world as two processes on can0, vcan0, slcan:tcp:HOST:PORT, "
+                      "slcan:pty:PATH, slcan:tty:PATH@BAUD (no picture then)");
+  run->add_flag("--realtime", arguments.realtime, "on a bus: 10 ms of host time a tick")->needs(bus);
+  run->add_flag("--no-ecu", arguments.no_ecu, "on a bus: an ECU is there already")->needs(bus);
+
   CLI::App* recording = app.add_subcommand("record", "the reference drive that every target must reproduce");
   recording->add_option("--out", arguments.log, "the log to write")->required();
   recording->add_option("--scenarios-folder", arguments.scenario_root, "where shipped scenarios lie");
@@ -216,7 +254,7 @@ int main(int argc, char** argv) {
     }
     if (run->parsed()) {
       if (arguments.out.empty()) arguments.out = fs::path("out") / "run";
-      return run_one(arguments);
+      return arguments.bus.empty() ? run_one(arguments) : run_on_bus(arguments);
     }
     return record(arguments);
   } catch (const std::exception& error) {

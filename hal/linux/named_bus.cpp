@@ -9,6 +9,7 @@ bool NamedBus::open(const char* name, const CanSocketOptions& options, Reason& r
   if (!parse_bus_name(name, bus, reason)) return false;
   if (bus.kind != BusKind::kInterface) {
     can_ = &slcan_;
+    slcan_.filter(options.ids, options.id_count);
     return link_.open(bus, reason);
   }
   can_ = &socket_can_;

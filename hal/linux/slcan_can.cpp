@@ -21,6 +21,11 @@ std::uint64_t now_ms() {
 
 }  // namespace
 
+void SlcanCan::filter(const std::uint32_t* ids, int count) {
+  for (std::uint64_t& word : wanted_) word = count == 0 ? ~std::uint64_t{0} : 0;
+  for (int i = 0; i < count; ++i) wanted_[ids[i] % 2048 / 64] |= std::uint64_t{1} << (ids[i] % 64);
+}
+
 bool SlcanCan::receive(CanFrame& frame) {
   flush();
   for (int i = 0; i <= static_cast<int>(sizeof in_); ++i) {
@@ -32,8 +37,10 @@ bool SlcanCan::receive(CanFrame& frame) {
         return false;
       }
     }
-    const SlcanEvent event = parser_.take(in_[in_next_++], frame);
-    if (event == SlcanEvent::kFrame) {
+    CanFrame read;
+    const SlcanEvent event = parser_.take(in_[in_next_++], read);
+    if (event == SlcanEvent::kFrame && wanted(read.id)) {
+      frame = read;
       ++counters_.received;
       received_at_us_ = clock_us(CLOCK_REALTIME);
       return true;

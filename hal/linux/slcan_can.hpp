@@ -15,7 +15,10 @@ class SlcanCan final : public LinuxCan {
   static constexpr std::uint64_t kRetryMs = 100;  ///< between attempts to get a lost peer back
 
   /// \pre link is open; it must outlive this
-  explicit SlcanCan(ByteLink& link) : link_(link) {}
+  explicit SlcanCan(ByteLink& link) : link_(link) { filter(nullptr, 0); }
+
+  /// The 11-bit ids to receive; copied. Without this call, all.
+  void filter(const std::uint32_t* ids, int count);
 
   /// LINUX-050 Frames in the order of arrival. What is no frame of ours is read over; garbage and an
   /// adapter's no count as errors.
@@ -33,6 +36,7 @@ class SlcanCan final : public LinuxCan {
   [[nodiscard]] bool take_news(LinkNews& news) override { return news_.take(news); }
 
  private:
+  [[nodiscard]] bool wanted(std::uint32_t id) const { return (wanted_[id / 64] >> (id % 64) & 1U) != 0; }
   void look_after_link();
   void flush();
   void put(const char* text, int size);
@@ -45,6 +49,7 @@ class SlcanCan final : public LinuxCan {
   bool seen_ = false;  ///< a peer was there before
   std::uint64_t tried_ms_ = 0;
   std::uint64_t received_at_us_ = 0;
+  std::uint64_t wanted_[2048 / 64];  ///< one bit an id
   char in_[4096];
   int in_next_ = 0;
   int in_size_ = 0;

@@ -189,6 +189,19 @@ TEST(SlcanPty, GarbageIsCountedAndReadOver) {
   EXPECT_EQ(end.can.counters().errors, 3U);
 }
 
+// LINUX-050 With a filter, only its ids; the first and the last there are, among them.
+TEST(SlcanPty, FilterLeavesItsIds) {
+  Board board;
+  End end("slcan:pty:" + board.path);
+  const std::uint32_t ids[] = {0x000, 0x013, 0x7FF};
+  end.can.filter(ids, 3);
+  board.say("t0120\rt0130\rt7FE0\rt7FF0\rt0000\r");
+  EXPECT_EQ(end.next(), 0x013);
+  EXPECT_EQ(end.next(), 0x7FF);
+  EXPECT_EQ(end.next(), 0x000);
+  EXPECT_EQ(end.can.counters().received, 3U);
+}
+
 // LINUX-040 A pseudo terminal takes any rate asked for by name; rates Linux has no name for are refused.
 TEST(SlcanTty, RateMustBeOneThatExists) {
   Board board;

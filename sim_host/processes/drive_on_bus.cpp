@@ -1,0 +1,62 @@
+#include "sim_host/processes/drive_on_bus.hpp"
+
+#include <memory>
+#include <optional>
+
+#include "sim_host/campaign/results.hpp"
+#include "sim_host/metrics/metrics.hpp"
+#include "sim_host/processes/bus_end.hpp"
+#include "sim_host/processes/ecu_child.hpp"
+#include "sim_host/processes/stop_signals.hpp"
+
+namespace s4tp::processes {
+namespace {
+
+constexpr const char* kCaller = "slcan:tcp:";
+constexpr const char* kListener = "slcan:listen:";
+
+}  // namespace
+
+std::string other_end(const std::string& bus) {
+  const std::string listener = kListener;
+  return bus.starts_with(listener) ? kCaller + bus.substr(listener.size()) : bus;
+}
+
+bool has_two_ends(const std::string& bus) {
+  return !bus.starts_with("slcan:") || bus.starts_with(kListener);
+}
+
+int drive_on_bus(const world::Scenario& scenario, const DriveOptions& options, std::ostream& out) {
+  const std::atomic<bool>& stop = stop_on_signals();
+  WorldProcessOptions world = options.world;
+  const auto bus = std::make_unique<hal::linux_host::NamedBus>();
+  open_bus(*bus, world.bus, Side::kWorld);
+  std::optional<EcuChild> ecu;
+  if (options.start_ecu) {
+    std::vector<std::string> arguments{"--bus", other_end(world.bus)};
+    arguments.insert(arguments.end(), options.ecu_arguments.begin(), options.ecu_arguments.end());
+    ecu.emplace(arguments);
+    world.ecu_lives = [&ecu] { return ecu->lives(); };
+  }
+  const WorldProcessResult result = run_world(scenario, bus->can(), world, out, stop);
+  ecu.reset();  // it says its last words first
+  if (!result.met_ecu) {
+    out << "no ECU on " << world.bus << '\n';
+    return 2;
+  }
+  const std::vector<campaign::EpisodeRow> rows{
+      {scenario.name, options.planner, metrics::evaluate(result.recording)}};
+  print_link(out, world, result, bus->can());
+  campaign::print_episode(out, rows.front(), result.recording);
+  if (!options.out.empty()) {
+    std::filesystem::create_directories(options.out);
+    campaign::CampaignOptions one;
+    one.episodes = 1;
+    one.first_seed = world.seed;
+    campaign::write_json(options.out / "run.json", rows, one);
+  }
+  if (world.log) out << "bus log: " << world.log->string() << '\n';
+  return result.recording.ending == world::Ending::kGoal ? 0 : 1;
+}
+
+}  // namespace s4tp::processes

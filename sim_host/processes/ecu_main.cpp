@@ -1,0 +1,47 @@
+// The ECU as a process: s4tp_ecu_process --bus vcan0
+// Exit codes: 0 driven to the end, 1 nothing heard, 2 wrong use or a bus that cannot be opened.
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <memory>
+#include <string>
+
+#include "sim_host/campaign/any_ecu.hpp"
+#include "sim_host/campaign/parameters_file.hpp"
+#include "sim_host/processes/bus_end.hpp"
+#include "sim_host/processes/ecu_process.hpp"
+#include "sim_host/processes/stop_signals.hpp"
+
+int main(int argc, char** argv) {
+  using namespace s4tp;
+  processes::EcuProcessOptions options;
+  std::string parameters_file;
+  CLI::App app{"s4tp ECU on a CAN bus"};
+  app.add_option("--bus", options.bus,
+                 "can0, vcan0, slcan:tcp:HOST:PORT, slcan:pty:PATH, slcan:tty:PATH@BAUD")
+      ->required();
+  app.add_option("--planner", options.planner, "s4tp, constant_speed, blind")
+      ->check(CLI::IsMember(campaign::planner_names()));
+  app.add_option("--parameters", parameters_file, "TOML file of planner parameters (docs/parameters.md)");
+  app.add_option("--wait", options.wait_s, "seconds for the first tick (default 60)");
+  app.add_option("--silence", options.silence_s, "seconds without a tick that end the drive (default 5)");
+  app.add_flag("--realtime", options.realtime, "planning in a thread of its own, as on a real ECU");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  try {
+    if (!parameters_file.empty()) options.parameters = campaign::load_parameters(parameters_file);
+    const auto bus = std::make_unique<hal::linux_host::NamedBus>();
+    processes::open_bus(*bus, options.bus, processes::Side::kEcu);
+    const processes::EcuEnd end =
+        processes::run_ecu(bus->can(), options, std::cout, processes::stop_on_signals());
+    if (end != processes::EcuEnd::kNothingHeard) return 0;
+    std::cerr << "s4tp_ecu_process: no TICK frame on " << options.bus << " in " << options.wait_s << " s\n";
+    return 1;
+  } catch (const std::exception& error) {
+    std::cerr << "s4tp_ecu_process: " << error.what() << '\n';
+    return 2;
+  }
+}

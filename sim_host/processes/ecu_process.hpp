@@ -1,0 +1,39 @@
+#pragma once
+/// The ECU as a process of its own, on any bus.
+
+#include <atomic>
+#include <cstdint>
+#include <ostream>
+#include <string>
+
+#include "algo/core/parameters.hpp"
+#include "hal/linux/linux_can.hpp"
+
+namespace s4tp::processes {
+
+struct EcuProcessOptions {
+  std::string bus;  ///< its name, for messages
+  std::string planner = "s4tp";
+  Parameters parameters;
+  int wait_s = 60;        ///< for the first tick
+  int silence_s = 5;      ///< without a tick, after which the drive is over
+  bool realtime = false;  ///< planning beside control, in a thread of its own, as on a real ECU
+};
+
+enum class EcuEnd {
+  kSilence,       ///< PROC-010 the bus fell silent after driving
+  kStopped,       ///< PROC-011 asked to stop
+  kNothingHeard,  ///< PROC-012 no tick ever came
+};
+
+/// Runs a tick for each TICK frame until the bus falls silent. Mode changes, with the faults behind them, and
+/// what becomes of the link are told on `out`.
+///
+/// PROC-013 Until the first tick it says ten times a second that it is there, with a VersionEcu frame.
+/// PROC-014 Planning ends before the next tick begins, so the frames are those of the in-process drive, bit
+/// by bit; with `realtime` it may take its time and miss its deadline. \throws std::invalid_argument as
+/// campaign::make_ecu()
+[[nodiscard]] EcuEnd run_ecu(hal::linux_host::LinuxCan& can, const EcuProcessOptions& options,
+                             std::ostream& out, const std::atomic<bool>& stop);
+
+}  // namespace s4tp::processes

@@ -1,0 +1,43 @@
+// The world as a process: s4tp_world_process --bus vcan0 --scenario left_turn --seed 3
+// Exit codes: 0 goal reached, 1 not, 2 wrong use, a bus that cannot be opened, or no ECU on it.
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+
+#include "sim_host/processes/drive_on_bus.hpp"
+
+int main(int argc, char** argv) {
+  using namespace s4tp;
+  namespace fs = std::filesystem;
+  processes::DriveOptions options;
+  fs::path scenario_root = S4TP_SCENARIOS;
+  fs::path log;
+  std::string scenario = "left_turn";
+  CLI::App app{"s4tp's virtual world on a CAN bus"};
+  app.add_option(
+         "--bus", options.world.bus,
+         "can0, vcan0, slcan:tcp:HOST:PORT, slcan:listen:HOST:PORT, slcan:pty:PATH, slcan:tty:PATH@BAUD")
+      ->required();
+  app.add_option("--scenario", scenario, "shipped name or folder (default left_turn)");
+  app.add_option("--scenarios-folder", scenario_root, "where shipped scenarios lie");
+  app.add_option("--seed", options.world.seed, "of the traffic (default 0)");
+  app.add_option("--wait-ecu", options.world.wait_s,
+                 "seconds for a sign of the ECU (default 10; 0: begin at once)");
+  app.add_option("--log", log, "write every frame on the bus here, in candump's format");
+  app.add_option("--out", options.out, "folder for run.json");
+  app.add_flag("--realtime", options.world.realtime, "10 ms of host time a tick, whatever the ECU does");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  try {
+    if (!log.empty()) options.world.log = log;
+    const fs::path shipped = scenario_root / scenario;
+    const world::Scenario loaded = world::load_scenario(fs::exists(shipped) ? shipped : fs::path(scenario));
+    return processes::drive_on_bus(loaded, options, std::cout);
+  } catch (const std::exception& error) {
+    std::cerr << "s4tp_world_process: " << error.what() << '\n';
+    return 2;
+  }
+}

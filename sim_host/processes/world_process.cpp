@@ -1,0 +1,215 @@
+#include "sim_host/processes/world_process.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <thread>
+#include <vector>
+
+#include "firmware/wire/codec.hpp"
+#include "firmware/wire/e2e.hpp"
+#include "sim_host/campaign/bus_log.hpp"
+#include "sim_host/campaign/frames.hpp"
+#include "sim_host/processes/bus_end.hpp"
+#include "sim_host/world/world.hpp"
+
+namespace s4tp::processes {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+using std::chrono::steady_clock;
+
+constexpr milliseconds kTick{10};
+constexpr milliseconds kAnswerWithin{1000};
+constexpr milliseconds kDeadAfter{2000};
+constexpr seconds kLinkBackWithin{30};
+constexpr milliseconds kLook{50};
+constexpr unsigned kEchoMask = 0xFFF;
+constexpr unsigned kOldestEcho = 10;
+constexpr double kLate_ms = 1.0;
+constexpr int kTicksToEnd = 1000;  // pre-roll and the 200 ticks after which the world calls the ECU dead
+
+int to_ms(steady_clock::duration time) {
+  return static_cast<int>(std::max(std::chrono::ceil<milliseconds>(time), milliseconds{0}).count());
+}
+
+class Session {
+ public:
+  Session(const world::Scenario& scenario, hal::linux_host::LinuxCan& can, const WorldProcessOptions& options,
+          std::ostream& out, const std::atomic<bool>& stop)
+      : can_(can), options_(options), out_(out), stop_(stop), world_(scenario, world_options(options)) {
+    if (options.log) log_.emplace(*options.log, options.seed, options.ecu_note);
+  }
+
+  WorldProcessResult run() {
+    if (!meet_ecu()) return result_;
+    result_.met_ecu = true;
+    if (options_.realtime) {
+      drive_in_real_time();
+    } else {
+      drive_in_lock_step();
+    }
+    print_news(out_, options_.bus, can_);
+    result_.recording = world_.recording();
+    return result_;
+  }
+
+ private:
+  static world::WorldOptions world_options(const WorldProcessOptions& options) {
+    world::WorldOptions result;
+    result.seed = options.seed;
+    return result;
+  }
+
+  [[nodiscard]] bool ecu_lives() const { return !options_.ecu_lives || options_.ecu_lives(); }
+
+  bool meet_ecu() {
+    const auto end = steady_clock::now() + seconds(options_.wait_s);
+    while (options_.wait_s > 0) {
+      hal::CanFrame frame;
+      while (can_.receive(frame)) {
+        if (frame.id == wire::kVersionEcuId && wire::e2e_crc_fits(campaign::to_wire(frame))) return true;
+      }
+      print_news(out_, options_.bus, can_);
+      if (stop_ || !ecu_lives() || steady_clock::now() >= end) return false;
+      (void)can_.wait(to_ms(kLook));
+    }
+    return true;
+  }
+
+  void drive_in_lock_step() {
+    auto answered = steady_clock::now();
+    while (!world_.finished() && !stop_) {
+      begin_tick();
+      if (await_answer()) {
+        answered = steady_clock::now();
+        continue;
+      }
+      ++result_.unanswered;
+      if (link_was_down_) answered = steady_clock::now();
+      if (ecu_lives() && steady_clock::now() < answered + kDeadAfter) continue;
+      out_ << "no answer from the ECU: it is dead" << std::endl;
+      for (int i = 0; i < kTicksToEnd && !world_.finished(); ++i) world_.tick(frames_);
+      return;
+    }
+  }
+
+  /// \return whether the ECU answered this tick
+  bool await_answer() {
+    auto end = steady_clock::now() + kAnswerWithin;
+    const auto link_end = steady_clock::now() + kLinkBackWithin;
+    link_was_down_ = false;
+    while (!stop_) {
+      if (take_frames(0)) return true;
+      print_news(out_, options_.bus, can_);
+      const auto now = steady_clock::now();
+      if (!usable() && now < link_end) {
+        link_was_down_ = true;
+        end = now;
+      } else if (now >= end || !ecu_lives()) {
+        return false;
+      }
+      (void)can_.wait(link_was_down_ ? to_ms(kLook) : std::min(to_ms(kLook), to_ms(end - now)));
+    }
+    return false;
+  }
+
+  void drive_in_real_time() {
+    auto due = steady_clock::now();
+    while (!world_.finished() && !stop_) {
+      std::this_thread::sleep_until(due);
+      const double late_ms = std::chrono::duration<double, std::milli>(steady_clock::now() - due).count();
+      result_.latest_ms = std::max(result_.latest_ms, late_ms);
+      if (late_ms > kLate_ms) ++result_.late_ticks;
+      if (result_.ticks > 0 && !take_frames(kOldestEcho)) ++result_.unanswered;
+      begin_tick();
+      due += kTick;
+      while (steady_clock::now() + milliseconds(1) < due) {
+        // Frames stay in the socket until the tick; only the link is looked after.
+        const auto left = due - steady_clock::now() - milliseconds(1);
+        if (can_.wait(std::max(to_ms(left) - 1, 0))) break;
+      }
+      print_news(out_, options_.bus, can_);
+    }
+  }
+
+  void begin_tick() {
+    frames_.clear();
+    world_.tick(frames_);
+    ++result_.ticks;
+    for (const wire::Frame& frame : frames_) (void)can_.send(campaign::to_hal(frame));  // counted there
+    log(frames_);
+  }
+
+  /// Takes what has come, up to the Command frame that answers this tick or one of the last `oldest`.
+  bool take_frames(unsigned oldest) {
+    bool answered = false;
+    hal::CanFrame received;
+    while (can_.receive(received)) {
+      if (received.length > 8) continue;  // no FD frame is ours
+      const wire::Frame frame = campaign::to_wire(received);
+      // Until its first command the ECU only says that it is there.
+      if (!first_answer_ && frame.id == wire::kVersionEcuId) continue;
+      log({frame});
+      if (frame.id != wire::kCommandId) continue;
+      if (!answers(frame, oldest)) {
+        ++result_.refused_commands;
+        continue;
+      }
+      first_answer_ = answered = true;
+      world_.receive(frame);
+      if (!options_.realtime) return true;
+    }
+    return answered;
+  }
+
+  [[nodiscard]] bool answers(const wire::Frame& frame, unsigned oldest) const {
+    wire::Command command;
+    if (!wire::e2e_crc_fits(frame) || !wire::decode(frame, command)) return false;
+    // The ECU does not trust the first TICK frame it sees, so its first command echoes 0.
+    if (!first_answer_ && command.tick == 0) return true;
+    const unsigned age = (static_cast<unsigned>(result_.ticks) - command.tick) & kEchoMask;
+    return age <= oldest;
+  }
+
+  void log(const std::vector<wire::Frame>& frames) {
+    constexpr std::uint64_t kTick_us = 10'000;
+    if (log_) log_->write(static_cast<std::uint64_t>(result_.ticks - 1) * kTick_us, frames);
+  }
+
+  [[nodiscard]] bool usable() const {
+    return can_.state() == hal::CanState::kActive || can_.state() == hal::CanState::kPassive;
+  }
+
+  hal::linux_host::LinuxCan& can_;
+  const WorldProcessOptions& options_;
+  std::ostream& out_;
+  const std::atomic<bool>& stop_;
+  world::World world_;
+  std::optional<campaign::BusLog> log_;
+  std::vector<wire::Frame> frames_;
+  WorldProcessResult result_;
+  bool first_answer_ = false;
+  bool link_was_down_ = false;
+};
+
+}  // namespace
+
+WorldProcessResult run_world(const world::Scenario& scenario, hal::linux_host::LinuxCan& can,
+                             const WorldProcessOptions& options, std::ostream& out,
+                             const std::atomic<bool>& stop) {
+  return Session(scenario, can, options, out, stop).run();
+}
+
+void print_link(std::ostream& out, const WorldProcessOptions& options, const WorldProcessResult& result,
+                hal::linux_host::LinuxCan& can) {
+  out << "world: " << result.ticks << " ticks, " << result.unanswered << " unanswered, "
+      << result.refused_commands << " commands refused";
+  if (options.realtime)
+    out << ", " << result.late_ticks << " ticks late, at most " << result.latest_ms << " ms";
+  out << '\n';
+  print_counters(out, "world on " + options.bus, can.counters());
+}
+
+}  // namespace s4tp::processes

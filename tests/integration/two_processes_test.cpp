@@ -1,0 +1,212 @@
+// World and ECU as two processes of this machine, on buses every machine has. (On a vcan: tests/machine.)
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <poll.h>
+#include <signal.h>
+#include <spawn.h>
+#include <stdlib.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "sim_host/campaign/episode.hpp"
+
+namespace s4tp {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kPrograms = fs::path(S4TP_BINARY_DIR) / "sim_host";
+
+std::string free_port() {
+  const int probe = socket(AF_INET, SOCK_STREAM, 0);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  socklen_t size = sizeof address;
+  EXPECT_EQ(bind(probe, reinterpret_cast<sockaddr*>(&address), size), 0);
+  EXPECT_EQ(getsockname(probe, reinterpret_cast<sockaddr*>(&address), &size), 0);
+  close(probe);
+  return std::to_string(ntohs(address.sin_port));
+}
+
+class Process {
+ public:
+  Process(const std::string& program, std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), (kPrograms / program).string());
+    std::vector<char*> argv;
+    for (std::string& argument : arguments) argv.push_back(argument.data());
+    argv.push_back(nullptr);
+    EXPECT_EQ(posix_spawn(&process_, argv[0], nullptr, nullptr, argv.data(), environ), 0) << argv[0];
+  }
+  ~Process() {
+    if (process_ > 0) (void)end(SIGKILL);
+  }
+  Process(const Process&) = delete;
+  Process& operator=(const Process&) = delete;
+  /// \return its exit code
+  int wait() {
+    int status = 0;
+    waitpid(process_, &status, 0);
+    process_ = -1;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  }
+  int end(int signal) {
+    kill(process_, signal);
+    return wait();
+  }
+
+ private:
+  pid_t process_ = -1;
+};
+
+std::string content(const fs::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file).rdbuf();
+  return text.str();
+}
+
+/// Without the first line, which says more of the ECU where it is known.
+std::string frames_of(const fs::path& log) {
+  const std::string text = content(log);
+  return text.substr(text.find('\n') + 1);
+}
+
+/// In a folder that goes with the test program.
+fs::path scratch(const std::string& name) {
+  static const struct Folder {
+    fs::path path = fs::temp_directory_path() / ("s4tp_" + std::to_string(getpid()));
+    Folder() { fs::create_directories(path); }
+    ~Folder() { fs::remove_all(path); }
+  } folder;
+  return folder.path / name;
+}
+
+fs::path in_process(const std::string& scenario, std::uint64_t seed) {
+  const fs::path log = scratch("inside.log");
+  campaign::EpisodeOptions options;
+  options.seed = seed;
+  options.log = log;
+  (void)campaign::run_episode(
+      world::load_scenario(fs::path(S4TP_SOURCE_DIR) / "sim_host" / "scenarios" / scenario), options);
+  return log;
+}
+
+/// Two pseudo terminals, back to back, as a cable between two serial ports.
+class Cable {
+ public:
+  Cable() {
+    for (int i = 0; i < 2; ++i) {
+      ends_[i] = posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK);
+      EXPECT_EQ(grantpt(ends_[i]), 0);
+      EXPECT_EQ(unlockpt(ends_[i]), 0);
+      ports[i] = ptsname(ends_[i]);
+      // Held open, so that a port does not hang up before its process is there.
+      holders_[i] = open(ports[i].c_str(), O_RDWR | O_NOCTTY);
+      termios line{};  // no echo before the process has set its line
+      EXPECT_EQ(tcgetattr(holders_[i], &line), 0);
+      cfmakeraw(&line);
+      EXPECT_EQ(tcsetattr(holders_[i], TCSANOW, &line), 0);
+    }
+    carrier_ = std::thread([this] {
+      while (!done_) carry();
+    });
+  }
+  ~Cable() {
+    done_ = true;
+    carrier_.join();
+    for (int i = 0; i < 2; ++i) {
+      close(holders_[i]);
+      close(ends_[i]);
+    }
+  }
+  std::string ports[2];
+
+ private:
+  void carry() {
+    pollfd wanted[2] = {{ends_[0], POLLIN, 0}, {ends_[1], POLLIN, 0}};
+    poll(wanted, 2, 50);
+    for (int i = 0; i < 2; ++i) {
+      char bytes[1024];
+      const ssize_t size = read(ends_[i], bytes, sizeof bytes);
+      for (ssize_t sent = 0; sent < size && !done_;) {
+        const ssize_t taken = write(ends_[1 - i], bytes + sent, static_cast<std::size_t>(size - sent));
+        if (taken > 0) sent += taken;
+        if (taken <= 0) usleep(100);
+      }
+    }
+  }
+  int ends_[2];
+  int holders_[2];
+  std::atomic<bool> done_{false};
+  std::thread carrier_;
+};
+
+// PROC-014 All four scenarios: the log of the two processes is the log of the in-process drive, to the last
+// byte.
+TEST(TwoProcesses, TcpGivesTheSameFrames) {
+  for (const std::string scenario : {"left_turn", "merge", "cruise", "overtake"}) {
+    const fs::path log = scratch("tcp.log");
+    Process run("s4tp_tool", {"run", "--bus", "slcan:tcp:127.0.0.1:" + free_port(), "--scenario", scenario,
+                              "--seed", "3", "--log", log, "--out", scratch("out")});
+    EXPECT_LE(run.wait(), 1) << scenario;
+    EXPECT_EQ(content(log), content(in_process(scenario, 3))) << scenario;
+  }
+}
+
+// PROC-014, PROC-010 The two programs on their own, over a cable between two terminals; one is told nothing
+// of the other.
+TEST(TwoProcesses, TerminalsGiveTheSameFrames) {
+  const Cable cable;
+  const fs::path log = scratch("pty.log");
+  Process ecu("s4tp_ecu_process", {"--bus", "slcan:pty:" + cable.ports[0], "--silence", "1"});
+  Process world("s4tp_world_process", {"--bus", "slcan:tty:" + cable.ports[1] + "@2000000", "--scenario",
+                                       "cruise", "--seed", "3", "--log", log});
+  EXPECT_LE(world.wait(), 1);
+  EXPECT_EQ(ecu.wait(), 0);
+  EXPECT_EQ(frames_of(log), frames_of(in_process("cruise", 3)));
+}
+
+// PROC-022 The ECU process is killed in the middle of a drive that has begun: the world says so and ends,
+// with code 1.
+TEST(TwoProcesses, KilledEcuIsReported) {
+  const std::string port = free_port();
+  const fs::path log = scratch("killed.log");
+  Process world("s4tp_world_process", {"--bus", "slcan:listen:127.0.0.1:" + port, "--realtime", "--log", log,
+                                       "--out", scratch("out")});
+  Process ecu("s4tp_ecu_process", {"--bus", "slcan:tcp:127.0.0.1:" + port, "--realtime"});
+  for (int i = 0; i < 200 && (!fs::exists(log) || fs::file_size(log) < 1000); ++i) usleep(50'000);
+  EXPECT_EQ(ecu.end(SIGKILL), 128 + SIGKILL);
+  EXPECT_EQ(world.wait(), 1);
+  EXPECT_NE(content(scratch("out") / "run.json").find("\"dead_ecu\": 1"), std::string::npos);
+}
+
+// PROC-020 No ECU: code 2, and nothing on the bus.
+TEST(TwoProcesses, NoEcuIsReported) {
+  Process world("s4tp_world_process", {"--bus", "slcan:listen:127.0.0.1:" + free_port(), "--wait-ecu", "1"});
+  EXPECT_EQ(world.wait(), 2);
+}
+
+// PROC-011, PROC-012 A bus that cannot be opened is code 2, one on which nothing happens 1, being told to
+// stop 0.
+TEST(TwoProcesses, EcuExitCodes) {
+  EXPECT_EQ(Process("s4tp_ecu_process", {"--bus", "slcan:tty:/dev/ttyS0@115200"}).wait(), 2);
+  EXPECT_EQ(
+      Process("s4tp_ecu_process", {"--bus", "slcan:tcp:127.0.0.1:" + free_port(), "--wait", "1"}).wait(), 1);
+  Process ecu("s4tp_ecu_process", {"--bus", "slcan:tcp:127.0.0.1:" + free_port()});
+  usleep(500'000);
+  EXPECT_EQ(ecu.end(SIGTERM), 0);
+}
+
+}  // namespace
+}  // namespace s4tp
