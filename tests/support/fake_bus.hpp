@@ -15,7 +15,7 @@ class FakeBus final : public LinuxCan {
   bool receive(CanFrame& frame) override {
     if (incoming.empty()) return false;
     frame = incoming.front();
-    incoming.pop_front();
+    if (!endless) incoming.pop_front();
     ++counters_.received;
     return true;
   }
@@ -37,6 +37,7 @@ class FakeBus final : public LinuxCan {
   bool take_news(LinkNews& one) override { return news.take(one); }
 
   std::deque<CanFrame> incoming;
+  bool endless = false;  ///< the first frame comes again and again
   std::vector<CanFrame> sent;
   std::function<void(const CanFrame&)> on_send;
   std::function<void()> on_wait;

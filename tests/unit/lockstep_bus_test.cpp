@@ -106,13 +106,13 @@ TEST(LockstepBus, FloodKeepsTheTick) {
   EXPECT_EQ(bus.counters().dropped, 89U);
 }
 
-// A flood without a TICK frame does not hold the caller up: 20 ms are 20 ms.
+// A flood without a TICK frame that never ends does not hold the caller up: the call comes back.
 TEST(LockstepBus, FloodDoesNotOutlastTheTimeout) {
   hal::linux_host::FakeBus fake;
   LockstepBus bus(fake);
-  for (int i = 0; i < 500'000; ++i) fake.incoming.push_back(other_frame(0x101));
+  fake.incoming.push_back(other_frame(0x101));
+  fake.endless = true;
   EXPECT_FALSE(bus.wait_tick(20));
-  EXPECT_FALSE(fake.incoming.empty());
 }
 
 // State and sending go straight through.
