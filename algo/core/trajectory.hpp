@@ -32,6 +32,9 @@ struct Plan {
   Trajectory trajectory;
 };
 
+/// The state a `share` of the way from `a` to `b`; headings along the shorter way. \pre 0 <= share <= 1
+[[nodiscard]] TrajectoryPoint interpolate(const TrajectoryPoint& a, const TrajectoryPoint& b, float share);
+
 /// State of a plan at `time_ms`, interpolated; before the start the first point, after the end the last one.
 [[nodiscard]] TrajectoryPoint sample(const Plan& plan, std::uint32_t time_ms);
 

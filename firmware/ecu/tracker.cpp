@@ -31,17 +31,7 @@ struct Place {
 TrajectoryPoint at_index(const Trajectory& trajectory, float index) {
   const float inside = clamp(index, 0.0F, static_cast<float>(kHorizonSteps));
   const int i = to_int(floor(inside), 0, kHorizonSteps - 1);
-  const TrajectoryPoint& a = trajectory.points[i];
-  const TrajectoryPoint& b = trajectory.points[i + 1];
-  const float t = inside - static_cast<float>(i);
-  TrajectoryPoint point;
-  point.rear_axle.x_m = lerp(a.rear_axle.x_m, b.rear_axle.x_m, t);
-  point.rear_axle.y_m = lerp(a.rear_axle.y_m, b.rear_axle.y_m, t);
-  point.rear_axle.heading_rad = lerp_angle(a.rear_axle.heading_rad, b.rear_axle.heading_rad, t);
-  point.speed_mps = lerp(a.speed_mps, b.speed_mps, t);
-  point.acceleration_mps2 = lerp(a.acceleration_mps2, b.acceleration_mps2, t);
-  point.curvature_1pm = lerp(a.curvature_1pm, b.curvature_1pm, t);
-  return point;
+  return interpolate(trajectory.points[i], trajectory.points[i + 1], inside - static_cast<float>(i));
 }
 
 Place nearest(const Trajectory& trajectory, Point car) {

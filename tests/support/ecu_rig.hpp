@@ -12,6 +12,7 @@
 #include "firmware/wire/version.hpp"
 #include "hal/sim/bus.hpp"
 #include "hal/sim/null_devices.hpp"
+#include "sim_host/campaign/frames.hpp"
 
 namespace s4tp::ecu {
 
@@ -87,21 +88,8 @@ struct Plant {
   }
 };
 
-inline hal::CanFrame to_can(const wire::Frame& frame) {
-  hal::CanFrame can;
-  can.id = frame.id;
-  can.length = frame.length;
-  std::memcpy(can.data, frame.data, sizeof frame.data);
-  return can;
-}
-
-inline wire::Frame to_wire(const hal::CanFrame& can) {
-  wire::Frame frame;
-  frame.id = can.id;
-  frame.length = can.length;
-  std::memcpy(frame.data, can.data, sizeof frame.data);
-  return frame;
-}
+using campaign::to_hal;
+using campaign::to_wire;
 
 /// One straight lane of 300 m in slot 5.
 inline wire::Map straight_map() {
@@ -189,7 +177,7 @@ class Rig {
     return {command.acceleration_mps2, command.steering_rad};
   }
 
-  void send(wire::Frame frame) { (void)world->send(to_can(frame)); }
+  void send(wire::Frame frame) { (void)world->send(to_hal(frame)); }
 
   hal::sim::Bus bus;
   hal::sim::Bus::Port* world = bus.attach();
