@@ -1,0 +1,45 @@
+#pragma once
+/// The commands of the host tool: one file each, which adds its options and says what it does with them.
+/// Exit codes: 0 done, 1 the result is not good enough or an episode failed, 2 wrong use or broken input.
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "algo/core/parameters.hpp"
+#include "sim_host/world/scenario.hpp"
+
+namespace s4tp::commands {
+
+inline constexpr int kDone = 0;
+inline constexpr int kNotGoodEnough = 1;
+inline constexpr int kWrongUse = 2;
+
+struct Command {
+  CLI::App* app = nullptr;
+  std::function<int()> run;  ///< \return exit code \throws std::exception: wrong use or broken input
+};
+
+[[nodiscard]] Command add_demo(CLI::App& tool);
+[[nodiscard]] Command add_eval(CLI::App& tool);
+[[nodiscard]] Command add_run(CLI::App& tool);
+[[nodiscard]] Command add_record(CLI::App& tool);
+
+/// Options that commands share, with the same words and meaning everywhere.
+struct CommonOptions {
+  std::filesystem::path scenario_root = S4TP_SCENARIOS;
+  std::string parameters_file;
+  std::filesystem::path out;
+  std::uint64_t seed = 0;
+
+  void add_to(CLI::App& command);
+  [[nodiscard]] Parameters parameters() const;
+  /// A scenario by the name of a shipped one, or by its folder.
+  [[nodiscard]] world::Scenario find_scenario(const std::string& name) const;
+};
+
+}  // namespace s4tp::commands

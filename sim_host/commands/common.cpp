@@ -1,0 +1,22 @@
+#include "sim_host/campaign/parameters_file.hpp"
+#include "sim_host/commands/command.hpp"
+
+namespace s4tp::commands {
+
+void CommonOptions::add_to(CLI::App& command) {
+  command.add_option("--seed,--first-seed", seed, "first seed (default 0)");
+  command.add_option("--parameters", parameters_file, "TOML file of planner parameters (docs/parameters.md)");
+  command.add_option("--out", out, "folder for pictures, JSON and report");
+  command.add_option("--scenarios-folder", scenario_root, "where shipped scenarios lie");
+}
+
+Parameters CommonOptions::parameters() const {
+  return parameters_file.empty() ? Parameters{} : campaign::load_parameters(parameters_file);
+}
+
+world::Scenario CommonOptions::find_scenario(const std::string& name) const {
+  const std::filesystem::path shipped = scenario_root / name;
+  return world::load_scenario(std::filesystem::exists(shipped) ? shipped : std::filesystem::path(name));
+}
+
+}  // namespace s4tp::commands

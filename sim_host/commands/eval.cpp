@@ -1,0 +1,23 @@
+#include "sim_host/campaign/any_ecu.hpp"
+#include "sim_host/commands/drive.hpp"
+
+namespace s4tp::commands {
+
+Command add_eval(CLI::App& tool) {
+  CLI::App* eval = tool.add_subcommand("eval", "a campaign of your choice");
+  const auto options = std::make_shared<DriveOptions>();
+  options->common.out = std::filesystem::path("out") / "eval";
+  options->common.add_to(*eval);
+  eval->add_option("--episodes", options->episodes, "per scenario and planner (default 20)")
+      ->check(CLI::PositiveNumber);
+  eval->add_option("--scenarios", options->scenarios, "shipped names or folders")->delimiter(',');
+  eval->add_option("--planners,--planner", options->planners, "s4tp, constant_speed, blind")
+      ->delimiter(',')
+      ->check(CLI::IsMember(campaign::planner_names()));
+  return {eval, [options] {
+            (void)drive(*options);
+            return kDone;
+          }};
+}
+
+}  // namespace s4tp::commands

@@ -1,0 +1,106 @@
+#include <fstream>
+#include <iostream>
+#include <stdexcept>
+
+#include "sim_host/campaign/any_ecu.hpp"
+#include "sim_host/campaign/bus_log.hpp"
+#include "sim_host/campaign/results.hpp"
+#include "sim_host/commands/command.hpp"
+#include "sim_host/processes/drive_on_bus.hpp"
+#include "sim_host/view/episode_picture.hpp"
+#include "sim_host/view/explanation_table.hpp"
+#include "sim_host/view/report.hpp"
+
+namespace s4tp::commands {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct RunOptions {
+  CommonOptions common;
+  std::string scenario = "left_turn";
+  std::string planner = "s4tp";
+  std::string bus;
+  bool realtime = false;
+  bool no_ecu = false;
+  fs::path log;
+};
+
+int run_one(const RunOptions& run) {
+  const world::Scenario scenario = run.common.find_scenario(run.scenario);
+  campaign::EpisodeOptions options;
+  options.seed = run.common.seed;
+  options.planner = run.planner;
+  options.parameters = run.common.parameters();
+  options.trace = true;
+  if (!run.log.empty()) options.log = run.log;
+  const campaign::EpisodeResult result = campaign::run_episode(scenario, options);
+
+  fs::create_directories(run.common.out);
+  const fs::path picture =
+      run.common.out / view::picture_name(scenario.name, run.planner, result.recording.seed);
+  view::draw_episode(scenario, result, picture);
+  const std::vector<campaign::EpisodeRow> rows{
+      {scenario.name, run.planner, metrics::evaluate(result.recording)}};
+  campaign::CampaignOptions one;
+  one.episodes = 1;
+  one.first_seed = run.common.seed;
+  one.parameters = options.parameters;
+  campaign::write_json(run.common.out / "run.json", rows, one);
+
+  campaign::print_episode(std::cout, rows.front(), result.recording);
+  const fs::path reasons = fs::path(picture).replace_extension(".txt");
+  std::ofstream explanations(reasons);
+  view::print_explanations(explanations, *result.trace, -result.recording.snapshots.front().time_s);
+  std::cout << "picture: " << picture.string() << "\nreasons: " << reasons.string() << '\n';
+  if (!run.log.empty()) std::cout << "bus log: " << run.log.string() << '\n';
+  return result.recording.ending == world::Ending::kGoal ? 0 : kNotGoodEnough;
+}
+
+/// The same episode, with the ECU at the other end of a real bus.
+int run_on_bus(const RunOptions& run) {
+  const bool calls = run.bus.starts_with("slcan:tcp:");
+  processes::DriveOptions options;
+  options.start_ecu = !run.no_ecu;
+  // With both ends ours, one has to listen.
+  options.world.bus = calls && options.start_ecu ? "slcan:listen:" + run.bus.substr(10) : run.bus;
+  if (options.start_ecu && !processes::has_two_ends(options.world.bus)) {
+    throw std::runtime_error(run.bus + ": the ECU has to be at its other end already; add --no-ecu");
+  }
+  options.world.seed = run.common.seed;
+  options.world.realtime = run.realtime;
+  if (!run.log.empty()) options.world.log = run.log;
+  options.out = run.common.out;
+  if (options.start_ecu) {
+    options.planner = run.planner;
+    options.world.ecu_note = campaign::ecu_note(run.planner, run.common.parameters());
+    options.ecu_arguments = {"--planner", run.planner};
+    if (!run.common.parameters_file.empty()) {
+      options.ecu_arguments.insert(options.ecu_arguments.end(), {"--parameters", run.common.parameters_file});
+    }
+    if (run.realtime) options.ecu_arguments.push_back("--realtime");
+  }
+  return processes::drive_on_bus(run.common.find_scenario(run.scenario), options, std::cout);
+}
+
+}  // namespace
+
+Command add_run(CLI::App& tool) {
+  CLI::App* run = tool.add_subcommand("run", "one episode");
+  const auto options = std::make_shared<RunOptions>();
+  options->common.out = fs::path("out") / "run";
+  options->common.add_to(*run);
+  run->add_option("--scenario", options->scenario, "shipped name or folder (default left_turn)");
+  run->add_option("--planner", options->planner, "s4tp, constant_speed, blind")
+      ->check(CLI::IsMember(campaign::planner_names()));
+  run->add_option("--log", options->log, "write every frame on the bus here, in candump's format");
+  CLI::Option* const bus =
+      run->add_option("--bus", options->bus,
+                      "ECU and world as two processes on can0, vcan0, slcan:tcp:HOST:PORT, "
+                      "slcan:pty:PATH, slcan:tty:PATH@BAUD (no picture then)");
+  run->add_flag("--realtime", options->realtime, "on a bus: 10 ms of host time a tick")->needs(bus);
+  run->add_flag("--no-ecu", options->no_ecu, "on a bus: an ECU is there already")->needs(bus);
+  return {run, [options] { return options->bus.empty() ? run_one(*options) : run_on_bus(*options); }};
+}
+
+}  // namespace s4tp::commands
