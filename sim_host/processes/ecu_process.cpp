@@ -7,17 +7,13 @@
 #include <semaphore>
 #include <thread>
 
-#include "algo/core/versions.hpp"
+#include "firmware/ecu/lockstep_bus.hpp"
 #include "firmware/ecu/records.hpp"
-#include "firmware/wire/codec.hpp"
-#include "firmware/wire/e2e.hpp"
-#include "firmware/wire/version.hpp"
+#include "firmware/ecu/reports.hpp"
 #include "hal/sim/null_devices.hpp"
 #include "hal/sim/sim_clock.hpp"
 #include "sim_host/campaign/any_ecu.hpp"
-#include "sim_host/campaign/frames.hpp"
 #include "sim_host/processes/bus_end.hpp"
-#include "sim_host/processes/lockstep_bus.hpp"
 
 namespace s4tp::processes {
 namespace {
@@ -89,29 +85,24 @@ class PlanningThread {
   std::jthread thread_;
 };
 
-/// "I am there", until the world begins.
-class Hello {
- public:
-  void send(hal::Can& can) {
-    wire::VersionEcu version;
-    version.wire_version = wire::wire_version();
-    version.layout_hash = wire::layout_hash();
-    version.api_version = kApiVersion;
-    wire::Frame frame;
-    if (!wire::encode(version, frame)) return;
-    sender_.protect(frame);
-    (void)can.send(campaign::to_hal(frame));  // the next one is on its way
+/// Waits until a tick opens. \return false: none in `timeout_ms`, however many other frames come
+bool wait_tick(ecu::LockstepBus& bus, hal::linux_host::LinuxCan& can, int timeout_ms) {
+  const auto end = steady_clock::now() + std::chrono::milliseconds(timeout_ms);
+  for (;;) {
+    const auto now = steady_clock::now();
+    const auto now_ms = std::chrono::duration_cast<std::chrono::milliseconds>(now.time_since_epoch());
+    if (bus.take_tick(static_cast<std::uint64_t>(now_ms.count()))) return true;
+    if (now >= end) return false;
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - now);
+    (void)can.wait(static_cast<int>(left.count()));
   }
-
- private:
-  wire::E2eSender sender_;
-};
+}
 
 }  // namespace
 
 EcuEnd run_ecu(hal::linux_host::LinuxCan& can, const EcuProcessOptions& options, std::ostream& out,
                const std::atomic<bool>& stop) {
-  LockstepBus bus(can);
+  ecu::LockstepBus bus(can);
   hal::sim::SimClock clock;
   hal::sim::NullCycleCounter cycles;
   hal::sim::NullWatchdog watchdog;
@@ -121,13 +112,13 @@ EcuEnd run_ecu(hal::linux_host::LinuxCan& can, const EcuProcessOptions& options,
   std::optional<PlanningThread> planning;
   if (options.realtime) planning.emplace(*ecu);
 
-  Hello hello;
+  ecu::Reporter hello;  // "I am there", until the world begins
   std::uint32_t ticks = 0;
   EcuEnd end = EcuEnd::kStopped;
   auto heard = steady_clock::now();
   while (!stop) {
-    if (ticks == 0) hello.send(can);
-    const bool opened = bus.wait_tick(kHelloEvery_ms);
+    if (ticks == 0) hello.version(can);
+    const bool opened = wait_tick(bus, can, kHelloEvery_ms);
     print_news(out, options.bus, can);
     if (!opened) {
       const auto silence = steady_clock::now() - heard;

@@ -1,4 +1,4 @@
-#include "sim_host/processes/lockstep_bus.hpp"
+#include "firmware/ecu/lockstep_bus.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,10 +9,8 @@
 #include "sim_host/campaign/frames.hpp"
 #include "tests/support/fake_bus.hpp"
 
-namespace s4tp::processes {
+namespace s4tp::ecu {
 namespace {
-
-using namespace std::chrono_literals;
 
 wire::Frame tick_frame(int number) {
   wire::Tick tick;
@@ -40,7 +38,7 @@ std::vector<std::uint32_t> ids_of(LockstepBus& bus) {
 // damaged one.
 TEST(TickOpener, OpensForwardOnly) {
   TickOpener opener;
-  const TickOpener::Time now{};
+  const std::uint64_t now = 0;
   EXPECT_TRUE(opener.opens(tick_frame(65535), now));
   EXPECT_FALSE(opener.opens(tick_frame(65535), now));
   EXPECT_TRUE(opener.opens(tick_frame(0), now));  // 16 bits wrap
@@ -56,10 +54,10 @@ TEST(TickOpener, OpensForwardOnly) {
 // PROC-001 A world that starts again counts from 1; 1 s of silence tells it from a frame recorded earlier.
 TEST(TickOpener, AnotherWorldAfterSilence) {
   TickOpener opener;
-  const TickOpener::Time start{};
+  const std::uint64_t start = 5000;
   EXPECT_TRUE(opener.opens(tick_frame(500), start));
-  EXPECT_FALSE(opener.opens(tick_frame(1), start + 999ms));
-  EXPECT_TRUE(opener.opens(tick_frame(1), start + 1000ms));
+  EXPECT_FALSE(opener.opens(tick_frame(1), start + 999));
+  EXPECT_TRUE(opener.opens(tick_frame(1), start + 1000));
 }
 
 // PROC-002 Two ticks on the bus: the first holds its frames and none of the second.
@@ -71,11 +69,11 @@ TEST(LockstepBus, HandsOutTickByTick) {
   }
   fake.incoming.push_back(other_frame(0x103));
   LockstepBus bus(fake);
-  ASSERT_TRUE(bus.wait_tick(10));
+  ASSERT_TRUE(bus.take_tick(0));
   EXPECT_EQ(ids_of(bus), (std::vector<std::uint32_t>{0x101, wire::kTickId}));
-  ASSERT_TRUE(bus.wait_tick(10));
+  ASSERT_TRUE(bus.take_tick(0));
   EXPECT_EQ(ids_of(bus), (std::vector<std::uint32_t>{0x102, wire::kTickId}));
-  EXPECT_FALSE(bus.wait_tick(10));
+  EXPECT_FALSE(bus.take_tick(0));
   EXPECT_EQ(ids_of(bus), (std::vector<std::uint32_t>{0x103}));
 }
 
@@ -86,8 +84,8 @@ TEST(LockstepBus, RefusedTicksAreNotHandedOn) {
   LockstepBus bus(fake);
   fake.incoming = {campaign::to_hal(tick_frame(7)), campaign::to_hal(tick_frame(6)),
                    campaign::to_hal(tick_frame(7))};
-  EXPECT_TRUE(bus.wait_tick(10));
-  EXPECT_FALSE(bus.wait_tick(10));
+  EXPECT_TRUE(bus.take_tick(0));
+  EXPECT_FALSE(bus.take_tick(0));
   EXPECT_EQ(ids_of(bus), (std::vector<std::uint32_t>{wire::kTickId}));
   EXPECT_EQ(bus.refused_ticks(), 2U);
 }
@@ -99,7 +97,8 @@ TEST(LockstepBus, FloodKeepsTheTick) {
   LockstepBus bus(fake);
   for (int i = 0; i < 600; ++i) fake.incoming.push_back(other_frame(0x101));
   fake.incoming.push_back(campaign::to_hal(tick_frame(1)));
-  ASSERT_TRUE(bus.wait_tick(1000));
+  EXPECT_FALSE(bus.take_tick(0));  // 512 a call
+  ASSERT_TRUE(bus.take_tick(0));
   const std::vector<std::uint32_t> ids = ids_of(bus);
   EXPECT_EQ(ids.size(), 512U);
   EXPECT_EQ(ids.back(), wire::kTickId);
@@ -107,12 +106,12 @@ TEST(LockstepBus, FloodKeepsTheTick) {
 }
 
 // A flood without a TICK frame that never ends does not hold the caller up: the call comes back.
-TEST(LockstepBus, FloodDoesNotOutlastTheTimeout) {
+TEST(LockstepBus, EndlessFloodComesBack) {
   hal::linux_host::FakeBus fake;
   LockstepBus bus(fake);
   fake.incoming.push_back(other_frame(0x101));
   fake.endless = true;
-  EXPECT_FALSE(bus.wait_tick(20));
+  EXPECT_FALSE(bus.take_tick(0));
 }
 
 // State and sending go straight through.
@@ -127,4 +126,4 @@ TEST(LockstepBus, PassesTheBusThrough) {
 }
 
 }  // namespace
-}  // namespace s4tp::processes
+}  // namespace s4tp::ecu
