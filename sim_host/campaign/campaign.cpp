@@ -35,6 +35,7 @@ std::vector<EpisodeRow> run_campaign(const std::vector<world::Scenario>& scenari
         EpisodeOptions episode;
         episode.seed = job.seed;
         episode.planner = *job.planner;
+        episode.engine = options.engine;
         episode.parameters = options.parameters;
         episode.trace = options.trace;
         const EpisodeResult result = run_episode(*job.scenario, episode);

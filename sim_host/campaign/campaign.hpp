@@ -16,6 +16,7 @@ namespace s4tp::campaign {
 
 struct CampaignOptions {
   std::vector<std::string> planners{"s4tp"};
+  world::Engine engine = world::Engine::kBuiltin;
   int episodes = 20;             ///< per planner and scenario
   std::uint64_t first_seed = 0;  ///< the others follow
   Parameters parameters;

@@ -26,6 +26,7 @@ EpisodeResult run_episode(const world::Scenario& scenario, const EpisodeOptions&
   const auto driver = make_driver(options.planner, options.parameters, trace, trace);
   world::WorldOptions world_options;
   world_options.seed = options.seed;
+  world_options.engine = options.engine;
   world::World world(scenario, world_options);
   std::optional<BusLog> log;
   if (options.log) log.emplace(*options.log, options.seed, ecu_note(options.planner, options.parameters));

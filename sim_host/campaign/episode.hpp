@@ -13,12 +13,14 @@
 #include "sim_host/campaign/trace.hpp"
 #include "sim_host/world/recording.hpp"
 #include "sim_host/world/scenario.hpp"
+#include "sim_host/world/traffic_engine.hpp"
 
 namespace s4tp::campaign {
 
 struct EpisodeOptions {
   std::uint64_t seed = 0;
   std::string planner = "s4tp";
+  world::Engine engine = world::Engine::kBuiltin;
   Parameters parameters;
   std::optional<std::filesystem::path> log;  ///< candump log of every frame on the bus
   bool trace = false;                        ///< keep what the planner thought

@@ -35,8 +35,10 @@ struct CommonOptions {
   std::string parameters_file;
   std::filesystem::path out;
   std::uint64_t seed = 0;
+  std::string traffic = "builtin";
 
   void add_to(CLI::App& command);
+  void add_traffic_to(CLI::App& command);
   [[nodiscard]] Parameters parameters() const;
   /// A scenario by the name of a shipped one, or by its folder.
   [[nodiscard]] world::Scenario find_scenario(const std::string& name) const;

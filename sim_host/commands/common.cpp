@@ -1,5 +1,6 @@
 #include "sim_host/campaign/parameters_file.hpp"
 #include "sim_host/commands/command.hpp"
+#include "sim_host/world/traffic_engine.hpp"
 
 namespace s4tp::commands {
 
@@ -8,6 +9,11 @@ void CommonOptions::add_to(CLI::App& command) {
   command.add_option("--parameters", parameters_file, "TOML file of planner parameters (docs/parameters.md)");
   command.add_option("--out", out, "folder for pictures, JSON and report");
   command.add_option("--scenarios-folder", scenario_root, "where shipped scenarios lie");
+}
+
+void CommonOptions::add_traffic_to(CLI::App& command) {
+  command.add_option("--traffic", traffic, "who simulates it: builtin (default) or sumo (Debian's sumo)")
+      ->check(CLI::IsMember(world::engine_names()));
 }
 
 Parameters CommonOptions::parameters() const {

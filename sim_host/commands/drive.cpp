@@ -16,6 +16,7 @@ std::vector<campaign::EpisodeRow> drive(const DriveOptions& drive) {
 
   campaign::CampaignOptions options;
   options.planners = drive.planners;
+  options.engine = world::engine_of(common.traffic);
   options.episodes = drive.episodes;
   options.first_seed = common.seed;
   options.parameters = common.parameters();

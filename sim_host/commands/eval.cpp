@@ -8,6 +8,7 @@ Command add_eval(CLI::App& tool) {
   const auto options = std::make_shared<DriveOptions>();
   options->common.out = std::filesystem::path("out") / "eval";
   options->common.add_to(*eval);
+  options->common.add_traffic_to(*eval);
   eval->add_option("--episodes", options->episodes, "per scenario and planner (default 20)")
       ->check(CLI::PositiveNumber);
   eval->add_option("--scenarios", options->scenarios, "shipped names or folders")->delimiter(',');

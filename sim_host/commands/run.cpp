@@ -31,6 +31,7 @@ int run_one(const RunOptions& run) {
   campaign::EpisodeOptions options;
   options.seed = run.common.seed;
   options.planner = run.planner;
+  options.engine = world::engine_of(run.common.traffic);
   options.parameters = run.common.parameters();
   options.trace = true;
   if (!run.log.empty()) options.log = run.log;
@@ -68,6 +69,7 @@ int run_on_bus(const RunOptions& run) {
     throw std::runtime_error(run.bus + ": the ECU has to be at its other end already; add --no-ecu");
   }
   options.world.seed = run.common.seed;
+  options.world.engine = world::engine_of(run.common.traffic);
   options.world.realtime = run.realtime;
   if (!run.log.empty()) options.world.log = run.log;
   options.out = run.common.out;
@@ -90,6 +92,7 @@ Command add_run(CLI::App& tool) {
   const auto options = std::make_shared<RunOptions>();
   options->common.out = fs::path("out") / "run";
   options->common.add_to(*run);
+  options->common.add_traffic_to(*run);
   run->add_option("--scenario", options->scenario, "shipped name or folder (default left_turn)");
   run->add_option("--planner", options->planner, "s4tp, constant_speed, blind")
       ->check(CLI::IsMember(campaign::planner_names()));

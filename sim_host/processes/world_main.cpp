@@ -13,6 +13,7 @@ int main(int argc, char** argv) {
   fs::path scenario_root = S4TP_SCENARIOS;
   fs::path log;
   std::string scenario = "left_turn";
+  std::string traffic = "builtin";
   CLI::App app{"s4tp's virtual world on a CAN bus"};
   app.add_option(
          "--bus", options.world.bus,
@@ -21,6 +22,8 @@ int main(int argc, char** argv) {
   app.add_option("--scenario", scenario, "shipped name or folder (default left_turn)");
   app.add_option("--scenarios-folder", scenario_root, "where shipped scenarios lie");
   app.add_option("--seed", options.world.seed, "of the traffic (default 0)");
+  app.add_option("--traffic", traffic, "who simulates it: builtin (default) or sumo (Debian's sumo)")
+      ->check(CLI::IsMember(world::engine_names()));
   app.add_option("--wait-ecu", options.world.wait_s,
                  "seconds for a sign of the ECU (default 10; 0: begin at once)");
   app.add_option("--log", log, "write every frame on the bus here, in candump's format");
@@ -33,6 +36,7 @@ int main(int argc, char** argv) {
   }
   try {
     if (!log.empty()) options.world.log = log;
+    options.world.engine = world::engine_of(traffic);
     const fs::path shipped = scenario_root / scenario;
     const world::Scenario loaded = world::load_scenario(fs::exists(shipped) ? shipped : fs::path(scenario));
     return processes::drive_on_bus(loaded, options, std::cout);

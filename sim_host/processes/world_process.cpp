@@ -59,6 +59,7 @@ class Session {
   static world::WorldOptions world_options(const WorldProcessOptions& options) {
     world::WorldOptions result;
     result.seed = options.seed;
+    result.engine = options.engine;
     return result;
   }
 

@@ -12,12 +12,14 @@
 #include "hal/linux/linux_can.hpp"
 #include "sim_host/world/recording.hpp"
 #include "sim_host/world/scenario.hpp"
+#include "sim_host/world/traffic_engine.hpp"
 
 namespace s4tp::processes {
 
 struct WorldProcessOptions {
   std::string bus;  ///< its name, for messages
   std::uint64_t seed = 0;
+  world::Engine engine = world::Engine::kBuiltin;
   bool realtime = false;
   int wait_s = 10;                           ///< for a sign of the ECU; 0: begin at once
   std::optional<std::filesystem::path> log;  ///< every frame of the bus from the first tick on

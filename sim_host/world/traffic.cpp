@@ -31,9 +31,9 @@ Traffic::Traffic(const Network& network, const std::vector<FlowGroup>& groups, s
       plan_(draw_flows(network, groups, kDrawnUntil_s, random_)),
       waiting_(network.lanes.size()) {}
 
-void Traffic::step(const Actor* ego) {
+void Traffic::step(const EgoSeen* ego) {
   if (ticks_ % kDecisionTicks == 0) {
-    decide(ego);
+    decide(ego == nullptr ? nullptr : &ego->actor);
   }
   ++ticks_;
   for (TrafficCar& car : cars_) {
@@ -239,6 +239,15 @@ void Traffic::clear(LaneId lane, double from_m, double to_m) {
     return (car.lane == lane || car.leaving == lane) && car.s_m + 0.5 * car.length_m > from_m &&
            car.s_m - 0.5 * car.length_m < to_m;
   });
+}
+
+std::vector<CarFlags> Traffic::flags() const {
+  std::vector<CarFlags> all;
+  all.reserve(cars_.size());
+  for (const TrafficCar& car : cars_) {
+    all.push_back({car.id, car.change_done < 1.0, car.speed_mps < 0.1});
+  }
+  return all;
 }
 
 std::vector<CarState> Traffic::cars() const {

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "sim_host/world/recording.hpp"
+#include "sim_host/world/traffic_engine.hpp"
 #include "sim_host/world/traffic_flow.hpp"
 #include "sim_host/world/traffic_junction.hpp"
 #include "sim_host/world/traffic_view.hpp"
@@ -53,20 +54,19 @@ struct TrafficCar {
   [[nodiscard]] double offset_m() const;
 };
 
-class Traffic {
+class Traffic final : public TrafficEngine {
  public:
   /// WORLD-021 The same network, groups and seed give the same traffic to the bit.
   Traffic(const Network& network, const std::vector<FlowGroup>& groups, std::uint64_t seed);
 
-  /// Advances 10 ms. \param ego  as others see it, or null: not there
-  void step(const Actor* ego);
+  void step(const EgoSeen* ego) override;
+  [[nodiscard]] double time_s() const override { return static_cast<double>(ticks_) * 0.01; }
+  [[nodiscard]] std::vector<CarState> cars() const override;
+  [[nodiscard]] std::vector<CarFlags> flags() const override;
+  void clear(LaneId lane, double from_m, double to_m) override;
+  [[nodiscard]] int finished() const override { return finished_; }
 
-  [[nodiscard]] double time_s() const { return static_cast<double>(ticks_) * 0.01; }
-  [[nodiscard]] std::vector<CarState> cars() const;
   [[nodiscard]] const std::vector<TrafficCar>& details() const { return cars_; }
-  /// Takes everybody off a stretch of a lane.
-  void clear(LaneId lane, double from_m, double to_m);
-  [[nodiscard]] int finished() const { return finished_; }  ///< cars that reached the end of their route
 
  private:
   void decide(const Actor* ego);

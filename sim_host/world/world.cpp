@@ -12,7 +12,7 @@
 #include "sim_host/world/box.hpp"
 #include "sim_host/world/locator.hpp"
 #include "sim_host/world/map_node.hpp"
-#include "sim_host/world/traffic.hpp"
+#include "sim_host/world/traffic_engine.hpp"
 
 namespace s4tp::world {
 namespace {
@@ -43,8 +43,8 @@ struct World::Impl {
   Impl(const Scenario& with_scenario, const WorldOptions& with_options);
 
   /// Traffic as it is when the pre-roll begins, or at entry with the start zone freed.
-  [[nodiscard]] std::unique_ptr<Traffic> traffic_until(std::uint64_t seed, double traffic_time_s) const;
-  void free_start_zone(Traffic& with_traffic) const;
+  [[nodiscard]] std::unique_ptr<TrafficEngine> traffic_until(std::uint64_t seed, double traffic_time_s) const;
+  void free_start_zone(TrafficEngine& with_traffic) const;
   [[nodiscard]] bool touched_at_entry(std::uint64_t seed) const;
   [[nodiscard]] CarState ego_on_lane(double time_s) const;
   [[nodiscard]] CarState ego_state() const;
@@ -69,7 +69,7 @@ struct World::Impl {
   RouteGuide guide;
   Vec2 origin;
   Locator locator;
-  std::unique_ptr<Traffic> traffic;
+  std::unique_ptr<TrafficEngine> traffic;
   VehicleNode vehicle;
   Perception perception;
   MapNode map_node;
@@ -113,8 +113,8 @@ World::Impl::Impl(const Scenario& with_scenario, const WorldOptions& with_option
   }
 }
 
-std::unique_ptr<Traffic> World::Impl::traffic_until(std::uint64_t seed, double traffic_time_s) const {
-  auto fresh = std::make_unique<Traffic>(network, scenario.flows, seed);
+std::unique_ptr<TrafficEngine> World::Impl::traffic_until(std::uint64_t seed, double traffic_time_s) const {
+  std::unique_ptr<TrafficEngine> fresh = make_engine(scenario, {options.engine, seed});
   const long ticks = std::lround(traffic_time_s / kTick_s);
   for (long i = 0; i < ticks; ++i) {
     fresh->step(nullptr);
@@ -122,7 +122,7 @@ std::unique_ptr<Traffic> World::Impl::traffic_until(std::uint64_t seed, double t
   return fresh;
 }
 
-void World::Impl::free_start_zone(Traffic& with_traffic) const {
+void World::Impl::free_start_zone(TrafficEngine& with_traffic) const {
   const double half_m = 0.5 * vehicle.vehicle().parameters().length_m;
   const double limit_mps = network.lanes[static_cast<std::size_t>(start_lane)].speed_limit_mps;
   with_traffic.clear(
@@ -131,7 +131,7 @@ void World::Impl::free_start_zone(Traffic& with_traffic) const {
 }
 
 bool World::Impl::touched_at_entry(std::uint64_t seed) const {
-  const std::unique_ptr<Traffic> trial = traffic_until(seed, mission.entry_time_s);
+  const std::unique_ptr<TrafficEngine> trial = traffic_until(seed, mission.entry_time_s);
   free_start_zone(*trial);
   const int ticks = static_cast<int>(std::lround(kUndisturbed_s / kTick_s));
   LaneId before = start_lane;
@@ -140,8 +140,8 @@ bool World::Impl::touched_at_entry(std::uint64_t seed) const {
     if (i > 0) {
       const LanePlace at = locator.locate(self.centre, self.heading_rad, before);
       before = at.lane;
-      const Actor actor = locator.actor(self, at);
-      trial->step(&actor);
+      const EgoSeen seen{self, locator.actor(self, at)};
+      trial->step(&seen);
     }
     for (const CarState& car : trial->cars()) {
       if (overlap(box_of(self), box_of(car))) {
@@ -331,7 +331,7 @@ void World::tick(std::vector<wire::Frame>& frames) {
   ++w.tick_number;
   const int since_entry = w.tick_number - w.entry_tick;
   if (since_entry > 0) {
-    const Actor self = w.locator.actor(w.ego, w.place);
+    const EgoSeen self{w.ego, w.locator.actor(w.ego, w.place)};
     w.traffic->step(&self);
   } else if (w.mission.entry_time_s + since_entry * kTick_s > 0.5 * kTick_s) {
     w.traffic->step(nullptr);

@@ -9,12 +9,14 @@
 #include "sim_host/world/perception.hpp"
 #include "sim_host/world/recording.hpp"
 #include "sim_host/world/scenario.hpp"
+#include "sim_host/world/traffic_engine.hpp"
 #include "sim_host/world/vehicle_node.hpp"
 
 namespace s4tp::world {
 
 struct WorldOptions {
   std::uint64_t seed = 0;
+  Engine engine = Engine::kBuiltin;
   double pre_roll_s = 3.0;
   SensorOptions sensors = {};
   PerceptionOptions perception = {};

@@ -118,9 +118,9 @@ Actor ego_at(double s_m, double speed_mps) {
 TEST(Traffic, StopsBehindTheEgo) {
   const Network network = straight_road();
   Traffic traffic(network, {flow(20.0, false)}, 5);
-  const Actor ego = ego_at(200.0, 0.0);
+  const EgoSeen seen{{}, ego_at(200.0, 0.0)};
   for (int i = 0; i < 4000; ++i) {
-    traffic.step(&ego);
+    traffic.step(&seen);
     for (const CarState& car : traffic.cars()) {
       EXPECT_LT(car.centre.x, 200.0 - 5.5);
     }
@@ -139,15 +139,15 @@ TEST(Traffic, IsNotSuperhuman) {
   }
   const double speed = traffic.cars().front().speed_mps;
   ASSERT_GT(speed, 11.0);
-  const Actor ego = ego_at(traffic.cars().front().centre.x + 17.0, 0.0);
+  const EgoSeen seen{{}, ego_at(traffic.cars().front().centre.x + 17.0, 0.0)};
   for (int i = 0; i < 50; ++i) {
-    traffic.step(&ego);
+    traffic.step(&seen);
   }
   EXPECT_GT(traffic.cars().front().speed_mps, speed - 0.5);
   for (int i = 0; i < 200; ++i) {
-    traffic.step(&ego);
+    traffic.step(&seen);
   }
-  EXPECT_GT(traffic.cars().front().centre.x, ego.s_m - 5.0);
+  EXPECT_GT(traffic.cars().front().centre.x, seen.actor.s_m - 5.0);
 }
 
 // Emptying a stretch takes those whose box reaches into it and nobody else.

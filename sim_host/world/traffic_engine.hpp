@@ -1,0 +1,62 @@
+#pragma once
+/// The traffic around the ego, whoever simulates it: our own drivers (traffic.hpp) or SUMO (sumo/).
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim_host/world/recording.hpp"
+#include "sim_host/world/scenario.hpp"
+#include "sim_host/world/traffic_view.hpp"
+
+namespace s4tp::world {
+
+enum class Engine { kBuiltin, kSumo };
+
+/// "builtin", "sumo"
+[[nodiscard]] const std::vector<std::string>& engine_names();
+/// \throws std::invalid_argument naming those there are
+[[nodiscard]] Engine engine_of(const std::string& name);
+
+/// The ego as other drivers see it.
+struct EgoSeen {
+  CarState car;  ///< where it is
+  Actor actor;   ///< the same on the network
+};
+
+/// What a car is about, as its engine knows it.
+struct CarFlags {
+  int id = 0;
+  bool changing_lane = false;
+  bool waiting = false;  ///< stands: before a junction, or behind somebody
+};
+
+/// Time begins at 0 with an empty network. WORLD-040 The same scenario, seed and egos give the same cars to
+/// the bit, whatever else runs.
+class TrafficEngine {
+ public:
+  virtual ~TrafficEngine() = default;
+
+  /// Advances 10 ms. \param ego  as it is before the step, or null: not there
+  /// \throws std::runtime_error when an engine outside this process has failed
+  virtual void step(const EgoSeen* ego) = 0;
+  [[nodiscard]] virtual double time_s() const = 0;
+  [[nodiscard]] virtual std::vector<CarState> cars() const = 0;  ///< the ego is not among them
+  [[nodiscard]] virtual std::vector<CarFlags> flags() const = 0;
+  /// Takes everybody off a stretch of a lane.
+  virtual void clear(LaneId lane, double from_m, double to_m) = 0;
+  [[nodiscard]] virtual int finished() const = 0;  ///< cars that reached the end of their route
+};
+
+struct EngineOptions {
+  Engine engine = Engine::kBuiltin;
+  std::uint64_t seed = 0;
+};
+
+/// \param scenario  must outlive the engine  \throws std::runtime_error when the engine cannot be started
+[[nodiscard]] std::unique_ptr<TrafficEngine> make_engine(const Scenario& scenario,
+                                                         const EngineOptions& options);
+
+}  // namespace s4tp::world
