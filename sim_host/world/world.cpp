@@ -42,9 +42,9 @@ Vec2 rounded(Vec2 point) {  // as MapOrigin can say it
 struct World::Impl {
   Impl(const Scenario& with_scenario, const WorldOptions& with_options);
 
-  /// Traffic as it is when the pre-roll begins, or at entry with the start zone freed.
   [[nodiscard]] std::unique_ptr<TrafficEngine> traffic_until(std::uint64_t seed, double traffic_time_s) const;
   void free_start_zone(TrafficEngine& with_traffic) const;
+  void run_pre_roll();
   [[nodiscard]] bool touched_at_entry(std::uint64_t seed) const;
   [[nodiscard]] CarState ego_on_lane(double time_s) const;
   [[nodiscard]] CarState ego_state() const;
@@ -69,7 +69,8 @@ struct World::Impl {
   RouteGuide guide;
   Vec2 origin;
   Locator locator;
-  std::unique_ptr<TrafficEngine> traffic;
+  std::unique_ptr<TrafficEngine> traffic;       ///< at entry or later
+  std::vector<std::vector<CarState>> pre_roll;  ///< who is shown in each of its ticks
   VehicleNode vehicle;
   Perception perception;
   MapNode map_node;
@@ -108,9 +109,7 @@ World::Impl::Impl(const Scenario& with_scenario, const WorldOptions& with_option
     ++recording.redrawn;
   }
   traffic = traffic_until(seed, mission.entry_time_s - options.pre_roll_s);
-  if (entry_tick == 0) {
-    free_start_zone(*traffic);
-  }
+  run_pre_roll();
 }
 
 std::unique_ptr<TrafficEngine> World::Impl::traffic_until(std::uint64_t seed, double traffic_time_s) const {
@@ -128,6 +127,26 @@ void World::Impl::free_start_zone(TrafficEngine& with_traffic) const {
   with_traffic.clear(
       start_lane, mission.start_s_m - half_m - kClearHeadway_s * std::max(limit_mps, mission.start_speed_mps),
       mission.start_s_m + half_m + kClearHeadway_s * mission.start_speed_mps);
+}
+
+/// Nothing of it depends on the ego, so it is driven before it is shown: who is taken out of the start zone
+/// at entry has never been there, or the ECU would still believe in him.
+void World::Impl::run_pre_roll() {
+  for (int tick = 1; tick <= entry_tick; ++tick) {
+    if (mission.entry_time_s + (tick - entry_tick) * kTick_s > 0.5 * kTick_s) {
+      traffic->step(nullptr);
+    }
+    pre_roll.push_back(traffic->cars());
+  }
+  const std::vector<CarState> before = traffic->cars();
+  free_start_zone(*traffic);
+  const std::vector<CarState> after = traffic->cars();
+  const auto among = [](const std::vector<CarState>& cars, int id) {
+    return std::any_of(cars.begin(), cars.end(), [&](const CarState& car) { return car.id == id; });
+  };
+  for (std::vector<CarState>& shown : pre_roll) {
+    std::erase_if(shown, [&](const CarState& car) { return among(before, car.id) && !among(after, car.id); });
+  }
 }
 
 bool World::Impl::touched_at_entry(std::uint64_t seed) const {
@@ -264,7 +283,7 @@ void World::Impl::judge() {
 }
 
 void World::Impl::watch() {
-  others = traffic->cars();
+  others = tick_number <= entry_tick ? pre_roll[static_cast<std::size_t>(tick_number - 1)] : traffic->cars();
   if (tick_number >= entry_tick) {
     judge();
   }
@@ -333,11 +352,6 @@ void World::tick(std::vector<wire::Frame>& frames) {
   if (since_entry > 0) {
     const EgoSeen self{w.ego, w.locator.actor(w.ego, w.place)};
     w.traffic->step(&self);
-  } else if (w.mission.entry_time_s + since_entry * kTick_s > 0.5 * kTick_s) {
-    w.traffic->step(nullptr);
-  }
-  if (since_entry == 0) {
-    w.free_start_zone(*w.traffic);
   }
   w.move_ego();
   w.watch();

@@ -239,6 +239,32 @@ TEST(World, FreesTheStartZone) {
   }
 }
 
+// WORLD-032 Nobody vanishes at entry: after 15 s at 10 m/s at most, nobody has reached the end of 200 m yet,
+// so whoever is shown in the pre-roll is there at time 0, too.
+TEST(World, ShowsNobodyWhoIsTakenAwayAtEntry) {
+  Scenario scenario = two_lanes();
+  scenario.flows = {slow_flow(10.0)};
+  scenario.flows[0].vehicles_per_minute = {30.0, 30.0};
+  scenario.mission.entry_time_s = 15.0;
+  scenario.mission.start_s_m = 60.0;
+  for (std::uint64_t seed = 0; seed < 5; ++seed) {
+    World world(scenario, {.seed = seed});
+    std::vector<wire::Frame> frames;
+    while (world.time_s() < 0.005) {
+      world.tick(frames);
+    }
+    const std::vector<Snapshot>& shown = world.recording().snapshots;
+    ASSERT_GE(shown.size(), 30U);
+    for (const Snapshot& snapshot : shown) {
+      for (const CarState& car : snapshot.others) {
+        EXPECT_TRUE(std::any_of(shown.back().others.begin(), shown.back().others.end(),
+                                [&](const CarState& later) { return later.id == car.id; }))
+            << "car " << car.id << " at " << snapshot.time_s << " s, seed " << seed;
+      }
+    }
+  }
+}
+
 // WORLD-034 Holding the entry speed through the shipped scenarios' traffic: whenever boxes overlap in the
 // recording, from the snapshot of time 0 on, a collision is counted; 80 episodes are enough to see some.
 TEST(World, CountsEveryOverlapInTheRecording) {
