@@ -7,17 +7,27 @@ namespace s4tp::ecu {
 namespace {
 
 constexpr std::uint64_t kOtherWorldAfterMs = 1000;
+constexpr int kCounters = 15;  // of end-to-end protection
 
 }  // namespace
+
+bool TickOpener::follows(const Place& last, const Place& next) {
+  const int ahead = static_cast<std::uint16_t>(next.number - last.number);
+  const int counted = (next.counter + kCounters - last.counter) % kCounters;
+  return last.known && ahead >= 1 && ahead <= kAheadMax && counted == ahead % kCounters;
+}
 
 bool TickOpener::opens(const wire::Frame& frame, std::uint64_t now_ms) {
   wire::Tick tick;
   if (!wire::e2e_crc_fits(frame) || !wire::decode(frame, tick)) return false;
-  const auto ahead = static_cast<std::uint16_t>(tick.tick - number_);
-  const bool follows = ahead >= 1 && ahead <= kAheadMax;
-  if (seen_ && !follows && now_ms < opened_ms_ + kOtherWorldAfterMs) return false;
-  seen_ = true;
-  number_ = tick.tick;
+  const Place place{tick.tick, static_cast<std::uint8_t>(frame.data[1] & 0x0FU), true};
+  if (!follows(last_, place)) {
+    if (last_.known && now_ms < opened_ms_ + kOtherWorldAfterMs) return false;
+    const bool second = follows(candidate_, place);
+    candidate_ = place;
+    if (place.number != 1 && !second) return false;
+  }
+  last_ = place;
   opened_ms_ = now_ms;
   return true;
 }
@@ -41,12 +51,12 @@ bool LockstepBus::take(const hal::CanFrame& can_frame, std::uint64_t now_ms) {
     ++refused_ticks_;
     return false;
   }
-  if (size_ < kQueueFrames) {
-    queue_[(first_ + size_++) % kQueueFrames] = frame;
-  } else {
+  if (size_ == kQueueFrames) {
+    first_ = (first_ + 1) % kQueueFrames;
+    --size_;
     ++dropped_;
-    if (is_tick) queue_[(first_ + size_ - 1) % kQueueFrames] = frame;
   }
+  queue_[(first_ + size_++) % kQueueFrames] = frame;
   return is_tick;
 }
 

@@ -9,30 +9,43 @@
 
 #include <cstdint>
 
+#include "firmware/ecu/ecu_core.hpp"
 #include "firmware/wire/frame.hpp"
 #include "hal/can.hpp"
 
 namespace s4tp::ecu {
 
-/// Which TICK frames open a tick.
+/// Which TICK frames open a tick. Of random frames one in 256 has a CRC that fits, so number and counter have
+/// to say the same.
 class TickOpener {
  public:
-  /// PROC-001 Opens on a TICK frame whose CRC fits and whose number is 1 .. kAheadMax further than the last
-  /// one's: not on a damaged or repeated one. After 1 s of silence any number will do: another world.
+  /// PROC-001 Opens on a TICK frame whose CRC fits and whose number and counter are both 1 .. kAheadMax
+  /// further than the last one's: not on a damaged, repeated or invented one. At first, and after 1 s of
+  /// silence, there may be another world: number 1 opens, and so does the second of two in a row.
   /// \param now_ms  of a local clock that never runs back
   [[nodiscard]] bool opens(const wire::Frame& frame, std::uint64_t now_ms);
 
-  static constexpr std::uint16_t kAheadMax = 1000;
+  static constexpr int kAheadMax = 20;
 
  private:
-  bool seen_ = false;
-  std::uint16_t number_ = 0;
+  struct Place {
+    std::uint16_t number = 0;
+    std::uint8_t counter = 0;
+    bool known = false;
+  };
+  [[nodiscard]] static bool follows(const Place& last, const Place& next);
+
+  Place last_;       ///< opened a tick
+  Place candidate_;  ///< did not, but may belong to another world
   std::uint64_t opened_ms_ = 0;
 };
 
 class LockstepBus final : public hal::Can {
  public:
-  static constexpr int kQueueFrames = 512;  ///< as the in-process bus has
+  /// No more than the ECU takes in a tick: else it would work off a flood behind the world's back, and answer
+  /// ticks that are long over. (A real bus carries 90 frames in 10 ms; in lock-step a tick lasts as long as
+  /// it likes.)
+  static constexpr int kQueueFrames = kMaxFramesPerTick;
 
   /// \param can  must outlive this
   explicit LockstepBus(hal::Can& can) : can_(can) {}
@@ -42,7 +55,7 @@ class LockstepBus final : public hal::Can {
   [[nodiscard]] bool take_tick(std::uint64_t now_ms);
 
   /// PROC-002 Frames of the ticks opened so far, in order. A TICK frame that opens none is not handed on; of
-  /// more than kQueueFrames the newest are dropped and counted, the TICK frame excepted.
+  /// more than kQueueFrames the oldest are dropped and counted.
   [[nodiscard]] bool receive(hal::CanFrame& frame) override;
   [[nodiscard]] bool send(const hal::CanFrame& frame) override { return can_.send(frame); }
   [[nodiscard]] hal::CanState state() const override { return can_.state(); }

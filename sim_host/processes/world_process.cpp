@@ -28,6 +28,7 @@ constexpr milliseconds kLook{50};
 constexpr unsigned kEchoMask = 0xFFF;
 constexpr unsigned kOldestEcho = 10;
 constexpr double kLate_ms = 1.0;
+constexpr int kToldUnanswered = 5;
 constexpr int kTicksToEnd = 1000;  // pre-roll and the 200 ticks after which the world calls the ECU dead
 
 int to_ms(steady_clock::duration time) {
@@ -87,13 +88,21 @@ class Session {
         answered = steady_clock::now();
         continue;
       }
+      if (stop_) return;
       ++result_.unanswered;
+      tell_unanswered();
       if (link_was_down_) answered = steady_clock::now();
       if (ecu_lives() && steady_clock::now() < answered + kDeadAfter) continue;
       out_ << "no answer from the ECU: it is dead" << std::endl;
       for (int i = 0; i < kTicksToEnd && !world_.finished(); ++i) world_.tick(frames_);
       return;
     }
+  }
+
+  /// The first few: what came instead of the answer.
+  void tell_unanswered() {
+    if (result_.unanswered > kToldUnanswered) return;
+    out_ << "tick " << result_.ticks << " is not answered; " << refused_text_ << std::endl;
   }
 
   /// \return whether the ECU answered this tick
@@ -156,6 +165,7 @@ class Session {
       if (frame.id != wire::kCommandId) continue;
       if (!answers(frame, oldest)) {
         ++result_.refused_commands;
+        refused_text_ = "the last command refused " + reason_of_refusal(frame);
         continue;
       }
       first_answer_ = answered = true;
@@ -163,6 +173,13 @@ class Session {
       if (!options_.realtime) return true;
     }
     return answered;
+  }
+
+  static std::string reason_of_refusal(const wire::Frame& frame) {
+    wire::Command command;
+    if (!wire::e2e_crc_fits(frame)) return "has a wrong CRC";
+    if (!wire::decode(frame, command)) return "is no command";
+    return "echoes tick " + std::to_string(command.tick);
   }
 
   [[nodiscard]] bool answers(const wire::Frame& frame, unsigned oldest) const {
@@ -191,6 +208,7 @@ class Session {
   std::optional<campaign::BusLog> log_;
   std::vector<wire::Frame> frames_;
   WorldProcessResult result_;
+  std::string refused_text_ = "no command was refused so far";
   bool first_answer_ = false;
   bool link_was_down_ = false;
 };

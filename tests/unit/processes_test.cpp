@@ -297,6 +297,39 @@ TEST(EcuProcess, SilenceEndsTheDrive) {
   EXPECT_EQ(commands, 50);
 }
 
+// PROC-002, PROC-010 A tick that 300 random frames on our ids come before, then two of 700, as when planning
+// took long: each is answered by a command that echoes its own number. (An ECU that takes 256 frames a tick
+// and is handed more answers an earlier tick, and never catches up: to the world it is dead.)
+TEST(EcuProcess, FloodDoesNotDelayTheAnswer) {
+  FakeBus bus;
+  EcuRun run;
+  run.options.silence_s = 1;
+  wire::E2eSender sender;
+  unsigned random = 1;
+  for (int i = 1; i <= 20; ++i) {
+    const int flood = i == 10 ? 300 : i == 11 || i == 12 ? 700 : 0;
+    for (int k = 0; k < flood; ++k) {
+      hal::CanFrame frame;
+      frame.id = wire::kMotionId;
+      frame.length = 8;
+      for (int byte = 0; byte < 8; ++byte)
+        frame.data[byte] = static_cast<std::uint8_t>((random = random * 1664525U + 1013904223U) >> 24U);
+      bus.incoming.push_back(frame);
+    }
+    bus.incoming.push_back(tick_frame(i, sender));
+  }
+  run.run(bus);
+  std::vector<int> echoes;
+  for (const hal::CanFrame& frame : bus.sent) {
+    wire::Command command;
+    if (frame.id == wire::kCommandId && wire::decode(campaign::to_wire(frame), command))
+      echoes.push_back(command.tick);
+  }
+  ASSERT_EQ(echoes.size(), 20U);
+  EXPECT_EQ(echoes.front(), 0);  // the first TICK frame is not trusted yet
+  for (int i = 2; i <= 20; ++i) EXPECT_EQ(echoes[static_cast<std::size_t>(i - 1)], i);
+}
+
 // PROC-011 Asked to stop, it stops within a tenth of a second, and says what it did.
 TEST(EcuProcess, StopsWhenAsked) {
   FakeBus bus;
