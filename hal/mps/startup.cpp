@@ -1,5 +1,7 @@
 #include "hal/mps/startup.hpp"
 
+#include "hal/mps/board.hpp"
+
 extern "C" {
 extern std::uint32_t stack_bottom[];  // the linker script's
 extern std::uint32_t stack_top[];
@@ -50,6 +52,8 @@ extern "C" void reset_handler() {
 }
 
 extern "C" __attribute__((weak)) void systick_handler() {}
+extern "C" __attribute__((weak)) void pendsv_handler() {}
+extern "C" __attribute__((weak)) void uart1_handler() {}
 extern "C" __attribute__((weak)) void nmi_handler() {
   for (;;) {
   }
@@ -57,18 +61,28 @@ extern "C" __attribute__((weak)) void nmi_handler() {
 
 namespace {
 using Handler = void (*)();
+constexpr int kInterrupts = 64;  // more than we use; a stray one beyond them cannot be enabled
 struct VectorTable {
   std::uint32_t* initial_stack;
   Handler handlers[15];
+  Handler interrupts[kInterrupts];
 };
-}  // namespace
 
 // Reset, NMI, hard, memory, bus, usage and secure fault; 7 to 9 reserved; SVC, debug, reserved, PendSV,
-// SysTick.
-extern "C" __attribute__((section(".vectors"), used)) const VectorTable vectors = {
-    stack_top,
-    {reset_handler, nmi_handler, fault_handler, fault_handler, fault_handler, fault_handler, fault_handler,
-     nullptr, nullptr, nullptr, fault_handler, fault_handler, nullptr, fault_handler, systick_handler}};
+// SysTick; then the devices'.
+constexpr VectorTable make_vectors() {
+  VectorTable table = {
+      stack_top,
+      {reset_handler, nmi_handler, fault_handler, fault_handler, fault_handler, fault_handler, fault_handler,
+       nullptr, nullptr, nullptr, fault_handler, fault_handler, nullptr, pendsv_handler, systick_handler},
+      {}};
+  for (Handler& interrupt : table.interrupts) interrupt = fault_handler;
+  for (const int number : s4tp::hal::mps::kUart1Interrupts) table.interrupts[number] = uart1_handler;
+  return table;
+}
+}  // namespace
+
+extern "C" __attribute__((section(".vectors"), used)) constexpr VectorTable vectors = make_vectors();
 
 #else
 

@@ -9,6 +9,10 @@ extern "C" {
 void image_main();
 /// Defined by an image that wants it; otherwise nothing happens.
 void systick_handler();
+/// The same; interrupts.hpp.
+void pendsv_handler();
+/// The same, for the interrupts of UART 1.
+void uart1_handler();
 /// First expiry of the watchdog; unless defined, waits for the second one, which resets.
 void nmi_handler();
 /// Any fault of the core. An image without a debugger waits here for its watchdog.

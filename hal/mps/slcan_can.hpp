@@ -1,0 +1,44 @@
+#pragma once
+/// CAN as text over UART 1: a serial CAN adapter, or a host that speaks like one, at the other end of the
+/// line. The image calls on_interrupt() from its uart1_handler().
+
+#include <atomic>
+#include <cstdint>
+
+#include "hal/can.hpp"
+#include "hal/mps/byte_ring.hpp"
+#include "hal/mps/uart.hpp"
+#include "hal/slcan.hpp"
+
+namespace s4tp::hal::mps {
+
+class SlcanCan final : public Can {
+ public:
+  static constexpr std::uint32_t kReceiveBytes = 2048;  ///< 10 ms of a line of 2 Mbaud
+  static constexpr std::uint32_t kTransmitBytes = 512;  ///< 23 frames; a control tick sends at most 6
+
+  /// MPS-040 Tells the adapter to open at 500 kbit/s. \param baud  kSlcanLeastBaud or more
+  void start(std::uint32_t baud);
+  void on_interrupt();
+
+  /// MPS-041 Frames in the order of arrival. What is no frame of ours is read over; garbage, an adapter's no,
+  /// and bytes that came too fast count as errors.
+  [[nodiscard]] bool receive(CanFrame& frame) override;
+  /// MPS-042 Queues the whole line or nothing: refused and counted as dropped are a full queue and a frame
+  /// that has no SLCAN line.
+  [[nodiscard]] bool send(const CanFrame& frame) override;
+  /// A line without handshake cannot tell whether anybody is there: kActive from start() on.
+  [[nodiscard]] CanState state() const override { return state_; }
+  [[nodiscard]] CanCounters counters() const override;
+
+ private:
+  Uart uart_{kUart1};
+  ByteRing<kReceiveBytes> in_;
+  ByteRing<kTransmitBytes> out_;
+  std::atomic<std::uint32_t> lost_bytes_{0};  ///< the interrupt's
+  SlcanParser parser_;
+  CanState state_ = CanState::kDown;
+  CanCounters counters_;
+};
+
+}  // namespace s4tp::hal::mps
