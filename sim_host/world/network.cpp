@@ -10,6 +10,13 @@ LaneId Network::find(const std::string& lane_name) const {
   return found == lanes.end() ? kNoLane : static_cast<LaneId>(found - lanes.begin());
 }
 
+LaneId Network::lane_of(const std::string& edge, int index) const {
+  const auto found = std::find_if(lanes.begin(), lanes.end(), [&](const NetworkLane& lane) {
+    return lane.index == index && lane.edge == edge;
+  });
+  return found == lanes.end() ? kNoLane : static_cast<LaneId>(found - lanes.begin());
+}
+
 std::vector<LaneId> Network::lanes_of(const std::string& edge) const {
   std::vector<LaneId> found;
   for (std::size_t i = 0; i < lanes.size(); ++i) {

@@ -50,6 +50,8 @@ struct Network {
 
   /// \return kNoLane when there is no such lane
   [[nodiscard]] LaneId find(const std::string& lane_name) const;
+  /// \param index  SUMO's, which counts the lanes that cars may not use too
+  [[nodiscard]] LaneId lane_of(const std::string& edge, int index) const;
   [[nodiscard]] std::vector<LaneId> lanes_of(const std::string& edge) const;  ///< by index, rightmost first
 };
 

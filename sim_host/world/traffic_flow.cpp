@@ -6,14 +6,29 @@ namespace s4tp::world {
 namespace {
 
 RouteGuide guide_for(const Network& network, const TrafficRoute& route) {
-  const std::vector<LaneId> last = network.lanes_of(route.edges.back());
-  LaneId goal = kNoLane;
-  if (route.end_lane >= 0 && route.end_lane < static_cast<int>(last.size())) {
-    goal = last[static_cast<std::size_t>(route.end_lane)];
-  }
-  const LaneId any = goal == kNoLane ? last.at(0) : goal;
+  const LaneId goal = network.lane_of(route.edges.back(), route.end_lane);
+  const LaneId any = goal == kNoLane ? network.lanes_of(route.edges.back()).at(0) : goal;
   return RouteGuide(network, route.edges, goal,
                     network.lanes[static_cast<std::size_t>(any)].centre.length_m());
+}
+
+/// By weight; a single one costs no draw.
+const DriverModel& one_of(const std::vector<DriverModel>& drivers, Random& random) {
+  if (drivers.size() == 1) {
+    return drivers.front();
+  }
+  double all = 0.0;
+  for (const DriverModel& driver : drivers) {
+    all += driver.weight;
+  }
+  double left = random.uniform(0.0, all);
+  for (const DriverModel& driver : drivers) {
+    left -= driver.weight;
+    if (left < 0.0) {
+      return driver;
+    }
+  }
+  return drivers.back();
 }
 
 }  // namespace
@@ -39,10 +54,11 @@ FlowPlan draw_flows(const Network& network, const std::vector<FlowGroup>& groups
         time_s += random.exponential(spacing_s);
       }
       while (time_s < until_s) {
-        const int index =
-            route.start_lane >= 0 ? route.start_lane : random.integer(0, static_cast<int>(start.size()) - 1);
-        plan.departures.push_back(
-            {time_s, way, start.at(static_cast<std::size_t>(index)), draw_driver(group.driver, random)});
+        const LaneId lane =
+            route.start_lane >= 0
+                ? network.lane_of(route.edges.front(), route.start_lane)
+                : start.at(static_cast<std::size_t>(random.integer(0, static_cast<int>(start.size()) - 1)));
+        plan.departures.push_back({time_s, way, lane, draw_driver(one_of(group.drivers, random), random)});
         time_s += group.random_spacing ? random.exponential(spacing_s) : spacing_s;
       }
     }

@@ -29,10 +29,6 @@ constexpr std::uint32_t kMapUpdate_ms = 200;
 constexpr std::uint32_t kPerceptionPhase_ms = 70;  // a list is complete before the next 100 ms boundary
 constexpr std::uint32_t kSlow_ms = 1000;
 
-LaneId lane_of(const Network& network, const std::string& edge, int index) {
-  return network.lanes_of(edge).at(static_cast<std::size_t>(index));
-}
-
 Vec2 rounded(Vec2 point) {  // as MapOrigin can say it
   return {std::round(point.x * 10.0) / 10.0, std::round(point.y * 10.0) / 10.0};
 }
@@ -92,8 +88,8 @@ World::Impl::Impl(const Scenario& with_scenario, const WorldOptions& with_option
       network(with_scenario.network),
       mission(with_scenario.mission),
       options(with_options),
-      start_lane(lane_of(network, mission.start_edge, mission.start_lane)),
-      goal_lane(lane_of(network, mission.edges.back(), mission.goal_lane)),
+      start_lane(mission.start_lane),
+      goal_lane(mission.goal_lane),
       guide(network, mission.edges, goal_lane, mission.goal_s_m),
       origin(rounded(network.lanes[static_cast<std::size_t>(start_lane)].centre.at(mission.start_s_m).point)),
       locator(network, guide),

@@ -48,8 +48,7 @@ inline Scenario shipped(const std::string& name) {
 /// Along the shipped scenario's mission.
 inline RouteGuide guide_of(const Scenario& scenario) {
   const Mission& mission = scenario.mission;
-  const LaneId goal = scenario.network.find(mission.edges.back() + "_" + std::to_string(mission.goal_lane));
-  return RouteGuide(scenario.network, mission.edges, goal, mission.goal_s_m);
+  return RouteGuide(scenario.network, mission.edges, mission.goal_lane, mission.goal_s_m);
 }
 
 inline const NetworkLane& lane(const Network& network, const std::string& name) {

@@ -16,39 +16,46 @@ using test::replaced;
 using test::shipped;
 
 const std::string kScenario = R"(
+[network]
+file = "network.net.xml"
 [mission]
-route = ["west_in", "east_out"]
-goal_m = -10
+start_lane = "west_in_0"
+goal_lane = "east_out_0"
+goal_pos_m = 30.0
 
-[[flow]]
+[traffic.driver]
+max_speed_mps = 10
+[[traffic.flow]]
 choose = 1
 vehicles_per_minute = [5, 10]
 begin_s = 2
 routes = [{ edges = ["south_in", "north_out"] }]
-[flow.driver]
-max_speed_mps = 10
 )";
 
-Scenario scenario_of(const std::string& text) {
+Scenario scenario_of(const std::string& text, const std::string& flavour = {}) {
   const Folder folder;
   folder.write("network.net.xml", test::kCross);
   folder.write("scenario.toml", text);
-  return load_scenario(folder.path());
+  return load_scenario(folder.path(), flavour);
 }
 
-std::string error_of(const std::string& text) {
+std::string error_of(const std::string& text, const std::string& flavour = {}) {
   try {
-    static_cast<void>(scenario_of(text));
+    static_cast<void>(scenario_of(text, flavour));
   } catch (const std::runtime_error& error) {
     return error.what();
   }
   return "no error";
 }
 
-// What is not said is the default; a goal 10 m before the end of a lane of 40 m is at 30 m.
+// SCN-002 What is not said is the default: 5 m along the start lane, at its limit (10 m/s here), 80 s to get
+// there; the way is found.
 TEST(Scenario, FillsInDefaults) {
   const Scenario scenario = scenario_of(kScenario);
-  EXPECT_EQ(scenario.mission.start_edge, "west_in");
+  EXPECT_EQ(scenario.mission.start_lane, scenario.network.find("west_in_0"));
+  EXPECT_EQ(scenario.mission.edges, (std::vector<std::string>{"west_in", "east_out"}));
+  EXPECT_DOUBLE_EQ(scenario.mission.start_s_m, 5.0);
+  EXPECT_DOUBLE_EQ(scenario.mission.start_speed_mps, 10.0);
   EXPECT_DOUBLE_EQ(scenario.mission.goal_s_m, 30.0);
   EXPECT_DOUBLE_EQ(scenario.mission.time_limit_s, 80.0);
   const FlowGroup& flow = scenario.flows.at(0);
@@ -56,37 +63,107 @@ TEST(Scenario, FillsInDefaults) {
   EXPECT_DOUBLE_EQ(flow.vehicles_per_minute.high, 10.0);
   EXPECT_DOUBLE_EQ(flow.begin_s.low, 2.0);
   EXPECT_FALSE(flow.random_spacing);
-  EXPECT_DOUBLE_EQ(flow.driver.max_speed_mps, 10.0);
-  EXPECT_DOUBLE_EQ(flow.driver.acceleration_mps2, 2.6);
+  ASSERT_EQ(flow.drivers.size(), 1U);
+  EXPECT_DOUBLE_EQ(flow.drivers[0].max_speed_mps, 10.0);
+  EXPECT_DOUBLE_EQ(flow.drivers[0].acceleration_mps2, 2.6);
   EXPECT_EQ(flow.routes.at(0).start_lane, -1);
+}
+
+// A goal at -1 is the lane's end (40 m), an entry speed of -1 the lane's limit (10 m/s).
+TEST(Scenario, MinusOneIsWhatTheLaneHas) {
+  const Mission mission =
+      scenario_of(replaced(kScenario, "goal_pos_m = 30.0", "goal_pos_m = -1.0\nentry_speed_mps = -1.0"))
+          .mission;
+  EXPECT_DOUBLE_EQ(mission.goal_s_m, 40.0);
+  EXPECT_DOUBLE_EQ(mission.start_speed_mps, 10.0);
+}
+
+// A flavour's tables are put over the file's; what it does not name stays; without a name the file holds as
+// written.
+TEST(Scenario, AFlavourOverrides) {
+  const std::string text = kScenario +
+                           "[flavour.hasty.mission]\nentry_speed_mps = 12.5\n"
+                           "[flavour.hasty.traffic.driver]\nsvo_rad = 0.5\n";
+  EXPECT_DOUBLE_EQ(scenario_of(text).mission.start_speed_mps, 10.0);
+  EXPECT_DOUBLE_EQ(scenario_of(text, "smarts").mission.start_speed_mps, 10.0);
+  const Scenario hasty = scenario_of(text, "hasty");
+  EXPECT_EQ(hasty.flavour, "hasty");
+  EXPECT_DOUBLE_EQ(hasty.mission.start_speed_mps, 12.5);
+  EXPECT_DOUBLE_EQ(hasty.mission.goal_s_m, 30.0);
+  EXPECT_DOUBLE_EQ(hasty.flows.at(0).drivers.at(0).svo_rad, 0.5);
+  EXPECT_DOUBLE_EQ(hasty.flows.at(0).drivers.at(0).max_speed_mps, 10.0);
+  EXPECT_NE(error_of(text, "lazy").find("flavour.lazy: there is no such flavour; there are: hasty, smarts"),
+            std::string::npos)
+      << error_of(text, "lazy");
+}
+
+// A mix's kinds start from what all drivers have in common.
+TEST(Scenario, AMixHasItsKindsOfDrivers) {
+  const std::string text = replaced(kScenario, "[[traffic.flow]]",
+                                    "[[traffic.mix]]\nname = \"calm\"\nweight = 3\nheadway_s = 2\n"
+                                    "[[traffic.mix]]\n[[traffic.flow]]");
+  const std::vector<DriverModel> drivers = scenario_of(text).flows.at(0).drivers;
+  ASSERT_EQ(drivers.size(), 2U);
+  EXPECT_EQ(drivers[0].name, "calm");
+  EXPECT_DOUBLE_EQ(drivers[0].weight, 3.0);
+  EXPECT_DOUBLE_EQ(drivers[0].headway_s, 2.0);
+  EXPECT_DOUBLE_EQ(drivers[0].max_speed_mps, 10.0);
+  EXPECT_DOUBLE_EQ(drivers[1].weight, 1.0);
+  EXPECT_DOUBLE_EQ(drivers[1].headway_s, 1.0);
 }
 
 // SCN-001 Every error names the file, the key and what is accepted.
 TEST(Scenario, ErrorsSayWhatIsAccepted) {
   const std::vector<std::pair<std::string, std::vector<std::string>>> cases = {
-      {replaced(kScenario, "goal_m", "goal_metres"),
-       {"scenario.toml", "mission.goal_metres", "unknown key", "goal_lane, goal_m, route"}},
+      {replaced(kScenario, "goal_pos_m", "goal_metres"),
+       {"scenario.toml", "mission.goal_metres", "unknown key", "goal_lane, goal_pos_m, start_lane"}},
       {replaced(kScenario, "max_speed_mps", "top_speed"),
-       {"flow[0].driver.top_speed", "accepted here: acceleration_mps2"}},
-      {"wheels = 4\n" + kScenario, {"wheels: unknown key", "flow, mission, network"}},
+       {"traffic.driver.top_speed", "accepted here: acceleration_mps2"}},
+      {"wheels = 4\n" + kScenario, {"wheels: unknown key", "mission, network, traffic"}},
       {replaced(kScenario, "[mission]", "[errand]"), {"mission: missing"}},
-      {replaced(kScenario, "\"east_out\"", "\"moon\""), {"mission.route", "no edge \"moon\""}},
-      {replaced(kScenario, "\"east_out\"", "\"north_out\""), {"mission.route", "no lane leads from"}},
-      {replaced(kScenario, "goal_m = -10", "goal_lane = 3"), {"mission.goal_lane", "has no lane 3"}},
-      {replaced(kScenario, "goal_m = -10", "goal_m = 41"), {"mission.goal_m", "40"}},
-      {replaced(kScenario, "choose = 1", "choose = 2"), {"flow[0].choose", "from 0 to 1"}},
-      {replaced(kScenario, "[5, 10]", "[10, 5]"), {"flow[0].vehicles_per_minute", "low <= high"}},
-      {replaced(kScenario, "= 10\n", "= \"fast\"\n"), {"flow[0].driver.max_speed_mps", "a number from"}},
+      {replaced(kScenario, "\"east_out_0\"", "\"moon_0\""), {"mission.goal_lane", "no lane \"moon_0\""}},
+      {replaced(kScenario, "\"east_out_0\"", "\":c_0_0\""), {"mission.goal_lane", "outside junctions"}},
+      {replaced(kScenario, "\"east_out_0\"", "\"north_out_0\""),
+       {"mission.goal_lane", "no way for a car leads from lane \"west_in_0\" to lane \"north_out_0\""}},
+      {replaced(kScenario, "\"east_out_0\"", "\"west_in_0\"\nstart_pos_m = 35"),
+       {"mission.goal_lane", "the goal lies behind the start"}},
+      {replaced(kScenario, "30.0", "41"), {"mission.goal_pos_m", "40"}},
+      {replaced(kScenario, "30.0", "-0.5"), {"mission.goal_pos_m", "or -1"}},
+      {replaced(kScenario, "30.0", "30.0\nstart_pos_m = 41"), {"mission.start_pos_m", "40"}},
+      {replaced(kScenario, "choose = 1", "choose = 2"), {"traffic.flow[0].choose", "from 0 to 1"}},
+      {replaced(kScenario, "[5, 10]", "[10, 5]"), {"traffic.flow[0].vehicles_per_minute", "low <= high"}},
+      {replaced(kScenario, "= 10\n", "= \"fast\"\n"), {"traffic.driver.max_speed_mps", "a number from"}},
       {replaced(kScenario, "begin_s = 2", "begin_s = 2\nspacing = \"odd\""),
-       {"flow[0].spacing", "\"random\""}},
+       {"traffic.flow[0].spacing", "\"random\""}},
+      {replaced(kScenario, "\"north_out\"] }", "\"moon\"] }"), {"routes[0].edges", "no edge \"moon\""}},
+      {replaced(kScenario, "\"north_out\"] }", "\"north_out\"], end_lane = 3 }"),
+       {"routes[0].end_lane", "has no lane 3"}},
+      {replaced(kScenario, "[traffic.driver]", "[traffic]\nroutes = [\"a.rou.xml\"]\n[traffic.driver]"),
+       {"traffic.routes", "either route files"}},
       {replaced(kScenario, "[mission]", "[mission"), {"TOML"}},
-      {"network = \"none.net.xml\"\n" + kScenario, {"none.net.xml"}},
+      {replaced(kScenario, "network.net.xml", "none.net.xml"), {"none.net.xml"}},
   };
   for (const auto& [text, expected] : cases) {
     for (const std::string& part : expected) {
       EXPECT_NE(error_of(text).find(part), std::string::npos) << error_of(text) << "\n  lacks: " << part;
     }
   }
+}
+
+// A scenario is named by its folder or by its own file, whatever that is called; route files lie beside it.
+TEST(Scenario, IsNamedByFolderOrFile) {
+  const Folder folder;
+  folder.write("network.net.xml", test::kCross);
+  folder.write("a.rou.xml", "<routes/>");
+  const std::string text = kScenario.substr(0, kScenario.find("[traffic.driver]"));
+  folder.write("scenario.toml", text);
+  folder.write("two.toml", text + "[traffic]\nroutes = [\"a.rou.xml\"]\n");
+  EXPECT_EQ(load_scenario(folder.path()).name, folder.path().filename());
+  EXPECT_EQ(load_scenario(folder.path() / "scenario.toml").name, folder.path().filename());
+  const Scenario two = load_scenario(folder.path() / "two.toml");
+  EXPECT_EQ(two.name, "two");
+  EXPECT_EQ(two.network_file, folder.path() / "network.net.xml");
+  EXPECT_EQ(two.route_files, std::vector<std::filesystem::path>{folder.path() / "a.rou.xml"});
 }
 
 // A folder without a scenario.toml is said to be none.

@@ -29,7 +29,6 @@ Scenario two_lanes() {
   }
   scenario.network.lanes[0].left = 1;
   scenario.network.lanes[1].right = 0;
-  scenario.mission.start_edge = "road";
   scenario.mission.edges = {"road"};
   scenario.mission.start_s_m = 10.0;
   scenario.mission.start_speed_mps = 10.0;
@@ -42,8 +41,8 @@ FlowGroup slow_flow(double speed_mps) {
   FlowGroup group;
   group.routes = {{{"road"}, 0, 0}};
   group.vehicles_per_minute = {10.0, 10.0};
-  group.driver.max_speed_mps = speed_mps;
-  group.driver.lane_keeping = true;
+  group.drivers[0].max_speed_mps = speed_mps;
+  group.drivers[0].lane_keeping = true;
   return group;
 }
 
