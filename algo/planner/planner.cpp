@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::uint32_t kMaxLeadMs = 200;  // plan start after the snapshot
 constexpr std::uint8_t kNobody = 255;
+constexpr float kCrashCost = 1000.0F;  // a certain crash outweighs all other terms of a score together
 
 /// Tells the probe about one stage, from construction to the end of the scope.
 class StageScope {
@@ -111,7 +112,7 @@ Status Planner::plan(const PlannerInput& input, Plan& plan, Explanation& explana
   }
   if (status != Status::kOk) {
     minimum_risk(scene_, start_, running_, start_ms_, parameters_, chosen_);
-  } else {
+  } else if (guarded) {
     const RssEnvelope envelope = rss_envelope(scene_, parameters_);
     explanation.rss_clipped = clip_to_envelope(envelope, parameters_, chosen_);
   }
@@ -179,13 +180,15 @@ void Planner::rank(bool careful, Explanation& explanation) {
     const int places = keeps_plan_ && key == plan_key_ ? kMaxCandidates : allowance.decisions;
     if (!decisions_.open_to(key, costs_[i].total(), places)) continue;
     costs_[i].risk = parameters_.scoring.risk *
-                     rank_risk(scene_, drivable_, unconditioned_, keep_going_, chosen_, parameters_);
+                         rank_risk(scene_, drivable_, unconditioned_, keep_going_, chosen_, parameters_) +
+                     crash_cost(unconditioned_);
     decisions_.offer(key, i, costs_[i].total());
   }
   decisions_.shortlist(allowance.decisions, keeps_plan_, plan_key_);
 }
 
 Rejection Planner::judge(int path, const PredictionSet& conditioned, CheckReport& report) const {
+  if (!guarded) return feasible(chosen_, parameters_) ? Rejection::kNone : Rejection::kInfeasible;
   report = check_trajectory(scene_, path, chosen_, unconditioned_, conditioned, keep_going_, parameters_);
   switch (report.result) {
     case CheckResult::kPassed:
@@ -199,6 +202,19 @@ Rejection Planner::judge(int path, const PredictionSet& conditioned, CheckReport
       break;
   }
   return Rejection::kInfeasible;
+}
+
+float Planner::crash_cost(const PredictionSet& prediction) const {
+  if (guarded) return 0.0F;
+  float crashes = 0.0F;  // expected number
+  for (const AgentPrediction& predicted : prediction.agents) {
+    const Track& track = scene_.agents[predicted.agent].track;
+    for (const Mode& mode : predicted.modes) {
+      const bool hit = first_collision(chosen_, mode, track, kHorizonSteps, 0.0F, parameters_) >= 0;
+      if (hit) crashes = crashes + mode.probability;
+    }
+  }
+  return kCrashCost * crashes;
 }
 
 Status Planner::choose(Explanation& explanation) {
@@ -252,7 +268,8 @@ bool Planner::evaluate(int index, Explanation& explanation) {
   }
   const StageScope scope(probe, Stage::kExactRisk);
   exact_risk(scene_, drivable_, conditioned_, keep_going_, chosen_, parameters_, risk_);
-  costs_[index].risk = parameters_.scoring.risk * risk_integral(risk_, parameters_);
+  costs_[index].risk =
+      parameters_.scoring.risk * risk_integral(risk_, parameters_) + crash_cost(conditioned_);
   count(explanation, Stage::kExactRisk, 1);
   return true;
 }
@@ -268,9 +285,11 @@ void Planner::refine(int path, Explanation& explanation) {
   const StageScope scope(probe, Stage::kCheck);
   count(explanation, Stage::kCheck, 1);
   // A refinement that does not pass is dropped: what it started from has passed.
-  const CheckReport report =
-      check_trajectory(scene_, path, refined_, unconditioned_, conditioned_, keep_going_, parameters_);
-  if (report.result == CheckResult::kPassed) chosen_ = refined_;
+  const bool passes = guarded ? check_trajectory(scene_, path, refined_, unconditioned_, conditioned_,
+                                                 keep_going_, parameters_)
+                                        .result == CheckResult::kPassed
+                              : feasible(refined_, parameters_);
+  if (passes) chosen_ = refined_;
 }
 
 }  // namespace s4tp

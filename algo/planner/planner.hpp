@@ -50,6 +50,10 @@ class Planner {
 
   WorkAllowance allowance;
   Probe* probe = nullptr;  ///< optional; not owned
+  /// False for comparisons only, never in a car: the score alone decides among feasible candidates, with what
+  /// is predicted to be hit as one more term; no check, no terminal condition, no RSS envelope. The
+  /// minimum-risk manoeuvre is left for when there is no candidate at all.
+  bool guarded = true;
 
  private:
   void forget_scene();
@@ -61,6 +65,8 @@ class Planner {
   /// Rolls candidate `index` out into chosen_, predicts for it, checks it and computes its exact risk.
   [[nodiscard]] bool evaluate(int index, Explanation& explanation);
   [[nodiscard]] Rejection judge(int path, const PredictionSet& conditioned, CheckReport& report) const;
+  /// What stands for the check in an unguarded planner's score; 0 in a guarded one's.
+  [[nodiscard]] float crash_cost(const PredictionSet& prediction) const;
   void refine(int path, Explanation& explanation);
 
   bool initialized_ = false;

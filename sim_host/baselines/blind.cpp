@@ -1,6 +1,14 @@
 #include "sim_host/baselines/blind.hpp"
 
+#include "sim_host/campaign/planner_registry.hpp"
+
 namespace s4tp::baselines {
+namespace {
+
+const campaign::RegisterPlanner kRegistered{
+    campaign::planner<BlindPlanner>("blind", "s4tp with every other car withheld from it")};
+
+}  // namespace
 
 Status BlindPlanner::plan(const PlannerInput& input, Plan& plan, Explanation& explanation) {
   PlannerInput empty_road = input;

@@ -22,12 +22,14 @@ class AnyEcu {
   [[nodiscard]] virtual const ecu::EcuCore& core() const = 0;
 };
 
-/// Names make_ecu() accepts: s4tp, constant_speed, blind.
-[[nodiscard]] const std::vector<std::string>& planner_names();
+/// Names make_ecu() accepts, s4tp first (planner_registry.hpp).
+[[nodiscard]] std::vector<std::string> planner_names();
 
-/// \param probe  may be null; the constant-speed planner has none
+/// \param guarded  with check, RSS envelope and minimum-risk manoeuvre behind the planner
+/// \param probe    may be null; not every planner has something to tell it
 /// \throws std::invalid_argument naming the planners there are, or the first bad parameter
-[[nodiscard]] std::unique_ptr<AnyEcu> make_ecu(const std::string& planner, const Parameters& parameters,
-                                               const ecu::Ports& ports, Probe* probe);
+[[nodiscard]] std::unique_ptr<AnyEcu> make_ecu(const std::string& planner, bool guarded,
+                                               const Parameters& parameters, const ecu::Ports& ports,
+                                               Probe* probe);
 
 }  // namespace s4tp::campaign

@@ -7,8 +7,9 @@
 
 namespace s4tp::campaign {
 
-std::string ecu_note(const std::string& planner, const Parameters& parameters) {
-  return "planner " + planner + ", parameters " + std::to_string(parameters_crc(parameters));
+std::string ecu_note(const std::string& planner, bool guarded, const Parameters& parameters) {
+  return "planner " + planner + (guarded ? "" : " bare") + ", parameters " +
+         std::to_string(parameters_crc(parameters));
 }
 
 BusLog::BusLog(const std::filesystem::path& file, std::uint64_t seed, const std::string& ecu_note)

@@ -13,7 +13,7 @@
 namespace s4tp::campaign {
 
 /// What its first line says of the ECU; without it the log can only be judged by who knows.
-[[nodiscard]] std::string ecu_note(const std::string& planner, const Parameters& parameters);
+[[nodiscard]] std::string ecu_note(const std::string& planner, bool guarded, const Parameters& parameters);
 
 class BusLog {
  public:

@@ -12,8 +12,10 @@ namespace {
 
 class EcuOnBus final : public Driver {
  public:
-  EcuOnBus(const std::string& planner, const Parameters& parameters, hal::Telemetry* telemetry, Probe* probe)
-      : ecu_(make_ecu(planner, parameters, {ecu_port_, &clock_, &cycles_, &watchdog_, telemetry}, probe)) {}
+  EcuOnBus(const std::string& planner, bool guarded, const Parameters& parameters, hal::Telemetry* telemetry,
+           Probe* probe)
+      : ecu_(make_ecu(planner, guarded, parameters, {ecu_port_, &clock_, &cycles_, &watchdog_, telemetry},
+                      probe)) {}
 
   void tick(const std::vector<wire::Frame>& from_world, std::vector<wire::Frame>& to_world) override {
     for (const wire::Frame& frame : from_world) {
@@ -44,9 +46,9 @@ class EcuOnBus final : public Driver {
 
 }  // namespace
 
-std::unique_ptr<Driver> make_driver(const std::string& planner, const Parameters& parameters,
+std::unique_ptr<Driver> make_driver(const std::string& planner, bool guarded, const Parameters& parameters,
                                     hal::Telemetry* telemetry, Probe* probe) {
-  return std::make_unique<EcuOnBus>(planner, parameters, telemetry, probe);
+  return std::make_unique<EcuOnBus>(planner, guarded, parameters, telemetry, probe);
 }
 
 }  // namespace s4tp::campaign

@@ -26,7 +26,8 @@ class Driver {
 };
 
 /// \param telemetry  may be null  \throws as make_ecu()
-[[nodiscard]] std::unique_ptr<Driver> make_driver(const std::string& planner, const Parameters& parameters,
-                                                  hal::Telemetry* telemetry, Probe* probe);
+[[nodiscard]] std::unique_ptr<Driver> make_driver(const std::string& planner, bool guarded,
+                                                  const Parameters& parameters, hal::Telemetry* telemetry,
+                                                  Probe* probe);
 
 }  // namespace s4tp::campaign

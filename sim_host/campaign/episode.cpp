@@ -23,13 +23,14 @@ EpisodeResult run_episode(const world::Scenario& scenario, const EpisodeOptions&
   EpisodeResult result;
   result.trace = std::make_unique<Trace>();
   Trace* const trace = options.trace ? result.trace.get() : nullptr;
-  const auto driver = make_driver(options.planner, options.parameters, trace, trace);
+  const auto driver = make_driver(options.planner, options.guarded, options.parameters, trace, trace);
   world::WorldOptions world_options;
   world_options.seed = options.seed;
   world_options.engine = options.engine;
   world::World world(scenario, world_options);
   std::optional<BusLog> log;
-  if (options.log) log.emplace(*options.log, options.seed, ecu_note(options.planner, options.parameters));
+  if (options.log)
+    log.emplace(*options.log, options.seed, ecu_note(options.planner, options.guarded, options.parameters));
 
   std::vector<wire::Frame> from_world;
   std::vector<wire::Frame> delivered;

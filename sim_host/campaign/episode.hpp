@@ -20,6 +20,7 @@ namespace s4tp::campaign {
 struct EpisodeOptions {
   std::uint64_t seed = 0;
   std::string planner = "s4tp";
+  bool guarded = true;  ///< make_ecu()
   world::Engine engine = world::Engine::kBuiltin;
   Parameters parameters;
   std::optional<std::filesystem::path> log;  ///< candump log of every frame on the bus

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <iostream>
 
-#include "sim_host/campaign/any_ecu.hpp"
 #include "sim_host/campaign/results.hpp"
 #include "sim_host/commands/drive.hpp"
 
@@ -48,7 +47,7 @@ Command add_demo(CLI::App& tool) {
   CLI::App* demo = tool.add_subcommand("demo", "the four scenarios, s4tp beside two careless drivers");
   const auto options = std::make_shared<DriveOptions>();
   options->common.out = std::filesystem::path("out") / "demo";
-  options->planners = campaign::planner_names();
+  options->planners = {"s4tp", "constant_speed", "blind"};
   options->common.add_to(*demo);
   demo->add_option("--episodes", options->episodes, "per scenario and planner (default 20)")
       ->check(CLI::PositiveNumber);

@@ -12,7 +12,7 @@ Command add_eval(CLI::App& tool) {
   eval->add_option("--episodes", options->episodes, "per scenario and planner (default 20)")
       ->check(CLI::PositiveNumber);
   eval->add_option("--scenarios", options->scenarios, "shipped names or folders")->delimiter(',');
-  eval->add_option("--planners,--planner", options->planners, "s4tp, constant_speed, blind")
+  eval->add_option("--planners,--planner", options->planners, "who drives (default s4tp)")
       ->delimiter(',')
       ->check(CLI::IsMember(campaign::planner_names()));
   return {eval, [options] {

@@ -20,6 +20,8 @@ struct RunOptions {
   CommonOptions common;
   std::string scenario = "left_turn";
   std::string planner = "s4tp";
+  std::string guard = "on";
+  [[nodiscard]] bool guarded() const { return guard == "on"; }
   std::string bus;
   bool realtime = false;
   bool no_ecu = false;
@@ -31,6 +33,7 @@ int run_one(const RunOptions& run) {
   campaign::EpisodeOptions options;
   options.seed = run.common.seed;
   options.planner = run.planner;
+  options.guarded = run.guarded();
   options.engine = world::engine_of(run.common.traffic);
   options.parameters = run.common.parameters();
   options.trace = true;
@@ -75,8 +78,8 @@ int run_on_bus(const RunOptions& run) {
   options.out = run.common.out;
   if (options.start_ecu) {
     options.planner = run.planner;
-    options.world.ecu_note = campaign::ecu_note(run.planner, run.common.parameters());
-    options.ecu_arguments = {"--planner", run.planner};
+    options.world.ecu_note = campaign::ecu_note(run.planner, run.guarded(), run.common.parameters());
+    options.ecu_arguments = {"--planner", run.planner, "--guard", run.guard};
     if (!run.common.parameters_file.empty()) {
       options.ecu_arguments.insert(options.ecu_arguments.end(), {"--parameters", run.common.parameters_file});
     }
@@ -94,8 +97,10 @@ Command add_run(CLI::App& tool) {
   options->common.add_to(*run);
   options->common.add_traffic_to(*run);
   run->add_option("--scenario", options->scenario, "shipped name or folder (default left_turn)");
-  run->add_option("--planner", options->planner, "s4tp, constant_speed, blind")
+  run->add_option("--planner", options->planner, "who drives (default s4tp)")
       ->check(CLI::IsMember(campaign::planner_names()));
+  run->add_option("--guard", options->guard, "check, RSS and minimum-risk manoeuvre behind him (default on)")
+      ->check(CLI::IsMember({"on", "off"}));
   run->add_option("--log", options->log, "write every frame on the bus here, in candump's format");
   CLI::Option* const bus =
       run->add_option("--bus", options->bus,

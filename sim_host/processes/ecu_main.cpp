@@ -20,8 +20,11 @@ int main(int argc, char** argv) {
   app.add_option("--bus", options.bus,
                  "can0, vcan0, slcan:tcp:HOST:PORT, slcan:pty:PATH, slcan:tty:PATH@BAUD")
       ->required();
-  app.add_option("--planner", options.planner, "s4tp, constant_speed, blind")
+  app.add_option("--planner", options.planner, "the planner on it (default s4tp)")
       ->check(CLI::IsMember(campaign::planner_names()));
+  std::string guard = "on";
+  app.add_option("--guard", guard, "check, RSS and minimum-risk manoeuvre behind the planner (default on)")
+      ->check(CLI::IsMember({"on", "off"}));
   app.add_option("--parameters", parameters_file, "TOML file of planner parameters (docs/parameters.md)");
   app.add_option("--wait", options.wait_s, "seconds for the first tick (default 60)");
   app.add_option("--silence", options.silence_s, "seconds without a tick that end the drive (default 5)");
@@ -32,6 +35,7 @@ int main(int argc, char** argv) {
     return app.exit(error) == 0 ? 0 : 2;
   }
   try {
+    options.guarded = guard == "on";
     if (!parameters_file.empty()) options.parameters = campaign::load_parameters(parameters_file);
     const auto bus = std::make_unique<hal::linux_host::NamedBus>();
     processes::open_bus(*bus, options.bus, processes::Side::kEcu);

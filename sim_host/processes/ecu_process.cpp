@@ -107,7 +107,7 @@ EcuEnd run_ecu(hal::linux_host::LinuxCan& can, const EcuProcessOptions& options,
   hal::sim::NullCycleCounter cycles;
   hal::sim::NullWatchdog watchdog;
   Reporter reporter(out);
-  const auto ecu = campaign::make_ecu(options.planner, options.parameters,
+  const auto ecu = campaign::make_ecu(options.planner, options.guarded, options.parameters,
                                       {&bus, &clock, &cycles, &watchdog, &reporter}, nullptr);
   std::optional<PlanningThread> planning;
   if (options.realtime) planning.emplace(*ecu);

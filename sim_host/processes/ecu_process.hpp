@@ -14,6 +14,7 @@ namespace s4tp::processes {
 struct EcuProcessOptions {
   std::string bus;  ///< its name, for messages
   std::string planner = "s4tp";
+  bool guarded = true;  ///< campaign::make_ecu()
   Parameters parameters;
   int wait_s = 60;        ///< for the first tick
   int silence_s = 5;      ///< without a tick, after which the drive is over

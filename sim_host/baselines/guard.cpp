@@ -1,0 +1,67 @@
+#include "sim_host/baselines/guard.hpp"
+
+#include <cmath>
+
+#include "algo/safety/minimum_risk.hpp"
+#include "algo/safety/rss.hpp"
+#include "algo/safety/trajectory_check.hpp"
+#include "algo/trajectory/candidates.hpp"
+
+namespace s4tp::baselines {
+namespace {
+
+/// The ego path in whose lane the trajectory ends.
+int path_of(const Scene& scene, const Trajectory& trajectory) {
+  const TrajectoryPoint& end = trajectory.points[kHorizonSteps];
+  int nearest = 0;
+  float least_m = 1e9F;
+  for (int i = 0; i < scene.ego_paths.size(); ++i) {
+    const Frenet there = project(*scene.map, scene.ego_paths[i].path, position(end.rear_axle), 0.0F, -1.0F);
+    if (std::abs(there.d_m) >= least_m) continue;
+    least_m = std::abs(there.d_m);
+    nearest = i;
+  }
+  return nearest;
+}
+
+}  // namespace
+
+Status Guard::init(const Parameters& parameters) {
+  int first_bad = 0;
+  parameters_ = parameters;
+  scene_builder_.reset();
+  return validate(parameters, first_bad);
+}
+
+Status Guard::apply(const PlannerInput& input, Status status, Plan& plan, Explanation& explanation) {
+  const Plan running = input.running != nullptr ? *input.running : Plan{};
+  const Status seen = scene_builder_.build(input.now_ms, input.ego, input.tracks, input.tracks_ms, input.map,
+                                           parameters_, scene_);
+  if (status == Status::kOk) status = seen;
+  if (status == Status::kOk) {
+    explanation.check = check(plan.trajectory, input.start_ms);
+    if (explanation.check.result != CheckResult::kPassed) status = Status::kNoSafePlan;
+  }
+  explanation.status = status;
+  if (status == Status::kOk) {
+    explanation.rss_clipped =
+        clip_to_envelope(rss_envelope(scene_, parameters_), parameters_, plan.trajectory);
+    return status;
+  }
+  plan.kind = PlanKind::kMinimumRisk;
+  plan.start_ms = input.start_ms;
+  const TrajectoryPoint start = plan_start(input.ego, input.now_ms, running, input.start_ms, parameters_);
+  minimum_risk(scene_, start, running, input.start_ms, parameters_, plan.trajectory);
+  return status;
+}
+
+CheckReport Guard::check(const Trajectory& trajectory, std::uint32_t start_ms) {
+  predictor_.encode(scene_, parameters_, start_ms);
+  predictor_.decode(nullptr, unconditioned_);
+  predictor_.decode(&trajectory, conditioned_);
+  predictor_.keep_going(keep_going_);
+  return check_trajectory(scene_, path_of(scene_, trajectory), trajectory, unconditioned_, conditioned_,
+                          keep_going_, parameters_);
+}
+
+}  // namespace s4tp::baselines

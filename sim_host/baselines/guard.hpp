@@ -1,0 +1,52 @@
+#pragma once
+/// The guard around somebody else's plan: check, RSS envelope, minimum-risk manoeuvre, as the S4TP planner
+/// has them inside. Every planner is compared with it and without (METHOD section 4).
+///
+/// It sees the tracks as they are, whatever its planner makes of them. A plan that does not pass is replaced
+/// by the minimum-risk manoeuvre for this cycle; one that passes is clipped to the RSS envelope. An
+/// infeasible trajectory does not pass, so a planner that wants its plans driven keeps to feasible()
+/// (bicycle.hpp).
+
+#include "algo/planner/planner.hpp"
+
+namespace s4tp::baselines {
+
+class Guard {
+ public:
+  [[nodiscard]] Status init(const Parameters& parameters);
+  /// \param status  what the planner said of `plan`; anything but kOk is a plan that does not pass
+  /// \return kOk, or why the plan is now the minimum-risk manoeuvre: `status`, kNoLane, kNoSafePlan
+  [[nodiscard]] Status apply(const PlannerInput& input, Status status, Plan& plan, Explanation& explanation);
+
+ private:
+  [[nodiscard]] CheckReport check(const Trajectory& trajectory, std::uint32_t start_ms);
+
+  Parameters parameters_;
+  SceneBuilder scene_builder_;
+  Scene scene_;
+  Predictor predictor_;
+  PredictionSet unconditioned_;
+  PredictionSet conditioned_;
+  KinematicSet keep_going_;
+};
+
+/// A planner with the guard behind it; a planner itself.
+template <class PlannerT>
+class Guarded {
+ public:
+  [[nodiscard]] Status init(const Parameters& parameters) {
+    const Status status = planner_.init(parameters);
+    return status == Status::kOk ? guard_.init(parameters) : status;
+  }
+  [[nodiscard]] Status plan(const PlannerInput& input, Plan& plan, Explanation& explanation) {
+    const Status status = planner_.plan(input, plan, explanation);
+    return guard_.apply(input, status, plan, explanation);
+  }
+  [[nodiscard]] PlannerT& inner() { return planner_; }
+
+ private:
+  PlannerT planner_;
+  Guard guard_;
+};
+
+}  // namespace s4tp::baselines

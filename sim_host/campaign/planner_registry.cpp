@@ -1,0 +1,33 @@
+#include "sim_host/campaign/planner_registry.hpp"
+
+#include <algorithm>
+
+namespace s4tp::campaign {
+namespace {
+
+std::vector<PlannerEntry>& registry() {
+  static std::vector<PlannerEntry> entries;  // made by whoever registers first
+  return entries;
+}
+
+bool before(const PlannerEntry& a, const PlannerEntry& b) {
+  const bool a_second = a.name != "s4tp";
+  const bool b_second = b.name != "s4tp";
+  return a_second != b_second ? b_second : a.name < b.name;
+}
+
+}  // namespace
+
+const std::vector<PlannerEntry>& planners() {
+  return registry();
+}
+
+RegisterPlanner::RegisterPlanner(const PlannerEntry& entry) {
+  const auto place = std::lower_bound(registry().begin(), registry().end(), entry, before);
+  if (place != registry().end() && place->name == entry.name) {
+    throw std::logic_error("two planners are called '" + entry.name + "'");
+  }
+  registry().insert(place, entry);
+}
+
+}  // namespace s4tp::campaign

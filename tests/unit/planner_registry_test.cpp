@@ -1,0 +1,156 @@
+// Planners that register themselves, and the guard put around them.
+
+#include "sim_host/campaign/planner_registry.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "sim_host/campaign/episode.hpp"
+
+namespace s4tp::campaign {
+namespace {
+
+/// A planner that always asks for the same thing.
+class Fixed {
+ public:
+  [[nodiscard]] Status init(const Parameters&) { return Status::kOk; }
+  [[nodiscard]] Status plan(const PlannerInput& input, Plan& plan, Explanation&) {
+    plan = wish;
+    plan.start_ms = input.start_ms;
+    return status;
+  }
+  Plan wish;
+  Status status = Status::kOk;
+};
+
+/// Along +x at 10 m/s.
+Plan straight() {
+  Plan plan;
+  plan.kind = PlanKind::kDrive;
+  for (int i = 0; i < kTrajectoryPoints; ++i) {
+    plan.trajectory.points[i].rear_axle.x_m = static_cast<float>(i);
+    plan.trajectory.points[i].speed_mps = 10.0F;
+  }
+  return plan;
+}
+
+struct StraightRoad {
+  StraightRoad() {
+    Lane& lane = map.lanes[0];
+    lane.present = lane.on_route = true;
+    lane.length_m = lane.route_remaining_m = lane.goal_distance_m = 180.0F;
+    lane.point_count = 10;
+    for (int i = 0; i < lane.point_count; ++i) lane.points[i] = {20.0F * static_cast<float>(i) - 20.0F, 0.0F};
+    input.map = &map;
+    input.start_ms = 100;
+    input.ego.speed_mps = 10.0F;
+  }
+  void add_standing_car(float x_m) {
+    Track car;
+    car.id = 1;
+    car.centre.x_m = x_m;
+    car.length_m = 5.0F;
+    car.width_m = 1.8F;
+    (void)input.tracks.push(car);
+  }
+  LaneMap map;
+  PlannerInput input;
+};
+
+struct Answer {
+  Status status = Status::kOk;
+  Plan plan;
+};
+
+Answer ask(const StraightRoad& road, const Plan& wish, Status status = Status::kOk) {
+  auto guarded = std::make_unique<baselines::Guarded<Fixed>>();
+  guarded->inner().wish = wish;
+  guarded->inner().status = status;
+  EXPECT_EQ(guarded->init(Parameters{}), Status::kOk);
+  Answer answer;
+  Explanation explanation;
+  answer.status = guarded->plan(road.input, answer.plan, explanation);
+  return answer;
+}
+
+float last_speed_mps(const Answer& answer) {
+  return answer.plan.trajectory.points[kHorizonSteps].speed_mps;
+}
+
+// Planners linked as objects are all there, s4tp first, and every name makes an ECU with and without guard.
+TEST(PlannerRegistry, EveryPlannerIsThere) {
+  const std::vector<std::string> names = planner_names();
+  ASSERT_FALSE(names.empty());
+  EXPECT_EQ(names.front(), "s4tp");
+  for (const char* const name : {"blind", "constant_speed"}) {
+    EXPECT_NE(std::find(names.begin(), names.end(), name), names.end()) << name;
+  }
+}
+
+// A name can be taken once only: results could not be told apart.
+TEST(PlannerRegistry, RefusesASecondOfTheSameName) {
+  EXPECT_THROW(RegisterPlanner(planner<Fixed>("s4tp", "an impostor")), std::logic_error);
+}
+
+// On an empty road the guard changes nothing: the same points, bit by bit.
+TEST(Guard, LetsASafePlanThrough) {
+  const StraightRoad road;
+  const Answer answer = ask(road, straight());
+  EXPECT_EQ(answer.status, Status::kOk);
+  EXPECT_EQ(answer.plan.kind, PlanKind::kDrive);
+  for (int i = 0; i < kTrajectoryPoints; ++i) {
+    EXPECT_EQ(answer.plan.trajectory.points[i].rear_axle.x_m, static_cast<float>(i));
+  }
+}
+
+// At 10 m/s for 3 s the front comes to 34 m; a car stands from 25 m on. Braking at 4 m/s^2 stops within
+// 12.5 m: the minimum-risk manoeuvre takes over and ends at rest.
+TEST(Guard, StopsAPlanThatWouldHit) {
+  StraightRoad road;
+  road.add_standing_car(27.5F);
+  const Answer answer = ask(road, straight());
+  EXPECT_EQ(answer.status, Status::kNoSafePlan);
+  EXPECT_EQ(answer.plan.kind, PlanKind::kMinimumRisk);
+  EXPECT_EQ(answer.plan.start_ms, road.input.start_ms);
+  EXPECT_LT(last_speed_mps(answer), 0.5F);
+}
+
+// 70 m/s are beyond any car in 0.1 s: an infeasible plan is not driven either, nor one its planner disowns.
+TEST(Guard, StopsWhatCannotBeDrivenOrWasGivenUp) {
+  const StraightRoad road;
+  Plan leap = straight();
+  leap.trajectory.points[5].speed_mps = 70.0F;
+  EXPECT_EQ(ask(road, leap).status, Status::kNoSafePlan);
+  const Answer given_up = ask(road, straight(), Status::kNoLane);
+  EXPECT_EQ(given_up.status, Status::kNoLane);
+  EXPECT_EQ(given_up.plan.kind, PlanKind::kMinimumRisk);
+}
+
+// Without a lane under the car nothing is known of the plan's end.
+TEST(Guard, WithoutAMapOnlyTheMinimumRiskManoeuvre) {
+  StraightRoad road;
+  road.input.map = nullptr;
+  EXPECT_EQ(ask(road, straight()).plan.kind, PlanKind::kMinimumRisk);
+}
+
+// The road ends 20 m ahead and 18 m/s cannot be shed on it (18^2 / (2 * 8) = 20.25 m, and 4 m of the car are
+// ahead of its rear axle): the guarded planner has only the minimum-risk manoeuvre left, the bare one drives.
+TEST(BarePlanner, KnowsNoTerminalCondition) {
+  StraightRoad road;
+  road.map.lanes[0].point_count = 3;  // ends 20 m ahead
+  road.map.lanes[0].length_m = 40.0F;
+  road.input.ego.speed_mps = 18.0F;
+  Plan plan;
+  Explanation explanation;
+  for (const bool guarded : {false, true}) {
+    auto planner = std::make_unique<Planner>();
+    planner->guarded = guarded;
+    ASSERT_EQ(planner->init(Parameters{}), Status::kOk);
+    const Status status = planner->plan(road.input, plan, explanation);
+    EXPECT_EQ(status, guarded ? Status::kNoSafePlan : Status::kOk);
+  }
+}
+
+}  // namespace
+}  // namespace s4tp::campaign
