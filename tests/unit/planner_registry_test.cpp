@@ -134,12 +134,12 @@ TEST(Guard, WithoutAMapOnlyTheMinimumRiskManoeuvre) {
   EXPECT_EQ(ask(road, straight()).plan.kind, PlanKind::kMinimumRisk);
 }
 
-// The road ends 20 m ahead and 18 m/s cannot be shed on it (18^2 / (2 * 8) = 20.25 m, and 4 m of the car are
-// ahead of its rear axle): the guarded planner has only the minimum-risk manoeuvre left, the bare one drives.
-TEST(BarePlanner, KnowsNoTerminalCondition) {
+// A car stands from 21.5 m on, and 18 m/s cannot be shed before it (18^2 / (2 * 8) = 20.25 m, and 4 m of the
+// car are ahead of its rear axle): the guarded planner has only the minimum-risk manoeuvre left, the bare one
+// drives the candidate that costs least.
+TEST(BarePlanner, DrivesEvenWhatNoCheckWouldPass) {
   StraightRoad road;
-  road.map.lanes[0].point_count = 3;  // ends 20 m ahead
-  road.map.lanes[0].length_m = 40.0F;
+  road.add_standing_car(24.0F);
   road.input.ego.speed_mps = 18.0F;
   Plan plan;
   Explanation explanation;
