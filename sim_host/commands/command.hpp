@@ -32,6 +32,7 @@ struct Command {
 /// Options that commands share, with the same words and meaning everywhere.
 struct CommonOptions {
   std::filesystem::path scenario_root = S4TP_SCENARIOS;
+  std::string flavour = "smarts";
   std::string parameters_file;
   std::filesystem::path out;
   std::uint64_t seed = 0;
@@ -40,7 +41,7 @@ struct CommonOptions {
   void add_to(CLI::App& command);
   void add_traffic_to(CLI::App& command);
   [[nodiscard]] Parameters parameters() const;
-  /// A scenario by the name of a shipped one, or by its folder.
+  /// A scenario by the name of a shipped one, by its folder or its .toml file; in the flavour asked for.
   [[nodiscard]] world::Scenario find_scenario(const std::string& name) const;
 };
 

@@ -8,6 +8,8 @@ void CommonOptions::add_to(CLI::App& command) {
   command.add_option("--seed,--first-seed", seed, "first seed (default 0)");
   command.add_option("--parameters", parameters_file, "TOML file of planner parameters (docs/parameters.md)");
   command.add_option("--out", out, "folder for pictures, JSON and report");
+  command.add_option("--flavour", flavour,
+                     "of the scenario: smarts (default: as written), social, or another it has");
   command.add_option("--scenarios-folder", scenario_root, "where shipped scenarios lie");
 }
 
@@ -21,8 +23,7 @@ Parameters CommonOptions::parameters() const {
 }
 
 world::Scenario CommonOptions::find_scenario(const std::string& name) const {
-  const std::filesystem::path shipped = scenario_root / name;
-  return world::load_scenario(std::filesystem::exists(shipped) ? shipped : std::filesystem::path(name));
+  return world::load_scenario(world::scenario_path(scenario_root, name), flavour);
 }
 
 }  // namespace s4tp::commands

@@ -11,7 +11,8 @@ Command add_eval(CLI::App& tool) {
   options->common.add_traffic_to(*eval);
   eval->add_option("--episodes", options->episodes, "per scenario and planner (default 20)")
       ->check(CLI::PositiveNumber);
-  eval->add_option("--scenarios", options->scenarios, "shipped names or folders")->delimiter(',');
+  eval->add_option("--scenarios,--scenario", options->scenarios, "shipped names, folders or .toml files")
+      ->delimiter(',');
   eval->add_option("--planners,--planner", options->planners, "who drives (default s4tp)")
       ->delimiter(',')
       ->check(CLI::IsMember(campaign::planner_names()));

@@ -96,7 +96,7 @@ Command add_run(CLI::App& tool) {
   options->common.out = fs::path("out") / "run";
   options->common.add_to(*run);
   options->common.add_traffic_to(*run);
-  run->add_option("--scenario", options->scenario, "shipped name or folder (default left_turn)");
+  run->add_option("--scenario", options->scenario, "shipped name, folder or .toml file (default left_turn)");
   run->add_option("--planner", options->planner, "who drives (default s4tp)")
       ->check(CLI::IsMember(campaign::planner_names()));
   run->add_option("--guard", options->guard, "check, RSS and minimum-risk manoeuvre behind him (default on)")

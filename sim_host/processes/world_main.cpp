@@ -13,13 +13,16 @@ int main(int argc, char** argv) {
   fs::path scenario_root = S4TP_SCENARIOS;
   fs::path log;
   std::string scenario = "left_turn";
+  std::string flavour = "smarts";
   std::string traffic = "builtin";
   CLI::App app{"s4tp's virtual world on a CAN bus"};
   app.add_option(
          "--bus", options.world.bus,
          "can0, vcan0, slcan:tcp:HOST:PORT, slcan:listen:HOST:PORT, slcan:pty:PATH, slcan:tty:PATH@BAUD")
       ->required();
-  app.add_option("--scenario", scenario, "shipped name or folder (default left_turn)");
+  app.add_option("--scenario", scenario, "shipped name, folder or .toml file (default left_turn)");
+  app.add_option("--flavour", flavour,
+                 "of the scenario: smarts (default: as written), social, or another it has");
   app.add_option("--scenarios-folder", scenario_root, "where shipped scenarios lie");
   app.add_option("--seed", options.world.seed, "of the traffic (default 0)");
   app.add_option("--traffic", traffic, "who simulates it: builtin (default) or sumo (Debian's sumo)")
@@ -37,8 +40,8 @@ int main(int argc, char** argv) {
   try {
     if (!log.empty()) options.world.log = log;
     options.world.engine = world::engine_of(traffic);
-    const fs::path shipped = scenario_root / scenario;
-    const world::Scenario loaded = world::load_scenario(fs::exists(shipped) ? shipped : fs::path(scenario));
+    const world::Scenario loaded =
+        world::load_scenario(world::scenario_path(scenario_root, scenario), flavour);
     return processes::drive_on_bus(loaded, options, std::cout);
   } catch (const std::exception& error) {
     std::cerr << "s4tp_world_process: " << error.what() << '\n';

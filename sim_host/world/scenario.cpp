@@ -220,6 +220,11 @@ toml::value in_flavour(toml::value document, const std::string& file, const std:
 
 }  // namespace
 
+std::filesystem::path scenario_path(const std::filesystem::path& shipped, const std::string& name) {
+  const std::filesystem::path folder = shipped / name;
+  return std::filesystem::is_regular_file(folder / "scenario.toml") ? folder : std::filesystem::path(name);
+}
+
 Scenario load_scenario(const std::filesystem::path& path, const std::string& flavour) {
   namespace fs = std::filesystem;
   const bool is_file = path.extension() == ".toml" && !fs::is_directory(path);

@@ -79,4 +79,8 @@ struct Scenario {
 /// SCN-001 \throws std::runtime_error naming file, key, what was wrong and what is accepted
 [[nodiscard]] Scenario load_scenario(const std::filesystem::path& path, const std::string& flavour = {});
 
+/// The folder of a shipped scenario by its name, else the path as given.
+[[nodiscard]] std::filesystem::path scenario_path(const std::filesystem::path& shipped,
+                                                  const std::string& name);
+
 }  // namespace s4tp::world
