@@ -25,8 +25,8 @@ struct WorldOptions {
 /// One episode. In the pre-roll every node publishes while the world itself moves the ego along its lane,
 /// extended straight backwards, at entry speed; from time 0 on the ECU drives. WORLD-032 At entry nobody is
 /// left within 1.5 s headway of the ego on its lane, and whoever is taken away for it is not shown in the
-/// pre-roll either; a draw in which the ego would be touched within the first second without doing anything is
-/// replaced by the next seed's, and counted.
+/// pre-roll either; a draw in which the ego would be touched within the first second without doing anything
+/// is replaced by the next seed's, and counted.
 ///
 /// Endings: WORLD-033 goal, the centre passes the goal on the goal's lane; WORLD-034 collision, own-size
 /// boxes touch (the world goes on for 1 s to see whether the competition's smaller ones do as well);
