@@ -110,7 +110,7 @@ void print_episode(std::ostream& out, const EpisodeRow& row, const world::Record
 }
 
 void write_json(const std::filesystem::path& file, const std::vector<EpisodeRow>& rows,
-                const CampaignOptions& options) {
+                const CampaignOptions& options, const json* more) {
   json document{{"first_seed", options.first_seed},
                 {"episodes_per_cell", options.episodes},
                 {"parameters_crc", parameters_crc(options.parameters)},
@@ -124,6 +124,7 @@ void write_json(const std::filesystem::path& file, const std::vector<EpisodeRow>
     document["cells"].push_back(entry);
   }
   for (const EpisodeRow& row : rows) document["episodes"].push_back(to_json(row));
+  if (more != nullptr) document.update(*more);
   std::ofstream stream(file);
   stream << document.dump(1) << '\n';
   if (!stream) throw std::runtime_error(file.string() + ": cannot write the results");

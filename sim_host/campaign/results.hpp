@@ -2,6 +2,7 @@
 /// Results of a campaign as a terminal table and as JSON.
 
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <ostream>
 #include <vector>
 
@@ -25,8 +26,9 @@ void print_table(std::ostream& out, const std::vector<ResultCell>& cells);
 /// One episode in words, with its collisions.
 void print_episode(std::ostream& out, const EpisodeRow& row, const world::Recording& recording);
 
-/// Cells and every episode. \throws std::runtime_error naming the file
+/// Cells and every episode. \param more  an object whose members are written, too; may be null
+/// \throws std::runtime_error naming the file
 void write_json(const std::filesystem::path& file, const std::vector<EpisodeRow>& rows,
-                const CampaignOptions& options);
+                const CampaignOptions& options, const nlohmann::json* more = nullptr);
 
 }  // namespace s4tp::campaign

@@ -1,6 +1,8 @@
 #include "sim_host/processes/drive_on_bus.hpp"
 
+#include <fstream>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "sim_host/campaign/results.hpp"
@@ -14,6 +16,17 @@ namespace {
 
 constexpr const char* kCaller = "slcan:tcp:";
 constexpr const char* kListener = "slcan:listen:";
+
+/// What both processes say of their timing; an ECU we did not start keeps it to itself.
+nlohmann::json timing_of(const WorldProcessResult& result, const std::filesystem::path& ecu_report) {
+  nlohmann::json both;
+  if (result.timing) both["world"] = to_json(*result.timing);
+  if (std::ifstream file(ecu_report); file) {
+    if (auto told = nlohmann::json::parse(file, nullptr, false); !told.is_discarded()) both["ecu"] = told;
+  }
+  if (!ecu_report.empty()) std::filesystem::remove(ecu_report);
+  return {{"realtime", both}};
+}
 
 }  // namespace
 
@@ -31,10 +44,16 @@ int drive_on_bus(const world::Scenario& scenario, const DriveOptions& options, s
   WorldProcessOptions world = options.world;
   const auto bus = std::make_unique<hal::linux_host::NamedBus>();
   open_bus(*bus, world.bus, Side::kWorld);
+  const std::filesystem::path ecu_report = options.out / "ecu_realtime.json";
   std::optional<EcuChild> ecu;
+  if (!options.out.empty()) std::filesystem::create_directories(options.out);
   if (options.start_ecu) {
     std::vector<std::string> arguments{"--bus", other_end(world.bus)};
     arguments.insert(arguments.end(), options.ecu_arguments.begin(), options.ecu_arguments.end());
+    if (world.realtime && !options.out.empty()) {
+      std::filesystem::remove(ecu_report);
+      arguments.insert(arguments.end(), {"--report", ecu_report});
+    }
     ecu.emplace(arguments);
     world.ecu_lives = [&ecu] { return ecu->lives(); };
   }
@@ -49,11 +68,11 @@ int drive_on_bus(const world::Scenario& scenario, const DriveOptions& options, s
   print_link(out, world, result, bus->can());
   campaign::print_episode(out, rows.front(), result.recording);
   if (!options.out.empty()) {
-    std::filesystem::create_directories(options.out);
     campaign::CampaignOptions one;
     one.episodes = 1;
     one.first_seed = world.seed;
-    campaign::write_json(options.out / "run.json", rows, one);
+    const nlohmann::json timing = timing_of(result, options.start_ecu ? ecu_report : "");
+    campaign::write_json(options.out / "run.json", rows, one, result.timing ? &timing : nullptr);
   }
   if (world.log) out << "bus log: " << world.log->string() << '\n';
   return result.recording.ending == world::Ending::kGoal ? 0 : 1;

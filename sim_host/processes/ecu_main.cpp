@@ -28,7 +28,9 @@ int main(int argc, char** argv) {
   app.add_option("--parameters", parameters_file, "TOML file of planner parameters (docs/parameters.md)");
   app.add_option("--wait", options.wait_s, "seconds for the first tick (default 60)");
   app.add_option("--silence", options.silence_s, "seconds without a tick that end the drive (default 5)");
-  app.add_flag("--realtime", options.realtime, "planning in a thread of its own, as on a real ECU");
+  CLI::Option* realtime = app.add_flag("--realtime", options.realtime,
+                                       "ticks from a timer of its own, control and planning on threads");
+  app.add_option("--report", options.report, "JSON file that says whether it was on time")->needs(realtime);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

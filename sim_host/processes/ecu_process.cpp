@@ -1,88 +1,37 @@
 #include "sim_host/processes/ecu_process.hpp"
 
 #include <chrono>
-#include <cstdio>
-#include <memory>
-#include <optional>
-#include <semaphore>
-#include <thread>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
 
 #include "firmware/ecu/lockstep_bus.hpp"
-#include "firmware/ecu/records.hpp"
 #include "firmware/ecu/reports.hpp"
 #include "hal/sim/null_devices.hpp"
 #include "hal/sim/sim_clock.hpp"
 #include "sim_host/campaign/any_ecu.hpp"
 #include "sim_host/processes/bus_end.hpp"
+#include "sim_host/processes/ecu_realtime.hpp"
+#include "sim_host/processes/ecu_reporter.hpp"
+#include "sim_host/processes/timed_bus.hpp"
 
 namespace s4tp::processes {
 namespace {
 
 using std::chrono::steady_clock;
-constexpr int kHelloEvery_ms = 100;
 constexpr std::uint32_t kTick_ms = 10;
 
-const char* mode_name(ecu::Mode mode) {
-  static constexpr const char* kNames[ecu::kModeCount] = {"standby",      "ready",   "driving", "degraded",
-                                                          "minimum risk", "stopped", "fault"};
-  return kNames[static_cast<int>(mode)];
-}
+/// What an ECU stands on in this process, besides its bus.
+struct Devices {
+  hal::sim::SimClock clock;
+  hal::sim::NullCycleCounter cycles;
+  hal::sim::NullWatchdog watchdog;
+  EcuReporter reporter;
 
-/// Tells of mode changes; counts plans.
-class Reporter final : public hal::Telemetry {
- public:
-  explicit Reporter(std::ostream& out) : out_(out) {}
-  bool publish(std::uint16_t kind, const void* record, std::uint32_t) override {
-    switch (static_cast<ecu::RecordKind>(kind)) {
-      case ecu::RecordKind::kModeChange:
-        print(*static_cast<const ecu::ModeRecord*>(record));
-        break;
-      case ecu::RecordKind::kPlan:
-        ++plans_;
-        break;
-      case ecu::RecordKind::kControl:
-        break;
-    }
-    return true;
+  std::unique_ptr<campaign::AnyEcu> make_ecu(const EcuProcessOptions& options, hal::Can& bus) {
+    return campaign::make_ecu(options.planner, options.guarded, options.parameters,
+                              {&bus, &clock, &cycles, &watchdog, &reporter}, nullptr);
   }
-  [[nodiscard]] int plans() const { return plans_; }
-
- private:
-  void print(const ecu::ModeRecord& change) {
-    char text[80];
-    std::snprintf(text, sizeof text, "ECU %8.2f s  %s -> %s", change.time_ms / 1000.0, mode_name(change.from),
-                  mode_name(change.to));
-    out_ << text;
-    for (int bit = 0; bit < 16; ++bit) {  // ids of the faults stand beside the bits, in modes.hpp
-      if ((change.faults >> bit & 1) != 0) out_ << ", fault ECU-0" << 10 + bit;
-    }
-    out_ << std::endl;
-  }
-  std::ostream& out_;
-  int plans_ = 0;
-};
-
-/// The planning context as a thread.
-class PlanningThread {
- public:
-  explicit PlanningThread(campaign::AnyEcu& ecu)
-      : thread_([this, &ecu](const std::stop_token& stop) {
-          while (!stop.stop_requested()) {
-            wake_.acquire();
-            if (ecu.planning_due()) ecu.planning_cycle();
-          }
-        }) {}
-  ~PlanningThread() {
-    thread_.request_stop();
-    wake_.release();
-  }
-  PlanningThread(const PlanningThread&) = delete;
-  PlanningThread& operator=(const PlanningThread&) = delete;
-  void wake() { wake_.release(); }
-
- private:
-  std::counting_semaphore<> wake_{0};
-  std::jthread thread_;
 };
 
 /// Waits until a tick opens. \return false: none in `timeout_ms`, however many other frames come
@@ -98,20 +47,20 @@ bool wait_tick(ecu::LockstepBus& bus, hal::linux_host::LinuxCan& can, int timeou
   }
 }
 
-}  // namespace
+template <class Bus>
+void print_summary(std::ostream& out, const EcuProcessOptions& options, std::uint32_t ticks,
+                   const EcuReporter& reporter, const campaign::AnyEcu& ecu, const Bus& bus) {
+  out << "ECU: " << ticks << " ticks, " << reporter.plans() << " plans, " << ecu.core().statistics().slips
+      << " deadlines missed, " << bus.refused_ticks() << " TICK frames refused\n";
+  print_counters(out, "ECU on " + options.bus, bus.counters());
+  out.flush();
+}
 
-EcuEnd run_ecu(hal::linux_host::LinuxCan& can, const EcuProcessOptions& options, std::ostream& out,
-               const std::atomic<bool>& stop) {
+EcuEnd run_in_lock_step(hal::linux_host::LinuxCan& can, const EcuProcessOptions& options, std::ostream& out,
+                        const std::atomic<bool>& stop) {
   ecu::LockstepBus bus(can);
-  hal::sim::SimClock clock;
-  hal::sim::NullCycleCounter cycles;
-  hal::sim::NullWatchdog watchdog;
-  Reporter reporter(out);
-  const auto ecu = campaign::make_ecu(options.planner, options.guarded, options.parameters,
-                                      {&bus, &clock, &cycles, &watchdog, &reporter}, nullptr);
-  std::optional<PlanningThread> planning;
-  if (options.realtime) planning.emplace(*ecu);
-
+  Devices devices;
+  const auto ecu = devices.make_ecu(options, bus);
   ecu::Reporter hello;  // "I am there", until the world begins
   std::uint32_t ticks = 0;
   EcuEnd end = EcuEnd::kStopped;
@@ -127,20 +76,37 @@ EcuEnd run_ecu(hal::linux_host::LinuxCan& can, const EcuProcessOptions& options,
       break;
     }
     heard = steady_clock::now();
-    clock.follow(++ticks * kTick_ms);
+    devices.clock.follow(++ticks * kTick_ms);
     ecu->control_tick();
-    if (planning) {
-      planning->wake();
-    } else if (ecu->planning_due()) {
-      ecu->planning_cycle();
-    }
+    if (ecu->planning_due()) ecu->planning_cycle();
+    devices.reporter.print(out, options.bus);
   }
-  planning.reset();
-  out << "ECU: " << ticks << " ticks, " << reporter.plans() << " plans, " << ecu->core().statistics().slips
-      << " deadlines missed, " << bus.refused_ticks() << " TICK frames refused\n";
-  print_counters(out, "ECU on " + options.bus, bus.counters());
-  out.flush();
+  print_summary(out, options, ticks, devices.reporter, *ecu, bus);
   return end;
+}
+
+EcuEnd run_in_real_time(hal::linux_host::LinuxCan& can, const EcuProcessOptions& options, std::ostream& out,
+                        const std::atomic<bool>& stop) {
+  TimedBus bus(can);
+  Devices devices;
+  const auto ecu = devices.make_ecu(options, bus);
+  const RealtimeDrive drive = drive_in_real_time(*ecu, bus, can, devices.reporter, options, out, stop);
+  print_summary(out, options, drive.ticks, devices.reporter, *ecu, bus);
+  if (drive.ticks > 0) print(out, drive.report);
+  if (!options.report.empty()) {
+    std::ofstream file(options.report);
+    file << to_json(drive.report).dump(1) << '\n';
+    if (!file) throw std::runtime_error(options.report.string() + ": cannot write the report");
+  }
+  return drive.end;
+}
+
+}  // namespace
+
+EcuEnd run_ecu(hal::linux_host::LinuxCan& can, const EcuProcessOptions& options, std::ostream& out,
+               const std::atomic<bool>& stop) {
+  return options.realtime ? run_in_real_time(can, options, out, stop)
+                          : run_in_lock_step(can, options, out, stop);
 }
 
 }  // namespace s4tp::processes

@@ -3,11 +3,13 @@
 
 #include <atomic>
 #include <cstdint>
+#include <filesystem>
 #include <ostream>
 #include <string>
 
 #include "algo/core/parameters.hpp"
 #include "hal/linux/linux_can.hpp"
+#include "hal/linux/realtime.hpp"
 
 namespace s4tp::processes {
 
@@ -16,9 +18,12 @@ struct EcuProcessOptions {
   std::string planner = "s4tp";
   bool guarded = true;  ///< campaign::make_ecu()
   Parameters parameters;
-  int wait_s = 60;        ///< for the first tick
-  int silence_s = 5;      ///< without a tick, after which the drive is over
-  bool realtime = false;  ///< planning beside control, in a thread of its own, as on a real ECU
+  int wait_s = 60;    ///< for the first tick
+  int silence_s = 5;  ///< without a tick, after which the drive is over
+  bool realtime =
+      false;  ///< control and planning on threads of their own, ticks from a timer: as on a real ECU
+  std::filesystem::path report;                       ///< realtime: whether it was on time, as JSON
+  hal::linux_host::RealtimeKernel* kernel = nullptr;  ///< realtime: null is the one we run on
 };
 
 enum class EcuEnd {
@@ -27,8 +32,8 @@ enum class EcuEnd {
   kNothingHeard,  ///< PROC-012 no tick ever came
 };
 
-/// Runs a tick for each TICK frame until the bus falls silent. Mode changes, with the faults behind them, and
-/// what becomes of the link are told on `out`.
+/// Runs a tick for each TICK frame (realtime: PROC-015) until the bus falls silent. Mode changes, with the
+/// faults behind them, and what becomes of the link are told on `out`.
 ///
 /// PROC-013 Until the first tick it says ten times a second that it is there, with a VersionEcu frame.
 /// PROC-014 Planning ends before the next tick begins, so the frames are those of the in-process drive, bit

@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <chrono>
 #include <memory>
-#include <thread>
 #include <vector>
 
 #include "firmware/wire/codec.hpp"
 #include "firmware/wire/e2e.hpp"
+#include "hal/linux/host_clock.hpp"
+#include "hal/linux/timer_tick.hpp"
 #include "sim_host/campaign/bus_log.hpp"
 #include "sim_host/campaign/frames.hpp"
 #include "sim_host/processes/bus_end.hpp"
@@ -20,15 +21,16 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 using std::chrono::steady_clock;
 
-constexpr milliseconds kTick{10};
 constexpr milliseconds kAnswerWithin{1000};
 constexpr milliseconds kDeadAfter{2000};
 constexpr seconds kLinkBackWithin{30};
 constexpr milliseconds kLook{50};
 constexpr unsigned kEchoMask = 0xFFF;
 constexpr unsigned kOldestEcho = 10;
-constexpr double kLate_ms = 1.0;
 constexpr int kToldUnanswered = 5;
+constexpr int kPriority = 60;  // below an ECU of the same machine
+constexpr std::uint64_t kQuiet_us =
+    2000;                          // before a tick: sleeping until an instant is more exact than waiting
 constexpr int kTicksToEnd = 1000;  // pre-roll and the 200 ticks after which the world calls the ECU dead
 
 int to_ms(steady_clock::duration time) {
@@ -126,19 +128,27 @@ class Session {
   }
 
   void drive_in_real_time() {
-    auto due = steady_clock::now();
+    using namespace hal::linux_host;
+    RealtimeKernel& kernel = options_.kernel != nullptr ? *options_.kernel : this_kernel();
+    RealtimeReport& report = result_.timing.emplace();
+    report.task = "world";
+    report.grants = {ask_for_fifo(kernel, "the world", kPriority), ask_for_locked_memory(kernel)};
+    report.kernel = read_preemption(kernel);
+    touch_stack();
+    MonotonicClock clock;
+    TimerTick timer(clock);
+    timer.start(clock.now_us());
     while (!world_.finished() && !stop_) {
-      std::this_thread::sleep_until(due);
-      const double late_ms = std::chrono::duration<double, std::milli>(steady_clock::now() - due).count();
-      result_.latest_ms = std::max(result_.latest_ms, late_ms);
-      if (late_ms > kLate_ms) ++result_.late_ticks;
+      timer.sleep();
+      if (!timer.take()) continue;
+      report.wake_ups.add(timer.wake_up().late_us);
+      report.wake_ups.add_slips(timer.wake_up().skipped);
       if (result_.ticks > 0 && !take_frames(kOldestEcho)) ++result_.unanswered;
       begin_tick();
-      due += kTick;
-      while (steady_clock::now() + milliseconds(1) < due) {
-        // Frames stay in the socket until the tick; only the link is looked after.
-        const auto left = due - steady_clock::now() - milliseconds(1);
-        if (can_.wait(std::max(to_ms(left) - 1, 0))) break;
+      // Frames stay in the socket until the tick; only the link is looked after.
+      for (auto now_us = clock.now_us(); now_us + kQuiet_us + 1000U <= timer.due_us();
+           now_us = clock.now_us()) {
+        if (can_.wait(static_cast<int>((timer.due_us() - kQuiet_us - now_us) / 1000U))) break;
       }
       print_news(out_, options_.bus, can_);
     }
@@ -225,10 +235,9 @@ void print_link(std::ostream& out, const WorldProcessOptions& options, const Wor
                 hal::linux_host::LinuxCan& can) {
   out << "world: " << result.ticks << " ticks, " << result.unanswered << " unanswered, "
       << result.refused_commands << " commands refused";
-  if (options.realtime)
-    out << ", " << result.late_ticks << " ticks late, at most " << result.latest_ms << " ms";
   out << '\n';
   print_counters(out, "world on " + options.bus, can.counters());
+  if (result.timing) print(out, *result.timing);
 }
 
 }  // namespace s4tp::processes

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "hal/linux/linux_can.hpp"
+#include "sim_host/processes/realtime_report.hpp"
 #include "sim_host/world/recording.hpp"
 #include "sim_host/world/scenario.hpp"
 #include "sim_host/world/traffic_engine.hpp"
@@ -21,20 +22,20 @@ struct WorldProcessOptions {
   std::uint64_t seed = 0;
   world::Engine engine = world::Engine::kBuiltin;
   bool realtime = false;
-  int wait_s = 10;                           ///< for a sign of the ECU; 0: begin at once
-  std::optional<std::filesystem::path> log;  ///< every frame of the bus from the first tick on
-  std::string ecu_note;                      ///< for the log's first line, campaign::ecu_note()
-  std::function<bool()> ecu_lives;           ///< may be empty; false ends the wait for it
+  int wait_s = 10;                                    ///< for a sign of the ECU; 0: begin at once
+  std::optional<std::filesystem::path> log;           ///< every frame of the bus from the first tick on
+  std::string ecu_note;                               ///< for the log's first line, campaign::ecu_note()
+  std::function<bool()> ecu_lives;                    ///< may be empty; false ends the wait for it
+  hal::linux_host::RealtimeKernel* kernel = nullptr;  ///< realtime: null is the one we run on
 };
 
 struct WorldProcessResult {
   bool met_ecu = false;  ///< false: nothing was driven
   world::Recording recording;
   int ticks = 0;
-  int unanswered = 0;        ///< ticks without an answer
-  int refused_commands = 0;  ///< Command frames that answered no tick
-  int late_ticks = 0;        ///< realtime: begun more than 1 ms late
-  double latest_ms = 0.0;    ///< realtime: the latest of them
+  int unanswered = 0;                    ///< ticks without an answer
+  int refused_commands = 0;              ///< Command frames that answered no tick
+  std::optional<RealtimeReport> timing;  ///< realtime
 };
 
 /// PROC-020 Begins when a VersionEcu frame shows that an ECU is there, says so when none comes.
@@ -42,14 +43,15 @@ struct WorldProcessResult {
 /// one. Without one for 1 s of host time it begins all the same; PROC-022 after 2 s without any, or when
 /// ecu_lives says no, the ECU is dead, and the episode ends as the world sees fit. While the link is down or
 /// off nothing is counted for 30 s. PROC-023 Realtime: a tick every 10 ms of host time, whatever the ECU
-/// does. PROC-024 A Command frame reaches the car only if its CRC fits and its echo is the present tick's
-/// (realtime: one of the last 10), so a frame recorded earlier never does. The car's own protection comes
-/// after that. \throws std::runtime_error when the log cannot be written
+/// does; a world that is a period late or later skips ticks, so the car's time stands still for them. The
+/// calling thread asks for SCHED_FIFO and keeps it. PROC-024 A Command frame reaches the car only if its CRC
+/// fits and its echo is the present tick's (realtime: one of the last 10), so a frame recorded earlier never
+/// does. The car's own protection comes after that. \throws std::runtime_error when the log cannot be written
 [[nodiscard]] WorldProcessResult run_world(const world::Scenario& scenario, hal::linux_host::LinuxCan& can,
                                            const WorldProcessOptions& options, std::ostream& out,
                                            const std::atomic<bool>& stop);
 
-/// What the bus had to do with it: ticks, answers, lateness.
+/// What the bus had to do with it: ticks, answers; realtime: whether they were on time.
 void print_link(std::ostream& out, const WorldProcessOptions& options, const WorldProcessResult& result,
                 hal::linux_host::LinuxCan& can);
 

@@ -14,6 +14,7 @@
 #include <atomic>
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
 #include <thread>
@@ -190,6 +191,18 @@ TEST(TwoProcesses, KilledEcuIsReported) {
   EXPECT_EQ(ecu.end(SIGKILL), 128 + SIGKILL);
   EXPECT_EQ(world.wait(), 1);
   EXPECT_NE(content(scratch("out") / "run.json").find("\"dead_ecu\": 1"), std::string::npos);
+}
+
+// PROC-015, PROC-023, RT-022 Realtime, ended after a while: run.json says of both sides how late they were.
+TEST(TwoProcesses, RealtimeIsReported) {
+  const fs::path log = scratch("realtime.log");
+  Process run("s4tp_tool", {"run", "--bus", "slcan:tcp:127.0.0.1:" + free_port(), "--realtime", "--log", log,
+                            "--out", scratch("realtime")});
+  for (int i = 0; i < 200 && (!fs::exists(log) || fs::file_size(log) < 10'000); ++i) usleep(50'000);
+  EXPECT_EQ(run.end(SIGTERM), 1);
+  const auto json = nlohmann::json::parse(content(scratch("realtime") / "run.json"));
+  for (const char* const side : {"world", "ecu"})
+    EXPECT_GT(json.at("realtime").at(side).at("wake_up_latency").at("count"), 10) << side;
 }
 
 // PROC-020 No ECU: code 2, and nothing on the bus.

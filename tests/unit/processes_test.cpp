@@ -1,10 +1,13 @@
 // World and ECU process, each with a scripted other end.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <filesystem>
+#include <fstream>
 #include <functional>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -16,8 +19,10 @@
 #include "sim_host/processes/bus_end.hpp"
 #include "sim_host/processes/drive_on_bus.hpp"
 #include "sim_host/processes/ecu_process.hpp"
+#include "sim_host/processes/timed_bus.hpp"
 #include "sim_host/processes/world_process.hpp"
 #include "tests/support/fake_bus.hpp"
+#include "tests/support/fake_kernel.hpp"
 
 namespace s4tp::processes {
 namespace {
@@ -77,6 +82,7 @@ struct ScriptedEcu {
 struct WorldRun {
   std::atomic<bool> stop{false};
   std::ostringstream out;
+  hal::linux_host::FakeKernel kernel;
   WorldProcessOptions options;
   WorldProcessResult result;
   double seconds = 0.0;
@@ -84,6 +90,7 @@ struct WorldRun {
   void run(FakeBus& bus) {
     options.bus = "vcan0";
     options.seed = 3;
+    options.kernel = &kernel;
     const auto start = steady_clock::now();
     result = run_world(left_turn(), bus, options, out, stop);
     seconds = std::chrono::duration<double>(steady_clock::now() - start).count();
@@ -219,7 +226,8 @@ TEST(WorldProcess, LinkDownStopsTime) {
   EXPECT_NE(run.out.str().find("vcan0: down"), std::string::npos);  // PROC-003
 }
 
-// PROC-023 Sixty ticks take 0.59 s and no less, though the ECU never answers.
+// PROC-023 Sixty ticks take 0.59 s and no less, though the ECU never answers. It asked for priority, was
+// refused, and says so.
 TEST(WorldProcess, RealtimeKeepsItsPace) {
   FakeBus bus;
   ScriptedEcu ecu(bus);
@@ -230,6 +238,12 @@ TEST(WorldProcess, RealtimeKeepsItsPace) {
   run.run(bus);
   EXPECT_EQ(run.result.ticks, 60);
   EXPECT_GE(run.seconds, 0.59);
+  ASSERT_TRUE(run.result.timing);
+  EXPECT_EQ(run.result.timing->wake_ups.count(), 60U);
+  EXPECT_EQ(run.kernel.asked_priorities, std::vector<int>{60});
+  std::ostringstream told;
+  print_link(told, run.options, run.result, bus);
+  EXPECT_NE(told.str().find("NOT FIT"), std::string::npos);
 }
 
 // PROC-024 Realtime: an answer up to 10 ticks late counts, one that is later does not.
@@ -257,10 +271,12 @@ TEST(WorldProcess, RealtimeRefusesOldCommands) {
 struct EcuRun {
   std::atomic<bool> stop{false};
   std::ostringstream out;
+  hal::linux_host::FakeKernel kernel;
   EcuProcessOptions options;
   EcuEnd end = EcuEnd::kStopped;
   void run(FakeBus& bus) {
     options.bus = "vcan0";
+    options.kernel = &kernel;
     end = run_ecu(bus, options, out, stop);
   }
 };
@@ -338,6 +354,81 @@ TEST(EcuProcess, StopsWhenAsked) {
   run.run(bus);
   EXPECT_EQ(run.end, EcuEnd::kStopped);
   EXPECT_NE(run.out.str().find("ECU: 0 ticks"), std::string::npos);
+}
+
+int commands_in(const FakeBus& bus) {
+  int commands = 0;
+  for (const hal::CanFrame& frame : bus.sent) commands += frame.id == wire::kCommandId ? 1 : 0;
+  return commands;
+}
+
+// PROC-015, PROC-010 Realtime: one TICK frame starts the ECU's timer; commands go on in the silence after it,
+// until that ends the drive. Control asked for more than planning. The report says that neither was given.
+TEST(EcuProcess, RealtimeTicksByItself) {
+  FakeBus bus;
+  EcuRun run;
+  run.options.realtime = true;
+  run.options.silence_s = 1;
+  run.options.report = std::filesystem::path(testing::TempDir()) / "s4tp_ecu_realtime.json";
+  wire::E2eSender sender;
+  bus.incoming.push_back(tick_frame(1, sender));
+  run.run(bus);
+  EXPECT_EQ(run.end, EcuEnd::kSilence);
+  EXPECT_GE(commands_in(bus), 2);
+  EXPECT_LE(commands_in(bus), 101);
+  std::sort(run.kernel.asked_priorities.begin(), run.kernel.asked_priorities.end());
+  EXPECT_EQ(run.kernel.asked_priorities, (std::vector<int>{70, 80}));
+  EXPECT_NE(run.out.str().find("SCHED_FIFO 80 for control: refused"), std::string::npos);
+  EXPECT_NE(run.out.str().find("NOT FIT"), std::string::npos);
+  const auto report = nlohmann::json::parse(std::ifstream(run.options.report));
+  std::filesystem::remove(run.options.report);
+  EXPECT_FALSE(report.at("fit"));
+  EXPECT_EQ(report.at("wake_up_latency").at("count"), commands_in(bus));
+  EXPECT_EQ(report.at("requests").size(), 3U);
+}
+
+// PROC-012, PROC-011 Realtime: no world and no stop sign wait for a tick.
+TEST(EcuProcess, RealtimeWithoutAWorld) {
+  FakeBus bus;
+  EcuRun run;
+  run.options.realtime = true;
+  run.options.wait_s = 1;
+  run.run(bus);
+  EXPECT_EQ(run.end, EcuEnd::kNothingHeard);
+  EXPECT_EQ(commands_in(bus), 0);
+  EXPECT_GE(bus.sent.size(), 3U);
+  EXPECT_LE(bus.sent.size(), 11U);
+
+  EcuRun stopped;
+  stopped.options.realtime = true;
+  stopped.stop = true;
+  stopped.run(bus);
+  EXPECT_EQ(stopped.end, EcuEnd::kStopped);
+}
+
+// PROC-002 Realtime: a repeated TICK frame is refused and not handed on, all else is, in order; a motion
+// frame's arrival is told once, a damaged one's not.
+TEST(TimedBus, HandsOnWhatCounts) {
+  FakeBus fake;
+  TimedBus bus(fake);
+  wire::E2eSender ticks;
+  wire::E2eSender motions;
+  const hal::CanFrame tick = tick_frame(1, ticks);
+  hal::CanFrame damaged = sealed(wire::Motion{}, motions);
+  damaged.data[0] ^= 0x55;
+  for (const hal::CanFrame& frame : {damaged, tick, tick}) fake.incoming.push_back(frame);
+  EXPECT_EQ(bus.take(0), 3);
+  EXPECT_EQ(bus.refused_ticks(), 1U);
+  EXPECT_TRUE(bus.take_heard());
+  EXPECT_FALSE(bus.take_heard());
+  EXPECT_FALSE(bus.take_motion_arrival());
+  fake.incoming.push_back(sealed(wire::Motion{}, motions));
+  EXPECT_EQ(bus.take(0), 1);
+  EXPECT_TRUE(bus.take_motion_arrival());
+  EXPECT_FALSE(bus.take_motion_arrival());
+  std::vector<std::uint32_t> ids;
+  for (hal::CanFrame frame; bus.receive(frame);) ids.push_back(frame.id);
+  EXPECT_EQ(ids, (std::vector<std::uint32_t>{wire::kMotionId, wire::kTickId, wire::kMotionId}));
 }
 
 // The two sides' messages are all messages, each once.
