@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "sim_host/world/sumo/sumo_traffic.hpp"
 #include "sim_host/world/traffic.hpp"
 
 namespace s4tp::world {
@@ -22,7 +23,10 @@ Engine engine_of(const std::string& name) {
 
 std::unique_ptr<TrafficEngine> make_engine(const Scenario& scenario, const EngineOptions& options) {
   if (options.engine == Engine::kSumo) {
-    throw std::runtime_error("SUMO's traffic is not there yet");
+    return std::make_unique<SumoTraffic>(scenario, options);
+  }
+  if (options.ego == EgoDriver::kEngine) {
+    throw std::invalid_argument("the built-in traffic drives no ego; SUMO does (--traffic sumo)");
   }
   return std::make_unique<Traffic>(scenario.network, scenario.flows, options.seed);
 }

@@ -48,11 +48,18 @@ class TrafficEngine {
   /// Takes everybody off a stretch of a lane.
   virtual void clear(LaneId lane, double from_m, double to_m) = 0;
   [[nodiscard]] virtual int finished() const = 0;  ///< cars that reached the end of their route
+  /// The ego driven by the engine's own driver from the mission's entry on; none where we drive it.
+  [[nodiscard]] virtual std::optional<CarState> driven_ego() const { return std::nullopt; }
 };
+
+/// Who drives the ego from the mission's entry on.
+enum class EgoDriver { kNobody, kUs, kEngine };
 
 struct EngineOptions {
   Engine engine = Engine::kBuiltin;
   std::uint64_t seed = 0;
+  std::uint64_t episode = 0;       ///< chooses among a scenario's own route files
+  EgoDriver ego = EgoDriver::kUs;  ///< kEngine: SUMO only
 };
 
 /// \param scenario  must outlive the engine  \throws std::runtime_error when the engine cannot be started

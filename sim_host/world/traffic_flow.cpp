@@ -46,7 +46,7 @@ FlowPlan draw_flows(const Network& network, const std::vector<FlowGroup>& groups
       const TrafficRoute& route = pool[static_cast<std::size_t>(flow)];
       const std::vector<LaneId> start = network.lanes_of(route.edges.front());
       const std::size_t way = plan.ways.size();
-      plan.ways.push_back({guide_for(network, route), route.edges.back()});
+      plan.ways.push_back({guide_for(network, route), route.edges.back(), route});
       const double spacing_s =
           60.0 / random.uniform(group.vehicles_per_minute.low, group.vehicles_per_minute.high);
       double time_s = random.uniform(group.begin_s.low, group.begin_s.high);

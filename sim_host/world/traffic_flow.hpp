@@ -15,6 +15,7 @@ namespace s4tp::world {
 struct Way {
   RouteGuide guide;
   std::string last_edge;
+  TrafficRoute route;
 };
 
 struct Departure {

@@ -38,7 +38,8 @@ Vec2 rounded(Vec2 point) {  // as MapOrigin can say it
 struct World::Impl {
   Impl(const Scenario& with_scenario, const WorldOptions& with_options);
 
-  [[nodiscard]] std::unique_ptr<TrafficEngine> traffic_until(std::uint64_t seed, double traffic_time_s) const;
+  [[nodiscard]] std::unique_ptr<TrafficEngine> traffic_until(std::uint64_t seed, double traffic_time_s,
+                                                             EgoDriver ego_driver) const;
   void free_start_zone(TrafficEngine& with_traffic) const;
   void run_pre_roll();
   [[nodiscard]] bool touched_at_entry(std::uint64_t seed) const;
@@ -104,12 +105,15 @@ World::Impl::Impl(const Scenario& with_scenario, const WorldOptions& with_option
     seed = next_seed(seed);
     ++recording.redrawn;
   }
-  traffic = traffic_until(seed, mission.entry_time_s - options.pre_roll_s);
+  traffic = traffic_until(seed, mission.entry_time_s - options.pre_roll_s,
+                          options.ego_by_traffic ? EgoDriver::kEngine : EgoDriver::kUs);
   run_pre_roll();
 }
 
-std::unique_ptr<TrafficEngine> World::Impl::traffic_until(std::uint64_t seed, double traffic_time_s) const {
-  std::unique_ptr<TrafficEngine> fresh = make_engine(scenario, {options.engine, seed});
+std::unique_ptr<TrafficEngine> World::Impl::traffic_until(std::uint64_t seed, double traffic_time_s,
+                                                          EgoDriver ego_driver) const {
+  std::unique_ptr<TrafficEngine> fresh =
+      make_engine(scenario, {options.engine, seed, options.seed, ego_driver});
   const long ticks = std::lround(traffic_time_s / kTick_s);
   for (long i = 0; i < ticks; ++i) {
     fresh->step(nullptr);
@@ -146,7 +150,7 @@ void World::Impl::run_pre_roll() {
 }
 
 bool World::Impl::touched_at_entry(std::uint64_t seed) const {
-  const std::unique_ptr<TrafficEngine> trial = traffic_until(seed, mission.entry_time_s);
+  const std::unique_ptr<TrafficEngine> trial = traffic_until(seed, mission.entry_time_s, EgoDriver::kUs);
   free_start_zone(*trial);
   const int ticks = static_cast<int>(std::lround(kUndisturbed_s / kTick_s));
   LaneId before = start_lane;
@@ -202,6 +206,13 @@ void World::Impl::move_ego() {
     vehicle.vehicle().place(state.centre, state.heading_rad, state.speed_mps);
     vehicle.idle();
     place = {start_lane, mission.start_s_m + mission.start_speed_mps * since_entry * kTick_s, 0.0, true};
+  } else if (options.ego_by_traffic) {
+    ego = traffic->driven_ego().value();
+    vehicle.vehicle().place(ego.centre, ego.heading_rad, ego.speed_mps);
+    vehicle.idle();
+    place = locator.locate(ego.centre, ego.heading_rad, place.lane);
+    ego.lane = place.inside ? place.lane : kNoLane;
+    return;
   } else {
     vehicle.drive();
     place = locator.locate(vehicle.vehicle().box_centre(), vehicle.vehicle().heading_rad(), place.lane);
@@ -271,7 +282,8 @@ void World::Impl::judge() {
     end(std::abs(at_goal.d_m) <= half_lane_m ? Ending::kGoal : Ending::kTimeOut);
   } else if (locator.off_road(ego.centre)) {
     end(Ending::kOffRoad);
-  } else if (std::min(vehicle.silent_ticks(), tick_number - entry_tick) >= kDeadTicks) {
+  } else if (!options.ego_by_traffic &&
+             std::min(vehicle.silent_ticks(), tick_number - entry_tick) >= kDeadTicks) {
     end(Ending::kDeadEcu);
   } else if (time_s >= mission.time_limit_s) {
     end(Ending::kTimeOut);

@@ -17,6 +17,8 @@ namespace s4tp::world {
 struct WorldOptions {
   std::uint64_t seed = 0;
   Engine engine = Engine::kBuiltin;
+  /// WORLD-041 SUMO's own driver drives the ego from entry on; nobody waits for an ECU. SUMO only.
+  bool ego_by_traffic = false;
   double pre_roll_s = 3.0;
   SensorOptions sensors = {};
   PerceptionOptions perception = {};
