@@ -46,6 +46,7 @@ void Traffic::decide(const Actor* ego) {
   std::vector<Actor> actors;
   if (ego != nullptr) {
     actors.push_back(*ego);
+    actors.back().waited_s = ego_waited_s_;
   }
   for (const TrafficCar& car : cars_) {
     actors.push_back(actor_of(car));
@@ -58,6 +59,20 @@ void Traffic::decide(const Actor* ego) {
     consider_lane_change(cars_[i], self, view);
   }
   insert_waiting(view);
+  if (ego != nullptr) {
+    watch_ego(view.actors().front(), view);
+  }
+}
+
+/// How long the ego has stood at a line, as others see it.
+void Traffic::watch_ego(const Actor& ego, const TrafficView& view) {
+  Approach approach;
+  approach.self = &ego;
+  approach.driver = &ego_driver_;
+  approach.wanted_mps = ego.speed_mps;
+  const JunctionChoice choice = choose_at_junction(view, approach);
+  const bool at_line = choice.near && choice.line_m < kNear_m;
+  ego_waited_s_ = !at_line ? 0.0 : ego_waited_s_ + (ego.speed_mps < 1.0 ? kTick_s * kDecisionTicks : 0.0);
 }
 
 Actor Traffic::actor_of(const TrafficCar& car) const {
@@ -69,6 +84,8 @@ Actor Traffic::actor_of(const TrafficCar& car) const {
   actor.length_m = car.length_m;
   actor.guide = &plan_.ways[car.way].guide;
   actor.committed = car.committed;
+  actor.waited_s = car.waited_s;
+  actor.lets_go = car.lets_go;
   if (car.leaving != kNoLane) {
     actor.also.push_back({car.leaving, -car.s_m});
   }
@@ -114,7 +131,7 @@ double Traffic::follow(TrafficCar& car, const Leader& leader, double wanted_mps)
 double Traffic::acceleration(TrafficCar& car, const Actor& self, const TrafficView& view) {
   const double wanted = wanted_speed_mps(car, self.way);
   const Leader leader = view.leader(self.way, car.id, car.length_m);
-  double result = follow(car, leader, wanted);
+  double result = towards_merging(car, self, view, leader, wanted, follow(car, leader, wanted));
   for (const WayPart& part : self.also) {  // the lane being left counts until the car is out of it
     const Leader old = view.leader({part}, car.id, car.length_m);
     if (old.actor != nullptr) {
@@ -129,8 +146,10 @@ double Traffic::acceleration(TrafficCar& car, const Actor& self, const TrafficVi
     const double to_end_m = last.start_m + lane(last.lane).centre.length_m() - 0.5 * car.length_m - 1.0;
     result = std::min(result, stopping_acceleration_mps2(car.driver, car.speed_mps, wanted, to_end_m));
   }
-  const JunctionChoice choice =
-      choose_at_junction(view, {&self, &car.driver, wanted, car.waited_s, car.committed, leader});
+  const JunctionChoice choice = choose_at_junction(
+      view, {&self, &car.driver, wanted, car.waited_s, car.gave_way_s, car.committed, leader});
+  car.lets_go = choice.lets_go;
+  car.gave_way_s += choice.lets_go != TrafficCar::kNobody ? kTick_s * kDecisionTicks : 0.0;
   const double ordinary_stop_m = car.speed_mps * car.speed_mps / (2.0 * car.driver.deceleration_mps2) +
                                  car.speed_mps * kTick_s * kDecisionTicks;
   if (choice.near && choice.stop && choice.line_m > -0.5 &&
@@ -145,6 +164,7 @@ double Traffic::acceleration(TrafficCar& car, const Actor& self, const TrafficVi
   if (lane(car.lane).in_junction) {
     car.committed = false;
     car.waited_s = 0.0;
+    car.gave_way_s = 0.0;
   }
   if (choice.hazard != car.hazard) {
     car.hazard_since_s = car.hazard == TrafficCar::kLooking ? time_s() - car.driver.reaction_s : time_s();

@@ -42,6 +42,8 @@ struct TrafficCar {
 
   bool committed = false;
   double waited_s = 0.0;
+  double gave_way_s = 0.0;  ///< standing or braking out of courtesy, at this junction
+  int lets_go = kNobody;
   double distraction = 0.0;  ///< 0 .. 1, redrawn every second: imperfection at work
   double next_distraction_s = 0.0;
   int known_leader = kNobody;  ///< whom he follows
@@ -75,8 +77,13 @@ class Traffic final : public TrafficEngine {
   [[nodiscard]] double follow(TrafficCar& car, const Leader& leader, double wanted_mps);
   [[nodiscard]] double acceleration(TrafficCar& car, const Actor& self, const TrafficView& view);
   void consider_lane_change(TrafficCar& car, const Actor& self, const TrafficView& view);
-  [[nodiscard]] bool gap_beside(const TrafficCar& car, const WayPart& beside, const TrafficView& view,
-                                bool urgent, double& gain_mps2) const;
+  [[nodiscard]] double towards_merging(const TrafficCar& car, const Actor& self, const TrafficView& view,
+                                       const Leader& leader, double wanted_mps, double result) const;
+  [[nodiscard]] double lane_change_gain(const TrafficCar& car, const TrafficView& view,
+                                        const WayPart& beside) const;
+  [[nodiscard]] bool safe_beside(const TrafficCar& car, const WayPart& beside, const TrafficView& view,
+                                 bool urgent) const;
+  void watch_ego(const Actor& ego, const TrafficView& view);
   [[nodiscard]] const Driver& driver_of(int id) const;
   void insert_waiting(const TrafficView& view);
   void move(TrafficCar& car);
@@ -91,6 +98,7 @@ class Traffic final : public TrafficEngine {
   int next_id_ = 1;
   int finished_ = 0;
   std::int64_t ticks_ = 0;
+  double ego_waited_s_ = 0.0;
   Driver ego_driver_;  ///< what others take the ego's driver to be
 };
 

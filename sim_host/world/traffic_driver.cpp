@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "sim_host/world/social_value.hpp"
+
 namespace s4tp::world {
 
 Driver draw_driver(const DriverModel& model, Random& random) {
@@ -19,6 +21,18 @@ Driver draw_driver(const DriverModel& model, Random& random) {
   driver.imperfection = model.sigma;
   driver.reaction_s = random.uniform(0.5, 1.0);
   driver.lane_keeping = model.lane_keeping;
+  const SocialTraits traits = social_traits(model.svo_rad);
+  driver.headway_s *= traits.headway;
+  driver.min_gap_m *= traits.min_gap;
+  driver.acceleration_mps2 *= traits.acceleration;
+  driver.speed_factor *= traits.speed;
+  driver.gap_margin_s = traits.gap_margin_s;
+  driver.patience_s = traits.patience_s;
+  driver.politeness = traits.politeness;
+  driver.change_threshold_mps2 = traits.change_threshold_mps2;
+  driver.asked_braking_mps2 = traits.asked_braking_mps2;
+  driver.courtesy = traits.courtesy;
+  driver.rivalry = traits.rivalry;
   return driver;
 }
 

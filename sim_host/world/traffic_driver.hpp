@@ -15,12 +15,15 @@ struct Driver {
   double min_gap_m = 2.5;
   double speed_factor = 1.0;
   double max_speed_mps = 55.0;
-  double imperfection = 0.5;  ///< SUMO's sigma
-  double reaction_s = 0.75;   ///< until something unexpected is acted upon, 0.5 .. 1
-  double gap_margin_s = 1.0;  ///< wanted between own leaving of a zone and the other's arrival
-  double patience_s = 15.0;   ///< waiting time after which the margin is down to a quarter
-  double politeness = 0.3;    ///< MOBIL: weight of the new follower's loss
-  double lane_change_gain_mps2 = 0.3;
+  double imperfection = 0.5;           ///< SUMO's sigma
+  double reaction_s = 0.75;            ///< until something unexpected is acted upon, 0.5 .. 1
+  double gap_margin_s = 1.0;           ///< wanted between own leaving of a zone and the other's arrival
+  double patience_s = 15.0;            ///< waiting time after which the margin is down to a quarter
+  double politeness = 0.0;             ///< MOBIL's p: weight of the others' gain or loss
+  double change_threshold_mps2 = 0.1;  ///< MOBIL: what a change must gain
+  double asked_braking_mps2 = 3.0;     ///< MOBIL's b_safe: what it may ask of the one behind, and of oneself
+  double courtesy = 0.0;  ///< 0 .. 1: braking, in shares of comfortable, to let in or let go somebody
+  double rivalry = 0.0;   ///< 0 .. 1: closes up on somebody who wants in
   bool lane_keeping = false;
 };
 

@@ -17,6 +17,10 @@ constexpr double kOrder_s = 0.2;        // "at the same time"
 constexpr double kStanding_mps = 0.3;
 constexpr double kPatience_s = 5.0;  // then somebody who stands is more and more taken to let us go
 constexpr double kLineRoom_m = 0.3;
+constexpr double kCourteous = 0.5;        // from here on drivers let somebody go who has waited
+constexpr double kCourtesyAfter_s = 5.0;  // he has waited
+constexpr double kCourtesyLasts_s = 5.0;  // then they go themselves
+constexpr double kCourtesy_mps2 = 2.0;    // braking they take upon themselves for it
 
 /// When somebody is on the ground shared, as others expect it.
 struct Occupation {
@@ -82,7 +86,7 @@ bool must_wait(const Approach& approach, const Meeting& meeting, const OwnTimes&
     case Rule::kFirstHasPriority:
       return false;
     case Rule::kFirstYields:
-      return !gap_accepted(approach, meeting.rule, own, other, theirs);
+      return other.lets_go != approach.self->id && !gap_accepted(approach, meeting.rule, own, other, theirs);
     case Rule::kFirstCome:
       break;
   }
@@ -94,6 +98,16 @@ bool must_wait(const Approach& approach, const Meeting& meeting, const OwnTimes&
 /// Whether the other one, who is inside though he should have waited, will be there when we are.
 bool in_the_way(const OwnTimes& own, const Occupation& theirs) {
   return theirs.inside_junction && theirs.from_s < own.out_s && own.in_s < theirs.until_s;
+}
+
+/// Whether a driver with right of way stops for somebody who has waited.
+bool courteous(const Approach& approach, const Meeting& meeting, const Actor& other, double line_m) {
+  const double speed = approach.self->speed_mps;
+  return meeting.rule == Rule::kFirstHasPriority && !approach.committed &&
+         approach.driver->courtesy >= kCourteous && approach.gave_way_s < kCourtesyLasts_s &&
+         other.waited_s > kCourtesyAfter_s && line_m > 0.0 &&
+         (other.speed_mps < kStanding_mps || approach.gave_way_s > 0.0) &&
+         (speed * speed < 2.0 * kCourtesy_mps2 * line_m || speed < 1.0);
 }
 
 /// A queue behind the junction must leave room for the whole car.
@@ -160,6 +174,10 @@ JunctionChoice choose_at_junction(const TrafficView& view, const Approach& appro
         const Occupation theirs = occupation_of(view, other, meeting);
         if (!theirs.coming) {
           continue;
+        }
+        if (courteous(approach, meeting, other, choice.line_m)) {
+          choice.stop = true;
+          choice.lets_go = other.id;
         }
         if (!approach.committed && must_wait(approach, meeting, own, other, theirs)) {
           choice.stop = true;

@@ -4,11 +4,11 @@
 /// | other one                          | what he does                                                     |
 /// |------------------------------------|------------------------------------------------------------------|
 /// | has right of way                   | goes only through a gap in time with his margin, else stops at the
-/// line | | yields, still before his line      | trusts him | | yields, but is inside and will be there |
-/// brakes before the shared ground after his reaction time (unexpected) | | first come, first served | lets
-/// him go if he is inside or will be there first               | | no room behind the junction        | does
-/// not enter                                                   | | he himself is inside               | goes
-/// on                                                          |
+/// line | | the same, and lets him go          | goes | | yields, still before his line      | trusts him |
+/// | the same, and has waited long      | a courteous one stops for some seconds, where that is comfortable |
+/// | yields, but is inside and in the way | brakes before the shared ground after his reaction time
+/// (unexpected)  | | first come, first served           | lets him go if he is inside or will be there first
+/// | | no room behind the junction        | does not enter | | he himself is inside               | goes on |
 
 #include "sim_host/world/traffic_driver.hpp"
 #include "sim_host/world/traffic_view.hpp"
@@ -20,8 +20,9 @@ struct Approach {
   const Actor* self = nullptr;
   const Driver* driver = nullptr;
   double wanted_mps = 0.0;
-  double waited_s = 0.0;   ///< standing near the line so far
-  bool committed = false;  ///< past the point of no return with a gap accepted
+  double waited_s = 0.0;    ///< standing near the line so far
+  double gave_way_s = 0.0;  ///< time already given to somebody waiting
+  bool committed = false;   ///< past the point of no return with a gap accepted
   Leader leader;
 };
 
@@ -29,6 +30,7 @@ struct JunctionChoice {
   bool near = false;      ///< there is a junction ahead within sight
   double line_m = 0.0;    ///< from the bumper to the stop line
   bool stop = false;      ///< before the line
+  int lets_go = -1;       ///< id of somebody waiting, for whom he stops out of courtesy
   int hazard = -1;        ///< id of somebody who should not be in the way; -1: none
   double hazard_m = 0.0;  ///< from the bumper to where the ground shared with him begins
 };

@@ -25,6 +25,8 @@ struct Actor {
   double length_m = 5.0;
   const RouteGuide* guide = nullptr;
   bool committed = false;     ///< to the junction ahead: has accepted a gap and cannot well stop any more
+  double waited_s = 0.0;      ///< standing near a stop line so far
+  int lets_go = -1;           ///< id of somebody waiting whom he lets go before himself
   std::vector<WayPart> also;  ///< further lanes it is in now, changing or straying; `start_m` = -s there
   std::vector<WayPart> way;   ///< filled in by TrafficView: from its lane onwards
 };
