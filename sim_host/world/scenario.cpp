@@ -163,6 +163,11 @@ FlowGroup read_flow(TomlTable table, const Network& network, const std::vector<D
     table.fail("spacing", "expected \"even\" or \"random\"");
   }
   group.random_spacing = spacing == "random";
+  for (DriverModel& driver : group.drivers) {  // what this flow says goes before what all have in common
+    TomlTable own = table.table("driver");
+    driver = read_driver(own, driver);
+    own.no_other_keys();
+  }
   table.no_other_keys();
   return group;
 }

@@ -15,6 +15,7 @@ constexpr double kDrawnUntil_s = 240.0;
 constexpr double kComfortableBraking_mps2 = 2.0;  // towards a lower limit ahead
 constexpr double kDistractionShare =
     0.4;                            // of sigma times acceleration: costs 2 to 3 % of speed, as SUMO's does
+constexpr double kInvites_s = 4.5;  // somebody waiting; he stops a little longer, lest both go at once
 constexpr double kNear_m = 8.0;     // of the line: waiting time counts
 constexpr double kSideGone = 0.75;  // of a change, when the old lane is free again
 
@@ -85,7 +86,7 @@ Actor Traffic::actor_of(const TrafficCar& car) const {
   actor.guide = &plan_.ways[car.way].guide;
   actor.committed = car.committed;
   actor.waited_s = car.waited_s;
-  actor.lets_go = car.lets_go;
+  actor.lets_go = car.gave_way_s < kInvites_s ? car.lets_go : TrafficCar::kNobody;
   if (car.leaving != kNoLane) {
     actor.also.push_back({car.leaving, -car.s_m});
   }
@@ -147,7 +148,7 @@ double Traffic::acceleration(TrafficCar& car, const Actor& self, const TrafficVi
     result = std::min(result, stopping_acceleration_mps2(car.driver, car.speed_mps, wanted, to_end_m));
   }
   const JunctionChoice choice = choose_at_junction(
-      view, {&self, &car.driver, wanted, car.waited_s, car.gave_way_s, car.committed, leader});
+      view, {&self, &car.driver, wanted, car.waited_s, car.gave_way_s, car.lets_go, car.committed, leader});
   car.lets_go = choice.lets_go;
   car.gave_way_s += choice.lets_go != TrafficCar::kNobody ? kTick_s * kDecisionTicks : 0.0;
   const double ordinary_stop_m = car.speed_mps * car.speed_mps / (2.0 * car.driver.deceleration_mps2) +

@@ -100,14 +100,18 @@ bool in_the_way(const OwnTimes& own, const Occupation& theirs) {
   return theirs.inside_junction && theirs.from_s < own.out_s && own.in_s < theirs.until_s;
 }
 
-/// Whether a driver with right of way stops for somebody who has waited.
+/// Whether a driver with right of way stops for somebody who has waited, and lets him finish what he began.
 bool courteous(const Approach& approach, const Meeting& meeting, const Actor& other, double line_m) {
+  if (meeting.rule != Rule::kFirstHasPriority || approach.committed || line_m < -0.5) {
+    return false;
+  }
+  const bool standing = other.speed_mps < kStanding_mps;
+  if (approach.lets_go == other.id) {
+    return !standing || other.committed || approach.gave_way_s < kCourtesyLasts_s;
+  }
   const double speed = approach.self->speed_mps;
-  return meeting.rule == Rule::kFirstHasPriority && !approach.committed &&
-         approach.driver->courtesy >= kCourteous && approach.gave_way_s < kCourtesyLasts_s &&
-         other.waited_s > kCourtesyAfter_s && line_m > 0.0 &&
-         (other.speed_mps < kStanding_mps || approach.gave_way_s > 0.0) &&
-         (speed * speed < 2.0 * kCourtesy_mps2 * line_m || speed < 1.0);
+  return approach.driver->courtesy >= kCourteous && approach.gave_way_s < kCourtesyLasts_s && standing &&
+         other.waited_s > kCourtesyAfter_s && speed * speed < 2.0 * kCourtesy_mps2 * line_m;
 }
 
 /// A queue behind the junction must leave room for the whole car.

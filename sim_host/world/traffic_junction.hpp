@@ -22,6 +22,7 @@ struct Approach {
   double wanted_mps = 0.0;
   double waited_s = 0.0;    ///< standing near the line so far
   double gave_way_s = 0.0;  ///< time already given to somebody waiting
+  int lets_go = -1;         ///< who that is
   bool committed = false;   ///< past the point of no return with a gap accepted
   Leader leader;
 };

@@ -4,22 +4,24 @@
 
 #include <filesystem>
 #include <string>
+#include <tuple>
 
 #include "sim_host/world/box.hpp"
 
 namespace s4tp::world {
 namespace {
 
-Scenario scenario(const std::string& name) {
-  return load_scenario(std::filesystem::path(S4TP_SOURCE_DIR) / "sim_host" / "scenarios" / name);
+Scenario scenario(const std::string& name, const std::string& flavour) {
+  return load_scenario(std::filesystem::path(S4TP_SOURCE_DIR) / "sim_host" / "scenarios" / name, flavour);
 }
 
-class TrafficIn : public testing::TestWithParam<const char*> {};
+class TrafficIn : public testing::TestWithParam<std::tuple<const char*, const char*>> {};
 
 // Without an ego the traffic's own drivers never touch each other: 20 episodes of 90 s, looked at ten times a
 // second.
 TEST_P(TrafficIn, HasNoCollisionsOfItsOwn) {
-  const Scenario where = scenario(GetParam());
+  const auto [name, flavour] = GetParam();
+  const Scenario where = scenario(name, flavour);
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     Traffic traffic(where.network, where.flows, seed);
     while (traffic.time_s() < 90.0) {
@@ -30,8 +32,8 @@ TEST_P(TrafficIn, HasNoCollisionsOfItsOwn) {
       for (std::size_t a = 0; a < cars.size(); ++a) {
         for (std::size_t b = a + 1; b < cars.size(); ++b) {
           ASSERT_FALSE(overlap(box_of(cars[a]), box_of(cars[b])))
-              << GetParam() << " seed " << seed << " at " << traffic.time_s() << " s: " << cars[a].id
-              << " and " << cars[b].id;
+              << name << " seed " << seed << " at " << traffic.time_s() << " s: " << cars[a].id << " and "
+              << cars[b].id;
         }
       }
     }
@@ -41,7 +43,8 @@ TEST_P(TrafficIn, HasNoCollisionsOfItsOwn) {
 
 // WORLD-021 The same seed gives the same traffic to the bit, another seed another one.
 TEST_P(TrafficIn, IsDeterministic) {
-  const Scenario where = scenario(GetParam());
+  const auto [name, flavour] = GetParam();
+  const Scenario where = scenario(name, flavour);
   Traffic one(where.network, where.flows, 11);
   Traffic same(where.network, where.flows, 11);
   Traffic other(where.network, where.flows, 12);
@@ -61,8 +64,9 @@ TEST_P(TrafficIn, IsDeterministic) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenarios, TrafficIn,
-                         testing::Values("left_turn", "left_turn_t", "merge", "cruise", "overtake",
-                                         "cut_in"));
+                         testing::Combine(testing::Values("left_turn", "left_turn_t", "merge", "cruise",
+                                                          "overtake", "cut_in"),
+                                          testing::Values("smarts", "social")));
 
 }  // namespace
 }  // namespace s4tp::world
