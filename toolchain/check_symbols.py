@@ -42,6 +42,8 @@ WANTED = re.compile(r"mem(cpy|set|move|cmp)|str(cmp|len)|__aeabi_mem(cpy|set|mov
 PLANNER_BUDGET_BYTES = 64 * 1024
 # What a Cortex-M with a floating-point unit pushes by itself, with alignment.
 EXCEPTION_FRAME_BYTES = 108
+# Handlers by priority; those of one do not interrupt one another.
+INTERRUPTS = (("pendsv_handler",), ("systick_handler", "uart1_handler"))
 SIZE_SYMBOL = "s4tp_size_of_planner"
 
 
@@ -118,9 +120,10 @@ def check_image(target, build, image, report):
     depth, recursive = stack_depth.deepest(functions)
     report.extend(f"{image.name}: {name} calls itself, directly or not" for name in sorted(recursive))
     report.extend(f"{image.name}: the frame of {name} depends on a value" for name, entry in functions.items() if entry[3])
-    # A tick may come at the deepest point: the interrupt's own path and what the core saves are added.
-    interrupt = depth.get("systick_handler", 0)
-    deepest = depth["reset_handler"] + (interrupt + EXCEPTION_FRAME_BYTES if interrupt else 0)
+    # A tick may come at the deepest point, and a device or the timer at the deepest point of that: their own paths and
+    # what the core saves for them are added.
+    control, device = (max(depth.get(name, 0) for name in names) for names in INTERRUPTS)
+    deepest = depth["reset_handler"] + sum(path + EXCEPTION_FRAME_BYTES for path in (control, device) if path)
     stack = regions["STACK"][1]
     if deepest > stack:
         report.append(f"{image.name}: the deepest path needs {deepest} of {stack} bytes of stack")

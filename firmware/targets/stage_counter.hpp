@@ -1,5 +1,5 @@
 #pragma once
-/// Cost of each stage of a planning cycle in SysTick counts, for run_image.sh --count.
+/// Cost of each stage of a planning cycle, in SysTick counts: with run_image.sh --count, instructions.
 
 #include <cstdint>
 
@@ -12,19 +12,22 @@ class StageCounter final : public Probe {
   void stage_begin(Stage stage) override;
   void stage_end(Stage stage) override;
   void cycle_done(const Scene& scene, const PredictionSet& prediction, const RiskProfile& risk) override;
-  /// One line a stage: cycles it ran in, mean and maximum counts per cycle.
-  void print_table() const;
 
- private:
   struct Row {
-    std::uint32_t cycles = 0;
-    std::uint32_t running = 0;  ///< counts so far in the cycle that is running
+    std::uint32_t cycles = 0;  ///< it ran in
+    std::uint32_t last = 0;    ///< counts of the last cycle; 0: it did not run in it
     std::uint32_t maximum = 0;
     std::uint64_t sum = 0;
+    std::uint32_t running = 0;  ///< counts so far in the cycle that is running
     void close();
   };
-  Row stages_[kStageCount];
-  Row total_;
+  static constexpr int kRows = kStageCount + 1;  ///< the last is all stages together
+  [[nodiscard]] static const char* name(int row);
+  /// \pre 0 <= index < kRows
+  [[nodiscard]] const Row& row(int index) const { return rows_[index]; }
+
+ private:
+  Row rows_[kRows];
   std::uint32_t began_ = 0;
 };
 

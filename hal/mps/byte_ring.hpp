@@ -28,6 +28,8 @@ class ByteRing {
   }
   /// Reader. \pre front() has given a byte
   void pop() { read_.store(read_.load(std::memory_order_relaxed) + 1U, std::memory_order_release); }
+  /// Bytes ever pushed; wraps.
+  [[nodiscard]] std::uint32_t written() const { return written_.load(std::memory_order_relaxed); }
 
  private:
   char bytes_[N] = {};

@@ -14,6 +14,8 @@ namespace s4tp::hal::mps {
 void start_control_interrupt();
 /// Runs pendsv_handler() as soon as nothing above it runs.
 void pend_control_interrupt();
+/// Takes that back.
+void forget_control_interrupt();
 /// Lets a device's interrupt through, at the devices' priority.
 void start_interrupt(int number);
 /// As if the device had raised it.

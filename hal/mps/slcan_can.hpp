@@ -31,6 +31,9 @@ class SlcanCan final : public Can {
   [[nodiscard]] CanState state() const override { return state_; }
   [[nodiscard]] CanCounters counters() const override;
 
+  /// Bytes that have come in so far; wraps. Whether it grows tells a line that is busy from one at rest.
+  [[nodiscard]] std::uint32_t bytes_received() const { return in_.written(); }
+
  private:
   Uart uart_{kUart1};
   ByteRing<kReceiveBytes> in_;

@@ -13,14 +13,14 @@ constexpr std::uint32_t kSysTickPending = 1U << 26;
 constexpr std::uint32_t kEnableCoreClockInterrupt = 0x7;
 
 constexpr std::int32_t kCyclesPerUs = kCoreClockHz / 1'000'000;
-constexpr std::uint32_t kTickCycles = kCoreClockHz / 100;
 constexpr std::int32_t kMaxPhaseUs = 500;
 
 }  // namespace
 
-void Timer::start() {
-  period_cycles_ = kTickCycles;
-  reg(kReload) = kTickCycles - 1;
+void Timer::start(std::uint32_t tick_us) {
+  tick_cycles_ = tick_us * static_cast<std::uint32_t>(kCyclesPerUs);
+  period_cycles_ = tick_cycles_;
+  reg(kReload) = tick_cycles_ - 1;
   reg(kCurrent) = 0;
   reg(kControl) = kEnableCoreClockInterrupt;
 }
@@ -29,7 +29,7 @@ void Timer::on_interrupt() {
   elapsed_cycles_ = elapsed_cycles_ + period_cycles_;
   // The hardware took the reload value when the counter passed zero, so a new one acts a period later.
   period_cycles_ = reg(kReload) + 1;
-  reg(kReload) = kTickCycles - 1 + static_cast<std::uint32_t>(phase_us_ * kCyclesPerUs);
+  reg(kReload) = tick_cycles_ - 1 + static_cast<std::uint32_t>(phase_us_ * kCyclesPerUs);
   phase_us_ = 0;
   due_ = true;
 }

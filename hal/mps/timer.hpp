@@ -1,5 +1,5 @@
 #pragma once
-/// SysTick as the 100 Hz control tick, the local clock and the cycle counter. The image calls on_interrupt()
+/// SysTick as the control tick, the local clock and the cycle counter. The image calls on_interrupt()
 /// from its systick_handler().
 
 #include "hal/clock.hpp"
@@ -10,10 +10,11 @@ namespace s4tp::hal::mps {
 
 class Timer final : public Tick, public Clock, public CycleCounter {
  public:
-  void start();
+  /// \param tick_us  at most 500'000
+  void start(std::uint32_t tick_us = 10'000);
   void on_interrupt();
 
-  /// MPS-010 One tick each 10 ms; ticks not taken in time are lost, not queued.
+  /// MPS-010 One tick each `tick_us`; ticks not taken in time are lost, not queued.
   [[nodiscard]] bool take() override;
   /// MPS-011 Lengthens or shortens the next period by at most 500 us.
   void adjust(std::int32_t phase_us) override;
@@ -25,6 +26,7 @@ class Timer final : public Tick, public Clock, public CycleCounter {
  private:
   [[nodiscard]] std::uint64_t cycles() const;
 
+  std::uint32_t tick_cycles_ = 0;
   volatile std::uint64_t elapsed_cycles_ = 0;  ///< of the periods that have ended
   volatile std::uint32_t period_cycles_ = 0;   ///< of the period running now
   volatile std::int32_t phase_us_ = 0;

@@ -6,7 +6,10 @@
 #include "sim_host/campaign/bus_log.hpp"
 #include "sim_host/campaign/results.hpp"
 #include "sim_host/commands/command.hpp"
+#include "sim_host/processes/child_process.hpp"
 #include "sim_host/processes/drive_on_bus.hpp"
+#include "sim_host/processes/drive_on_target.hpp"
+#include "sim_host/processes/emulated_board.hpp"
 #include "sim_host/view/episode_picture.hpp"
 #include "sim_host/view/explanation_table.hpp"
 #include "sim_host/view/report.hpp"
@@ -25,6 +28,8 @@ struct RunOptions {
   std::string bus;
   bool realtime = false;
   bool no_ecu = false;
+  std::string target;
+  fs::path image;
   fs::path log;
 };
 
@@ -65,10 +70,10 @@ int run_one(const RunOptions& run) {
 int run_on_bus(const RunOptions& run) {
   const bool calls = run.bus.starts_with("slcan:tcp:");
   processes::DriveOptions options;
-  options.start_ecu = !run.no_ecu;
+  const bool starts = !run.no_ecu;
   // With both ends ours, one has to listen.
-  options.world.bus = calls && options.start_ecu ? "slcan:listen:" + run.bus.substr(10) : run.bus;
-  if (options.start_ecu && !processes::has_two_ends(options.world.bus)) {
+  options.world.bus = calls && starts ? "slcan:listen:" + run.bus.substr(10) : run.bus;
+  if (starts && !processes::has_two_ends(options.world.bus)) {
     throw std::runtime_error(run.bus + ": the ECU has to be at its other end already; add --no-ecu");
   }
   options.world.seed = run.common.seed;
@@ -76,16 +81,34 @@ int run_on_bus(const RunOptions& run) {
   options.world.realtime = run.realtime;
   if (!run.log.empty()) options.world.log = run.log;
   options.out = run.common.out;
-  if (options.start_ecu) {
+  if (starts) {
     options.planner = run.planner;
     options.world.ecu_note = campaign::ecu_note(run.planner, run.guarded(), run.common.parameters());
-    options.ecu_arguments = {"--planner", run.planner, "--guard", run.guard};
+    std::vector<std::string>& ecu = options.ecu_command;
+    ecu = {processes::own_program("s4tp_ecu_process"), "--bus", processes::other_end(options.world.bus)};
+    ecu.insert(ecu.end(), {"--planner", run.planner, "--guard", run.guard});
     if (!run.common.parameters_file.empty()) {
-      options.ecu_arguments.insert(options.ecu_arguments.end(), {"--parameters", run.common.parameters_file});
+      ecu.insert(ecu.end(), {"--parameters", run.common.parameters_file});
     }
-    if (run.realtime) options.ecu_arguments.push_back("--realtime");
+    if (run.realtime) ecu.push_back("--realtime");
   }
   return processes::drive_on_bus(run.common.find_scenario(run.scenario), options, std::cout);
+}
+
+/// The same episode, with the ECU's image on an emulated board.
+int run_on_target(const RunOptions& run) {
+  if (!run.common.parameters_file.empty()) {
+    throw std::runtime_error("--parameters: an image has its own; --target drives with those");
+  }
+  processes::TargetOptions options;
+  options.target = run.target;
+  options.image = run.image;
+  options.world.seed = run.common.seed;
+  options.world.engine = world::engine_of(run.common.traffic);
+  options.world.ecu_note = campaign::ecu_note("s4tp", true, Parameters{});
+  if (!run.log.empty()) options.world.log = run.log;
+  options.out = run.common.out;
+  return processes::drive_on_target(run.common.find_scenario(run.scenario), options, std::cout);
 }
 
 }  // namespace
@@ -97,10 +120,11 @@ Command add_run(CLI::App& tool) {
   options->common.add_to(*run);
   options->common.add_traffic_to(*run);
   run->add_option("--scenario", options->scenario, "shipped name, folder or .toml file (default left_turn)");
-  run->add_option("--planner", options->planner, "who drives (default s4tp)")
-      ->check(CLI::IsMember(campaign::planner_names()));
-  run->add_option("--guard", options->guard, "check, RSS and minimum-risk manoeuvre behind him (default on)")
-      ->check(CLI::IsMember({"on", "off"}));
+  CLI::Option* const planner = run->add_option("--planner", options->planner, "who drives (default s4tp)")
+                                   ->check(CLI::IsMember(campaign::planner_names()));
+  CLI::Option* const guard = run->add_option("--guard", options->guard,
+                                             "check, RSS and minimum-risk manoeuvre behind him (default on)")
+                                 ->check(CLI::IsMember({"on", "off"}));
   run->add_option("--log", options->log, "write every frame on the bus here, in candump's format");
   CLI::Option* const bus =
       run->add_option("--bus", options->bus,
@@ -108,7 +132,18 @@ Command add_run(CLI::App& tool) {
                       "slcan:pty:PATH, slcan:tty:PATH@BAUD (no picture then)");
   run->add_flag("--realtime", options->realtime, "on a bus: 10 ms of host time a tick")->needs(bus);
   run->add_flag("--no-ecu", options->no_ecu, "on a bus: an ECU is there already")->needs(bus);
-  return {run, [options] { return options->bus.empty() ? run_one(*options) : run_on_bus(*options); }};
+  CLI::Option* const target =
+      run->add_option("--target", options->target,
+                      "the ECU's image on an emulated board: m7, m55 (no picture then)")
+          ->check(CLI::IsMember(processes::board_targets()))
+          ->excludes(bus, planner, guard);
+  run->add_option("--image", options->image,
+                  "of that board (default: build/TARGET/firmware/targets/ecu_lockstep)")
+      ->needs(target);
+  return {run, [options] {
+            if (!options->target.empty()) return run_on_target(*options);
+            return options->bus.empty() ? run_one(*options) : run_on_bus(*options);
+          }};
 }
 
 }  // namespace s4tp::commands

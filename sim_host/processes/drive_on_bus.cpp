@@ -8,7 +8,7 @@
 #include "sim_host/campaign/results.hpp"
 #include "sim_host/metrics/metrics.hpp"
 #include "sim_host/processes/bus_end.hpp"
-#include "sim_host/processes/ecu_child.hpp"
+#include "sim_host/processes/child_process.hpp"
 #include "sim_host/processes/stop_signals.hpp"
 
 namespace s4tp::processes {
@@ -45,16 +45,15 @@ int drive_on_bus(const world::Scenario& scenario, const DriveOptions& options, s
   const auto bus = std::make_unique<hal::linux_host::NamedBus>();
   open_bus(*bus, world.bus, Side::kWorld);
   const std::filesystem::path ecu_report = options.out / "ecu_realtime.json";
-  std::optional<EcuChild> ecu;
+  std::optional<ChildProcess> ecu;
   if (!options.out.empty()) std::filesystem::create_directories(options.out);
-  if (options.start_ecu) {
-    std::vector<std::string> arguments{"--bus", other_end(world.bus)};
-    arguments.insert(arguments.end(), options.ecu_arguments.begin(), options.ecu_arguments.end());
+  if (!options.ecu_command.empty()) {
+    std::vector<std::string> command = options.ecu_command;
     if (world.realtime && !options.out.empty()) {
       std::filesystem::remove(ecu_report);
-      arguments.insert(arguments.end(), {"--report", ecu_report});
+      command.insert(command.end(), {"--report", ecu_report});
     }
-    ecu.emplace(arguments);
+    ecu.emplace(command);
     world.ecu_lives = [&ecu] { return ecu->lives(); };
   }
   const WorldProcessResult result = run_world(scenario, bus->can(), world, out, stop);
@@ -71,7 +70,7 @@ int drive_on_bus(const world::Scenario& scenario, const DriveOptions& options, s
     campaign::CampaignOptions one;
     one.episodes = 1;
     one.first_seed = world.seed;
-    const nlohmann::json timing = timing_of(result, options.start_ecu ? ecu_report : "");
+    const nlohmann::json timing = timing_of(result, options.ecu_command.empty() ? "" : ecu_report);
     campaign::write_json(options.out / "run.json", rows, one, result.timing ? &timing : nullptr);
   }
   if (world.log) out << "bus log: " << world.log->string() << '\n';

@@ -13,10 +13,9 @@ namespace s4tp::processes {
 
 struct DriveOptions {
   WorldProcessOptions world;
-  std::string planner = "the ECU";         ///< for the report
-  std::filesystem::path out;               ///< folder of run.json
-  bool start_ecu = false;                  ///< starts an ECU process at the other end
-  std::vector<std::string> ecu_arguments;  ///< for it, besides the bus
+  std::string planner = "the ECU";       ///< for the report
+  std::filesystem::path out;             ///< folder of run.json
+  std::vector<std::string> ecu_command;  ///< starts the ECU at the other end; empty: it is there
 };
 
 /// The bus's other end: whoever listens is called, every other bus has one name.

@@ -21,8 +21,6 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 using std::chrono::steady_clock;
 
-constexpr milliseconds kAnswerWithin{1000};
-constexpr milliseconds kDeadAfter{2000};
 constexpr seconds kLinkBackWithin{30};
 constexpr milliseconds kLook{50};
 constexpr unsigned kEchoMask = 0xFFF;
@@ -94,7 +92,7 @@ class Session {
       ++result_.unanswered;
       tell_unanswered();
       if (link_was_down_) answered = steady_clock::now();
-      if (ecu_lives() && steady_clock::now() < answered + kDeadAfter) continue;
+      if (ecu_lives() && steady_clock::now() < answered + milliseconds(options_.dead_after_ms)) continue;
       out_ << "no answer from the ECU: it is dead" << std::endl;
       for (int i = 0; i < kTicksToEnd && !world_.finished(); ++i) world_.tick(frames_);
       return;
@@ -109,17 +107,18 @@ class Session {
 
   /// \return whether the ECU answered this tick
   bool await_answer() {
-    auto end = steady_clock::now() + kAnswerWithin;
+    auto end = steady_clock::now() + milliseconds(options_.answer_within_ms);
     const auto link_end = steady_clock::now() + kLinkBackWithin;
     link_was_down_ = false;
     while (!stop_) {
       if (take_frames(0)) return true;
       print_news(out_, options_.bus, can_);
+      if (!ecu_lives()) return false;
       const auto now = steady_clock::now();
       if (!usable() && now < link_end) {
         link_was_down_ = true;
         end = now;
-      } else if (now >= end || !ecu_lives()) {
+      } else if (now >= end) {
         return false;
       }
       (void)can_.wait(link_was_down_ ? to_ms(kLook) : std::min(to_ms(kLook), to_ms(end - now)));

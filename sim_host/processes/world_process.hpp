@@ -22,10 +22,12 @@ struct WorldProcessOptions {
   std::uint64_t seed = 0;
   world::Engine engine = world::Engine::kBuiltin;
   bool realtime = false;
-  int wait_s = 10;                                    ///< for a sign of the ECU; 0: begin at once
-  std::optional<std::filesystem::path> log;           ///< every frame of the bus from the first tick on
-  std::string ecu_note;                               ///< for the log's first line, campaign::ecu_note()
-  std::function<bool()> ecu_lives;                    ///< may be empty; false ends the wait for it
+  int wait_s = 10;                           ///< for a sign of the ECU; 0: begin at once
+  std::optional<std::filesystem::path> log;  ///< every frame of the bus from the first tick on
+  std::string ecu_note;                      ///< for the log's first line, campaign::ecu_note()
+  int answer_within_ms = 1000;               ///< lock-step: after that the next tick begins all the same
+  int dead_after_ms = 2000;                  ///< lock-step: without any answer
+  std::function<bool()> ecu_lives;           ///< may be empty; false ends the wait for it
   hal::linux_host::RealtimeKernel* kernel = nullptr;  ///< realtime: null is the one we run on
 };
 
@@ -40,13 +42,14 @@ struct WorldProcessResult {
 
 /// PROC-020 Begins when a VersionEcu frame shows that an ECU is there, says so when none comes.
 /// PROC-021 Lock-step: the next tick begins when a Command frame whose CRC fits echoes the number of this
-/// one. Without one for 1 s of host time it begins all the same; PROC-022 after 2 s without any, or when
-/// ecu_lives says no, the ECU is dead, and the episode ends as the world sees fit. While the link is down or
-/// off nothing is counted for 30 s. PROC-023 Realtime: a tick every 10 ms of host time, whatever the ECU
-/// does; a world that is a period late or later skips ticks, so the car's time stands still for them. The
-/// calling thread asks for SCHED_FIFO and keeps it. PROC-024 A Command frame reaches the car only if its CRC
-/// fits and its echo is the present tick's (realtime: one of the last 10), so a frame recorded earlier never
-/// does. The car's own protection comes after that. \throws std::runtime_error when the log cannot be written
+/// one. Without one for answer_within_ms of host time it begins all the same; PROC-022 after dead_after_ms
+/// without any, or when ecu_lives says no, the ECU is dead, and the episode ends as the world sees fit. While
+/// the link is down or off nothing is counted for 30 s. PROC-023 Realtime: a tick every 10 ms of host time,
+/// whatever the ECU does; a world that is a period late or later skips ticks, so the car's time stands still
+/// for them. The calling thread asks for SCHED_FIFO and keeps it. PROC-024 A Command frame reaches the car
+/// only if its CRC fits and its echo is the present tick's (realtime: one of the last 10), so a frame
+/// recorded earlier never does. The car's own protection comes after that. \throws std::runtime_error when
+/// the log cannot be written
 [[nodiscard]] WorldProcessResult run_world(const world::Scenario& scenario, hal::linux_host::LinuxCan& can,
                                            const WorldProcessOptions& options, std::ostream& out,
                                            const std::atomic<bool>& stop);
