@@ -29,6 +29,7 @@ struct Command {
 [[nodiscard]] Command add_run(CLI::App& tool);
 [[nodiscard]] Command add_record(CLI::App& tool);
 [[nodiscard]] Command add_traffic(CLI::App& tool);
+[[nodiscard]] Command add_coupling(CLI::App& tool);
 
 /// Options that commands share, with the same words and meaning everywhere.
 struct CommonOptions {
