@@ -8,6 +8,7 @@ namespace {
 
 constexpr std::uint32_t kPeriodMs = static_cast<std::uint32_t>(kStepMs);
 constexpr std::uint32_t kWellTicks = 100;  // ECU-026
+constexpr std::uint32_t kPlanTicks = 20;   // ECU-031: so long ago at most, the plan in force was asked for
 constexpr float kRestMps = 0.02F;
 constexpr std::uint32_t kStatusTicks = 10;
 constexpr std::uint32_t kSlowTicks = 100;
@@ -136,7 +137,7 @@ void EcuCore::change_mode() {
   Situation situation;
   situation.faults = faults_;
   situation.version_known = inputs_.version_known();
-  situation.plan_at_hand = plan_.kind != PlanKind::kNone;
+  situation.plan_at_hand = plan_.kind != PlanKind::kNone && well_ticks_ >= kPlanTicks;
   situation.engage = inputs_.engage_switch() && engage_armed_;
   situation.engage_released = !inputs_.engage_switch();
   situation.at_rest = inputs_.ego().speed_mps < kRestMps && inputs_.motion_fresh();

@@ -63,8 +63,8 @@ inline constexpr Faults kEndingFaults =
 /// What transitions are decided by.
 struct Situation {
   Faults faults = 0;
-  bool version_known = false;  ///< the world's version arrived and fits
-  bool plan_at_hand = false;
+  bool version_known = false;   ///< the world's version arrived and fits
+  bool plan_at_hand = false;    ///< made from whole inputs: no fault since it was asked for
   bool engage = false;          ///< switch on; after an override, on again
   bool engage_released = true;  ///< switch off
   bool at_rest = false;         ///< by a valid motion frame
@@ -75,7 +75,7 @@ struct Situation {
 enum class TransitionId : std::uint8_t {
   kNone = 0,
   kStandbyFault = 30,         ///< ECU-030 self-test refused
-  kStandbyReady = 31,         ///< ECU-031 no fault at all, version known, a plan at hand
+  kStandbyReady = 31,         ///< ECU-031 no fault at all, version known, a plan at hand made without any
   kReadyFault = 32,           ///< ECU-032 self-test refused
   kReadyStandby = 33,         ///< ECU-033 any fault, or the plan is gone
   kReadyDriving = 34,         ///< ECU-034 engage

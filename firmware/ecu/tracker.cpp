@@ -104,7 +104,6 @@ gate::Command Tracker::stop(const Plan& last, const EgoState& ego, const Paramet
       command.acceleration_mps2 = min(command.acceleration_mps2, place.point.acceleration_mps2);
     }
   }
-  if (ego.speed_mps < kHoldBelowMps) command.acceleration_mps2 = -parameters.tracking.hold_braking_mps2;
   acceleration_mps2_ = command.acceleration_mps2;
   holding_ = ego.speed_mps < kHoldBelowMps;
   return command;

@@ -30,6 +30,7 @@ struct Command {
 [[nodiscard]] Command add_record(CLI::App& tool);
 [[nodiscard]] Command add_traffic(CLI::App& tool);
 [[nodiscard]] Command add_coupling(CLI::App& tool);
+[[nodiscard]] Command add_faults(CLI::App& tool);
 
 /// Options that commands share, with the same words and meaning everywhere.
 struct CommonOptions {

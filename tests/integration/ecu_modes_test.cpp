@@ -108,6 +108,25 @@ TEST(EcuModes, ReadyAndBack) {
   EXPECT_GE(rig.until(Mode::kReady, 30), 0);
 }
 
+// ECU-031: half a second without motion frames, in which plans are made from dead reckoning; ready, and
+// driving, only once the plan in force was asked for (100 ms before its start) with everything whole again.
+TEST(EcuModes, DrivesNoPlanMadeBlind) {
+  for (int phase = 0; phase < 10; ++phase) {
+    Rig rig;
+    ASSERT_EQ(rig.start(), Status::kOk);
+    rig.plant.speed_mps = 5.0;
+    ASSERT_GE(rig.until(Mode::kReady), 0);
+    rig.motion = false;
+    rig.ticks(50 + phase);
+    rig.engage = true;
+    rig.motion = true;
+    while (rig.ecu.faults() != 0 && rig.number < 1000) rig.tick();
+    const std::uint32_t whole_ms = rig.ecu.core().now_ms();
+    ASSERT_GE(rig.until(Mode::kDriving, 40), 0);
+    EXPECT_GE(rig.ecu.plan().start_ms - 100U, whole_ms) << phase;
+  }
+}
+
 // ECU-010: two ticks without a motion frame are none; at the third the car stops safely. The frames' return
 // clears the bit but not the mode.
 TEST(EcuFaults, MotionMissing) {
@@ -418,7 +437,7 @@ TEST(EcuModes, MinimumRiskToStandby) {
   rig->seconds(2.0);
   EXPECT_EQ(rig->ecu.mode(), Mode::kStopped);
   EXPECT_EQ(rig->plant.speed_mps, 0.0);
-  EXPECT_FLOAT_EQ(rig->command.acceleration_mps2, -1.0F);
+  EXPECT_FLOAT_EQ(rig->command.acceleration_mps2, -4.0F);
   rig->engage = false;
   rig->tick();
   EXPECT_EQ(rig->ecu.mode(), Mode::kStandby);

@@ -341,6 +341,14 @@ TEST(Tracker, StopsAlongThePlansPath) {
   EXPECT_EQ(Tracker().stop(hard, ego, {}).acceleration_mps2, -7.0F);
 }
 
+// ECU-054: the same braking, whatever the speed told; a sensor that says 0 at 14 m/s does not let the car
+// roll on.
+TEST(Tracker, StopsWhateverTheSpeedSensorSays) {
+  EgoState ego;
+  EXPECT_EQ(Tracker().stop(Plan{}, ego, {}).acceleration_mps2, -4.0F);
+  EXPECT_EQ(Tracker().stop(plan_of(straight(10.0), 0), ego, {}).acceleration_mps2, -4.0F);
+}
+
 // ECU-053: without a plan, or 4 m beside it, the wheels stay where they are.
 TEST(Tracker, StopsWithoutAPlan) {
   EgoState ego;
