@@ -74,6 +74,7 @@ int measure(const Options& options) {
                   << std::fixed << std::setprecision(2) << v.strayed_m / std::max(v.replays, 1)
                   << " m on average\n";
       }
+      std::cout.flush();  // long runs show what they have
     }
   }
   return kDone;
