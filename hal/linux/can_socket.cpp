@@ -133,7 +133,8 @@ bool CanSocket::set_up(Reason& reason) {
   }
   static_cast<void>(option(SOL_CAN_RAW, CAN_RAW_FD_FRAMES, &on, sizeof on));  // the MTU says whether it helps
   static_cast<void>(option(SOL_SOCKET, SO_SNDBUF, &kSendBufferBytes, sizeof kSendBufferBytes));
-  static_cast<void>(option(SOL_SOCKET, SO_RCVBUF, &kReceiveBufferBytes, sizeof kReceiveBufferBytes));
+  if (!option(SOL_SOCKET, SO_RCVBUFFORCE, &kReceiveBufferBytes, sizeof kReceiveBufferBytes))  // root's
+    static_cast<void>(option(SOL_SOCKET, SO_RCVBUF, &kReceiveBufferBytes, sizeof kReceiveBufferBytes));
   if (!option(SOL_SOCKET, SO_TIMESTAMP, &on, sizeof on) || !option(SOL_SOCKET, SO_RXQ_OVFL, &on, sizeof on)) {
     return fail(reason, name_, "times and drop counts");
   }

@@ -6,6 +6,7 @@
 #include "sim_host/campaign/bus_log.hpp"
 #include "sim_host/campaign/results.hpp"
 #include "sim_host/commands/command.hpp"
+#include "sim_host/commands/vcan_machine.hpp"
 #include "sim_host/processes/child_process.hpp"
 #include "sim_host/processes/drive_on_bus.hpp"
 #include "sim_host/processes/drive_on_target.hpp"
@@ -30,6 +31,8 @@ struct RunOptions {
   bool no_ecu = false;
   std::string target;
   fs::path image;
+  int patience_s = 1;
+  bool machine = false;
   fs::path log;
 };
 
@@ -79,6 +82,8 @@ int run_on_bus(const RunOptions& run) {
   options.world.seed = run.common.seed;
   options.world.engine = world::engine_of(run.common.traffic);
   options.world.realtime = run.realtime;
+  options.world.answer_within_ms = 1000 * run.patience_s;
+  options.world.dead_after_ms = 2000 * run.patience_s;
   if (!run.log.empty()) options.world.log = run.log;
   options.out = run.common.out;
   if (starts) {
@@ -140,9 +145,22 @@ Command add_run(CLI::App& tool) {
   run->add_option("--image", options->image,
                   "of that board (default: build/TARGET/firmware/targets/ecu_lockstep)")
       ->needs(target);
-  return {run, [options] {
+  run->add_option("--patience", options->patience_s,
+                  "on a bus: seconds for each of the ECU's answers (default 1)")
+      ->check(CLI::Range(1, 600))
+      ->needs(bus);
+  CLI::Option* const machine =
+      run->add_flag("--vm", options->machine, "the vcan of a virtual machine, as where the kernel has no CAN")
+          ->needs(bus);
+  return {run, [=] {
             if (!options->target.empty()) return run_on_target(*options);
-            return options->bus.empty() ? run_one(*options) : run_on_bus(*options);
+            if (options->bus.empty()) return run_one(*options);
+            if (!needs_machine(options->bus, options->machine)) return run_on_bus(*options);
+            if (options->no_ecu) throw std::runtime_error("--no-ecu: there is no other ECU in the machine");
+            fs::create_directories(options->common.out);
+            std::vector<fs::path> written{options->common.out};
+            if (!options->log.empty()) written.push_back(fs::absolute(options->log).parent_path());
+            run_in_machine(options->bus, arguments_of(*run, machine), written);
           }};
 }
 

@@ -1,0 +1,68 @@
+#include "sim_host/commands/vcan_machine.hpp"
+
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <iostream>
+#include <stdexcept>
+
+#include "hal/linux/bus_name.hpp"
+
+namespace s4tp::commands {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kSeconds = "3600";  // a drive takes minutes at most
+
+bool kernel_has_can() {
+  const int probe = socket(PF_CAN, SOCK_RAW, 1);  // CAN_RAW
+  const bool has = probe >= 0 || (errno != EAFNOSUPPORT && errno != EPROTONOSUPPORT);
+  if (probe >= 0) close(probe);
+  return has;
+}
+
+}  // namespace
+
+bool needs_machine(const std::string& bus, bool asked_for) {
+  hal::linux_host::BusName name;
+  hal::linux_host::Reason reason;
+  const bool is_interface = hal::linux_host::parse_bus_name(bus.c_str(), name, reason) &&
+                            name.kind == hal::linux_host::BusKind::kInterface;
+  if (asked_for && !is_interface) {
+    throw std::runtime_error("--vm: " + bus + " is no CAN interface; accepted is a name such as vcan0");
+  }
+  if (asked_for || !is_interface || kernel_has_can()) return asked_for;
+  std::cout << "this system's kernel has no CAN: " << bus << " of a virtual machine it is" << std::endl;
+  return true;
+}
+
+std::vector<std::string> arguments_of(const CLI::App& command, const CLI::Option* left_out) {
+  std::vector<std::string> arguments{command.get_name()};
+  for (const CLI::Option* option : command.get_options()) {
+    if (option == left_out || option->count() == 0) continue;
+    for (const std::string& value : option->results()) {
+      arguments.push_back("--" + option->get_lnames().front() + "=" + value);
+    }
+  }
+  return arguments;
+}
+
+void run_in_machine(const std::string& bus, const std::vector<std::string>& arguments,
+                    const std::vector<fs::path>& writable) {
+  std::vector<std::string> words{S4TP_LAUNCHER, "machine", "--seconds", kSeconds, "--interface", bus};
+  for (const fs::path& folder : writable) {
+    if (fs::is_directory(folder)) words.insert(words.end(), {"--writable", folder.string()});
+  }
+  words.push_back(fs::read_symlink("/proc/self/exe").string());
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  std::vector<char*> argv;
+  for (std::string& word : words) argv.push_back(word.data());
+  argv.push_back(nullptr);
+  execv(argv[0], argv.data());
+  throw std::runtime_error(words[0] + ": " + std::strerror(errno));
+}
+
+}  // namespace s4tp::commands

@@ -1,0 +1,78 @@
+// The check that tests in the machine judge commands by, itself tested with planted faults.
+#include "tests/support/command_check.hpp"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "sim_host/campaign/episode.hpp"
+#include "tests/support/log_file.hpp"
+
+namespace s4tp::ecu {
+namespace {
+
+/// A real drive of 13 s; its commands pass through `change`, sealed again.
+CommandCheck check_drive(const std::function<void(int tick, wire::Command& command)>& change) {
+  static const std::vector<wire::Frame> drive = [] {
+    const std::filesystem::path log =
+        std::filesystem::temp_directory_path() / ("check" + std::to_string(getpid()));
+    campaign::EpisodeOptions options;
+    options.seed = 3;
+    options.log = log;
+    (void)campaign::run_episode(
+        world::load_scenario(std::filesystem::path(S4TP_SOURCE_DIR) / "sim_host" / "scenarios" / "left_turn"),
+        options);
+    const std::vector<wire::Frame> frames = test::frames_of_log(log);
+    std::filesystem::remove(log);
+    return frames;
+  }();
+  CommandCheck check;
+  for (wire::Frame frame : drive) {
+    wire::Command command;
+    if (wire::decode(frame, command)) {
+      change(check.ticks(), command);
+      EXPECT_TRUE(wire::encode(command, frame));
+      wire::e2e_seal(frame);
+    }
+    check.take(frame);
+  }
+  return check;
+}
+
+// GATE-001 .. GATE-007 The commands of a drive are what a second gate would have let through; it saw all.
+TEST(CommandCheck, ADriveIsInsideTheLimits) {
+  const CommandCheck check = check_drive([](int, wire::Command&) {});
+  EXPECT_EQ(check.findings(), std::vector<std::string>{});
+  EXPECT_EQ(check.commands(), check.ticks());
+  EXPECT_GT(check.commands_in(Mode::kDriving), 900);
+}
+
+// One command of tick 600 out of line by a little: 3 m/s^2 more drive than a tick may add, 0.02 rad more
+// steering than the wheels turn in a tick, a mode that nothing leads to.
+TEST(CommandCheck, FindsPlantedFaults) {
+  using Change = std::function<void(wire::Command&)>;
+  for (const auto& [what, change] : {
+           std::pair<std::string, Change>{"acceleration",
+                                          [](wire::Command& c) { c.acceleration_mps2 += 3.0F; }},
+           {"steering", [](wire::Command& c) { c.steering_rad += 0.02F; }},
+           {"mode", [](wire::Command& c) { c.mode = static_cast<std::uint8_t>(Mode::kFault); }},
+       }) {
+    const CommandCheck check = check_drive([&change = change](int tick, wire::Command& command) {
+      if (tick == 600) change(command);
+    });
+    ASSERT_FALSE(check.findings().empty()) << what;
+    EXPECT_EQ(check.findings().front().rfind("tick 600: " + what, 0), 0U) << check.findings().front();
+  }
+}
+
+// A command that echoes no tick of the last ten is not the ECU's and is left out.
+TEST(CommandCheck, LeavesOutWhatAnswersNoTick) {
+  const CommandCheck check = check_drive([](int tick, wire::Command& command) {
+    if (tick == 600) command = {.acceleration_mps2 = 9.0F, .steering_rad = 0.8F, .mode = 2, .tick = 500};
+  });
+  EXPECT_EQ(check.findings(), std::vector<std::string>{});
+  EXPECT_EQ(check.commands(), check.ticks() - 1);
+}
+
+}  // namespace
+}  // namespace s4tp::ecu
