@@ -9,6 +9,7 @@ namespace {
 
 constexpr double kSight_m = 120.0;
 constexpr std::size_t kWayPartsMax = 10;
+constexpr int kLanesBack = 3;
 constexpr double kSideBySide_m = 2.3;  // two car widths and half a metre: no longer in each other's way
 
 bool meet(const NetworkLane& a, const NetworkLane& b) {
@@ -139,21 +140,28 @@ void TrafficView::merging_leader(const WayPart& part, int self, bool inside, dou
 }
 
 Leader TrafficView::follower(LaneId lane, double s_m, int self, double length_m) const {
+  struct Reach {
+    LaneId lane = kNoLane;
+    double start_m = 0.0;  ///< how far the place lies ahead of the lane's start
+    int back = 0;
+  };
   Leader nearest;
-  double start_m = s_m;  // how far the place lies ahead of the start of the lane looked at
-  for (int back = 0; back < 4 && lane != kNoLane; ++back) {
-    for (const Occupant& occupant : occupants(lane)) {
+  std::vector<Reach> open{{lane, s_m, 0}};
+  while (!open.empty()) {
+    const Reach here = open.back();
+    open.pop_back();
+    for (const Occupant& occupant : occupants(here.lane)) {
       const Actor& actor = actors_[occupant.actor];
-      const double behind_m = start_m - occupant.s_m;
+      const double behind_m = here.start_m - occupant.s_m;
       const double gap_m = behind_m - 0.5 * (length_m + actor.length_m);
       if (actor.id != self && behind_m >= 0.0 && gap_m < nearest.gap_m) {
         nearest = {&actor, gap_m, false};
       }
     }
-    const std::vector<LaneId>& before = road_.lane(lane).predecessors;
-    lane = before.empty() ? kNoLane : before.front();
-    if (lane != kNoLane) {
-      start_m += road_.lane(lane).centre.length_m();
+    for (const LaneId before : road_.lane(here.lane).predecessors) {
+      if (here.back < kLanesBack && here.start_m < kSight_m) {
+        open.push_back({before, here.start_m + road_.lane(before).centre.length_m(), here.back + 1});
+      }
     }
   }
   return nearest;
