@@ -42,8 +42,6 @@ EpisodeResult run_episode(const world::Scenario& scenario, const EpisodeOptions&
     from_ecu.clear();
     world.tick(from_world);
     for (const wire::Frame& frame : from_world) {
-      wire::MapOrigin origin{};
-      if (wire::decode(frame, origin)) result.origin = {origin.x_m, origin.y_m};
       if (!options.passes || options.passes(world.time_s(), frame)) delivered.push_back(frame);
     }
     if (misses < options.deadline_misses_s.size() && world.time_s() >= options.deadline_misses_s[misses]) {
@@ -58,6 +56,7 @@ EpisodeResult run_episode(const world::Scenario& scenario, const EpisodeOptions&
       log->write(tick * 10'000, from_ecu);
     }
   }
+  result.origin = world.origin();
   result.recording = world.recording();
   if (!options.trace) result.trace.reset();
   result.cpu_s = cpu_now_s() - cpu_start_s;

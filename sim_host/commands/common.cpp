@@ -1,3 +1,5 @@
+#include <iostream>
+
 #include "sim_host/campaign/parameters_file.hpp"
 #include "sim_host/commands/command.hpp"
 #include "sim_host/world/traffic_engine.hpp"
@@ -23,7 +25,9 @@ Parameters CommonOptions::parameters() const {
 }
 
 world::Scenario CommonOptions::find_scenario(const std::string& name) const {
-  return world::load_scenario(world::scenario_path(scenario_root, name), flavour);
+  world::Scenario scenario = world::load_scenario(world::scenario_path(scenario_root, name), flavour);
+  for (const std::string& note : scenario.notes) std::cerr << "note: " << note << '\n';
+  return scenario;
 }
 
 }  // namespace s4tp::commands

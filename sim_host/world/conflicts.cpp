@@ -91,12 +91,16 @@ bool foes(const Link& first, std::size_t second_index) {
   return second_index < first.foes.size() && first.foes[second_index];
 }
 
-Rule rule_of(const Link& first, std::size_t first_index, const Link& second, std::size_t second_index) {
+Rule rule_of(const Link& first, std::size_t first_index, const Link& second, std::size_t second_index,
+             bool signals) {
   const auto yields = [](const Link& link, std::size_t other) {
     return other < link.yields_to.size() && link.yields_to[other];
   };
   const bool first_yields = yields(first, second_index);
   const bool second_yields = yields(second, first_index);
+  if (signals && first_yields && second_yields && first.priority != second.priority) {
+    return first.priority < second.priority ? Rule::kFirstYields : Rule::kFirstHasPriority;
+  }
   if (first_yields == second_yields) {  // zipper, right before left all round, or nothing said
     return Rule::kFirstCome;
   }
@@ -177,7 +181,8 @@ std::vector<NetworkConflict> find_conflicts(const std::vector<NetworkLane>& lane
         if (places[i].empty() || places[j].empty() || follow_or_accompany(lanes, first, second)) {
           continue;
         }
-        const Rule rule = rule_of(first, i, second, j);
+        const Rule rule =
+            junction.first_come ? Rule::kFirstCome : rule_of(first, i, second, j, junction.signals);
         // Ways that merely graze each other with room to spare are no conflict unless the network says so.
         const double spare_m = foes(first, j) || foes(second, i) ? kSpare_m : 0.0;
         Found of_pair;

@@ -15,4 +15,8 @@ namespace s4tp::world {
 [[nodiscard]] std::vector<std::string> find_route(const Network& network, LaneId from, double from_s_m,
                                                   LaneId to, double to_s_m);
 
+/// The same from anywhere on one edge to anywhere on another.
+[[nodiscard]] std::vector<std::string> find_route(const Network& network, const std::string& from_edge,
+                                                  const std::string& to_edge);
+
 }  // namespace s4tp::world

@@ -3,6 +3,7 @@
 /// yields.
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "sim_host/world/network.hpp"
@@ -15,15 +16,22 @@ struct Link {
   std::vector<LaneId> inside;  ///< two or more where SUMO lets a car wait inside the junction
   LaneId to = kNoLane;
   std::vector<bool> yields_to;  ///< by index of the other link; empty: the network does not say
+  int priority = 0;             ///< of the edge it comes from
   std::vector<bool> foes;       ///< the same, of those that SUMO holds to share ground
 };
 
 struct Junction {
   std::vector<Link> links;
+  bool signals = false;     ///< both ways of two may be told to wait: then the more important edge goes
+  bool first_come = false;  ///< an all-way stop: whoever comes first, whatever the requests say
 };
 
 /// Finds by geometry where cars on different ways through a junction would touch.
 [[nodiscard]] std::vector<NetworkConflict> find_conflicts(const std::vector<NetworkLane>& lanes,
                                                           const std::vector<Junction>& junctions);
+
+/// A lane through a junction that has none: an arc from the end of one lane to the start of another, as fast
+/// as SUMO lets cars turn. \return nothing where the two touch
+[[nodiscard]] std::optional<NetworkLane> bridge_between(const NetworkLane& from, const NetworkLane& to);
 
 }  // namespace s4tp::world

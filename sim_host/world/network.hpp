@@ -18,6 +18,7 @@ struct NetworkLane {
   std::string edge;
   int index = 0;  ///< SUMO's within the edge, 0 is the rightmost; those cars may not use are left out
   Polyline centre;
+  double sumo_length_m = 0.0;  ///< as positions of SUMO's count; differs from the shape's where so written
   double width_m = 3.2;
   double speed_limit_mps = 13.89;
   bool in_junction = false;        ///< on the way through a junction, be it only a seam between two edges

@@ -1,16 +1,22 @@
 #include "sim_host/world/scenario.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <set>
 #include <stdexcept>
 #include <utility>
 
 #include "sim_host/world/find_route.hpp"
+#include "sim_host/world/route_file.hpp"
 #include "sim_host/world/toml_table.hpp"
 
 namespace s4tp::world {
 namespace {
 
-constexpr double kAsTheLane = -1.0;  ///< the lane's end, the lane's limit
+constexpr double kReach_m = 1300.0;  ///< of Pose on the bus, with something to spare
+constexpr double kEnd = std::numeric_limits<double>::infinity();  ///< of a lane
+constexpr double kAsTheLane = -1.0;                               ///< the lane's end, the lane's limit
 
 /// Lane by SUMO's name.
 LaneId read_lane(TomlTable& table, const std::string& key, const Network& network) {
@@ -22,10 +28,6 @@ LaneId read_lane(TomlTable& table, const std::string& key, const Network& networ
   return lane;
 }
 
-double length_of(const Network& network, LaneId lane) {
-  return network.lanes[static_cast<std::size_t>(lane)].centre.length_m();
-}
-
 /// A number, or -1 for what the lane has.
 double read_or(TomlTable& table, const std::string& key, double missing, double high, double of_the_lane) {
   const double value = table.number(key, missing, kAsTheLane, high);
@@ -35,9 +37,42 @@ double read_or(TomlTable& table, const std::string& key, double missing, double 
   return value == kAsTheLane ? of_the_lane : value;
 }
 
-void check_on_lane(const TomlTable& table, const std::string& key, double s_m, double length_m) {
-  if (s_m > length_m) {
-    table.fail(key, "the lane is " + std::to_string(length_m) + " m long");
+/// A position as SUMO counts it, along the lane's shape.
+double along_shape(const TomlTable& table, const std::string& key, const NetworkLane& lane, double s_m) {
+  const double shape_m = lane.centre.length_m();
+  if (s_m == kEnd) {
+    return shape_m;
+  }
+  const double longest_m = std::max(shape_m, lane.sumo_length_m);
+  if (s_m > longest_m) {
+    table.fail(key, "the lane is " + std::to_string(longest_m) + " m long");
+  }
+  // The two differ by more than rounding where the network was built without lanes inside junctions.
+  const bool differ = lane.sumo_length_m > 0.0 && std::abs(shape_m - lane.sumo_length_m) > 0.1;
+  return std::min(differ ? s_m * shape_m / lane.sumo_length_m : s_m, shape_m);
+}
+
+/// The odometry frame of the bus begins where the ego does.
+void check_reach(const Network& network, const Mission& mission) {
+  const Vec2 origin =
+      network.lanes[static_cast<std::size_t>(mission.start_lane)].centre.at(mission.start_s_m).point;
+  for (const std::string& edge : mission.edges) {
+    for (const LaneId lane : network.lanes_of(edge)) {
+      for (const Vec2 point : network.lanes[static_cast<std::size_t>(lane)].centre.points()) {
+        const bool on_the_way = edge != mission.edges.front() && edge != mission.edges.back();
+        if (on_the_way && std::max(std::abs(point.x - origin.x), std::abs(point.y - origin.y)) > kReach_m) {
+          throw std::runtime_error("edge \"" + edge +
+                                   "\" of the way lies more than 1.3 km from the start, "
+                                   "as far as a pose on the bus reaches");
+        }
+      }
+    }
+  }
+  const Vec2 goal =
+      network.lanes[static_cast<std::size_t>(mission.goal_lane)].centre.at(mission.goal_s_m).point;
+  if (std::max(std::abs(goal.x - origin.x), std::abs(goal.y - origin.y)) > kReach_m) {
+    throw std::runtime_error(
+        "the goal lies more than 1.3 km from the start, as far as a pose on the bus reaches");
   }
 }
 
@@ -46,18 +81,20 @@ Mission read_mission(TomlTable table, const Network& network) {
   mission.start_lane = read_lane(table, "start_lane", network);
   mission.goal_lane = read_lane(table, "goal_lane", network);
   mission.start_s_m = table.number("start_pos_m", 5.0, 0.0, 1e6);
-  mission.goal_s_m = read_or(table, "goal_pos_m", kAsTheLane, 1e6, length_of(network, mission.goal_lane));
+  const NetworkLane& start = network.lanes[static_cast<std::size_t>(mission.start_lane)];
+  const NetworkLane& goal = network.lanes[static_cast<std::size_t>(mission.goal_lane)];
+  mission.goal_s_m = read_or(table, "goal_pos_m", kAsTheLane, 1e6, kEnd);
   mission.entry_time_s = table.number("entry_time_s", mission.entry_time_s, 0.0, 600.0);
   mission.time_limit_s = table.number("time_limit_s", mission.time_limit_s, 1.0, 3600.0);
-  const double limit_mps = network.lanes[static_cast<std::size_t>(mission.start_lane)].speed_limit_mps;
-  mission.start_speed_mps = read_or(table, "entry_speed_mps", kAsTheLane, 60.0, limit_mps);
+  mission.start_speed_mps = read_or(table, "entry_speed_mps", kAsTheLane, 60.0, start.speed_limit_mps);
   table.no_other_keys();
-  check_on_lane(table, "start_pos_m", mission.start_s_m, length_of(network, mission.start_lane));
-  check_on_lane(table, "goal_pos_m", mission.goal_s_m, length_of(network, mission.goal_lane));
+  mission.start_s_m = along_shape(table, "start_pos_m", start, mission.start_s_m);
+  mission.goal_s_m = along_shape(table, "goal_pos_m", goal, mission.goal_s_m);
   try {
     mission.edges =
         find_route(network, mission.start_lane, mission.start_s_m, mission.goal_lane, mission.goal_s_m);
     RouteGuide(network, mission.edges, mission.goal_lane, mission.goal_s_m);
+    check_reach(network, mission);
   } catch (const std::runtime_error& error) {
     table.fail("goal_lane", error.what());
   }
@@ -185,6 +222,10 @@ void read_traffic(TomlTable traffic, Scenario& scenario) {
         traffic.fail("routes", "there is no file " + file.string());
       }
       scenario.route_files.push_back(file);
+      scenario.demands.push_back(load_demand(file, scenario.network));
+      for (const std::string& note : scenario.demands.back().notes) {
+        scenario.notes.push_back(file.string() + ": " + note);
+      }
     }
   } else {
     const std::vector<DriverModel> drivers = read_drivers(traffic, scenario.folder);

@@ -6,51 +6,9 @@
 #include <vector>
 
 #include "sim_host/world/network.hpp"
+#include "sim_host/world/traffic_demand.hpp"
 
 namespace s4tp::world {
-
-/// A uniform range to draw from.
-struct Range {
-  double low = 0.0;
-  double high = 0.0;
-};
-
-/// One kind of driver and car; SUMO's names and defaults.
-struct DriverModel {
-  std::string name;
-  double weight = 1.0;  ///< share of this kind among those of its flow
-  double acceleration_mps2 = 2.6;
-  double deceleration_mps2 = 4.5;
-  double sigma = 0.5;  ///< imperfection, 0 .. 1
-  double headway_s = 1.0;
-  double min_gap_mean_m = 2.5;
-  double min_gap_deviation_m = 0.0;
-  double speed_factor_mean = 1.0;
-  double speed_factor_deviation = 0.1;
-  double max_speed_mps = 55.0;
-  double svo_rad = 0.0;       ///< social value orientation: 0 his own gain only, pi/4 that of others as much
-  bool lane_keeping = false;  ///< never changes lane by its own wish
-  double length_m = 5.0;
-  double width_m = 1.8;
-};
-
-/// One way traffic may take: edges, and the lane it starts and ends in (SUMO's numbers; -1: any).
-struct TrafficRoute {
-  std::vector<std::string> edges;
-  int start_lane = -1;
-  int end_lane = -1;
-};
-
-/// A group of possible flows, of which some are drawn in each episode.
-struct FlowGroup {
-  std::vector<TrafficRoute> routes;
-  int choose_low = 1;  ///< how many of the routes are drawn
-  int choose_high = 1;
-  Range vehicles_per_minute;  ///< each flow's own rate
-  Range begin_s;
-  bool random_spacing = false;           ///< exponential gaps instead of even ones
-  std::vector<DriverModel> drivers{{}};  ///< each car draws one by weight; never empty
-};
 
 struct Mission {
   LaneId start_lane = 0;
@@ -71,7 +29,9 @@ struct Scenario {
   std::vector<std::filesystem::path> route_files;  ///< the episode of seed s takes file s modulo their number
   Network network;
   Mission mission;
-  std::vector<FlowGroup> flows;  ///< where there are no route files
+  std::vector<FlowGroup> flows;    ///< where there are no route files
+  std::vector<Demand> demands;     ///< what the route files say, in their order
+  std::vector<std::string> notes;  ///< what was left out because it does no harm, one line each
 };
 
 /// Reads a scenario.toml, named itself or by its folder, and the files it names.

@@ -1,34 +1,36 @@
 /// Reads SUMO's network format: https://sumo.dlr.de/docs/Networks/SUMO_Road_Networks.html
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <pugixml.hpp>
 #include <set>
-#include <sstream>
 #include <stdexcept>
 
 #include "sim_host/world/junction_links.hpp"
+#include "sim_host/world/xml_values.hpp"
 
 namespace s4tp::world {
 namespace {
 
 constexpr double kDefaultWidth_m = 3.2;      // SUMO's own
 constexpr double kDefaultSpeed_mps = 13.89;  // SUMO's own
+constexpr double kFurthest_m = 1e8;
+constexpr double kSamePoint_m = 0.005;
 
 class Reader {
  public:
   explicit Reader(const std::filesystem::path& file) : file_(file) {}
 
   Network read() {
-    pugi::xml_document document;
-    const pugi::xml_parse_result result = document.load_file(file_.c_str());
-    if (!result) {
-      fail("the file", std::string(result.description()) + " at byte " + std::to_string(result.offset));
-    }
+    const pugi::xml_document document = parse_xml(file_.string());
     const pugi::xml_node net = document.child("net");
     if (!net) {
       fail("the root element", "expected <net>, as netconvert writes it");
+    }
+    if (net.attribute("lefthand").as_bool()) {
+      fail("<net lefthand>", "expected traffic on the right");
     }
     for (const pugi::xml_node edge : net.children("edge")) {
       read_edge(edge);
@@ -39,9 +41,12 @@ class Reader {
     for (const pugi::xml_node connection : net.children("connection")) {
       read_connection(connection);
     }
+    bridge_junctions(net);
     for (const auto& [lane, ways] : ways_) {
       for (const Way& way : ways) {
-        link_lanes(lane, first_usable(way));
+        if (way.open) {
+          link_lanes(lane, first_usable(way));
+        }
       }
     }
     network_.conflicts = find_conflicts(network_.lanes, read_junctions(net));
@@ -54,6 +59,7 @@ class Reader {
   struct Way {
     std::string via;
     std::string to;
+    bool open = true;  ///< to cars
   };
 
   [[noreturn]] void fail(const std::string& where, const std::string& what) const {
@@ -66,50 +72,43 @@ class Reader {
     if (!attribute) {
       return missing;
     }
-    std::istringstream text(attribute.value());
-    double value = 0.0;
-    if (!(text >> value) || !(text >> std::ws).eof()) {
+    const std::optional<double> value = number_in(attribute.value());
+    if (!value) {
       fail(where, std::string(name) + "=\"" + attribute.value() + "\": expected a number");
     }
-    return value;
-  }
-
-  static std::set<std::string> words(const pugi::xml_attribute& attribute) {
-    std::istringstream text(attribute.value());
-    std::set<std::string> found;
-    for (std::string word; text >> word;) {
-      found.insert(word);
-    }
-    return found;
+    return *value;
   }
 
   /// Whether a list of vehicle classes means our cars.
-  static bool names_cars(const pugi::xml_attribute& classes) {
-    const std::set<std::string> found = words(classes);
-    return found.count("passenger") != 0 || found.count("all") != 0;
+  static bool names_cars(const std::vector<std::string>& classes) {
+    return std::any_of(classes.begin(), classes.end(),
+                       [](const std::string& each) { return each == "passenger" || each == "all"; });
   }
 
+  /// As SUMO has it, an empty list is as good as none.
   static bool open_to_cars(const pugi::xml_node& lane) {
-    if (const pugi::xml_attribute allow = lane.attribute("allow")) {
-      return names_cars(allow);
-    }
-    return !names_cars(lane.attribute("disallow"));
+    const std::vector<std::string> allowed = words_in(lane.attribute("allow").value());
+    return allowed.empty() ? !names_cars(words_in(lane.attribute("disallow").value())) : names_cars(allowed);
+  }
+
+  static bool change_open(const pugi::xml_node& lane, const char* side) {
+    const std::vector<std::string> allowed = words_in(lane.attribute(side).value());
+    return allowed.empty() || names_cars(allowed);
   }
 
   std::vector<Vec2> shape_of(const pugi::xml_node& lane, const std::string& where) const {
-    std::istringstream text(lane.attribute("shape").value());
     std::vector<Vec2> points;
-    for (std::string word; text >> word;) {
-      std::istringstream pair(word);
-      Vec2 point;
-      char comma = 0;
-      if (!(pair >> point.x >> comma >> point.y) || comma != ',') {
-        fail(where, "shape holds \"" + word + "\": expected x,y or x,y,z");
+    for (const std::string& word : words_in(lane.attribute("shape").value())) {
+      const std::size_t comma = word.find(',');
+      const std::string after = comma == std::string::npos ? "" : word.substr(comma + 1);
+      const std::optional<double> x = number_in(word.substr(0, comma));
+      const std::optional<double> y = number_in(after.substr(0, after.find(',')));
+      if (!x || !y || std::abs(*x) > kFurthest_m || std::abs(*y) > kFurthest_m) {
+        fail(where, "shape holds \"" + word + "\": expected x,y or x,y,z within 1e8 m");
       }
-      points.push_back(point);
-    }
-    if (points.size() < 2) {
-      fail(where, "shape: expected at least two points x,y");
+      if (points.empty() || std::hypot(*x - points.back().x, *y - points.back().y) > kSamePoint_m) {
+        points.push_back({*x, *y});
+      }
     }
     return points;
   }
@@ -121,42 +120,48 @@ class Reader {
       fail("<edge> at byte " + std::to_string(edge.offset_debug()), "expected an id");
     }
     const bool walked = function == "walkingarea" || function == "crossing";
+    if (!priority_.try_emplace(id, edge.attribute("priority").as_int(-1)).second) {
+      fail("edge \"" + id + "\"", "expected an id of its own; there is another of that name");
+    }
     std::map<int, LaneId> by_index;
     std::map<int, bool> may_go_left;
     std::map<int, bool> may_go_right;
     for (const pugi::xml_node node : edge.children("lane")) {
       const std::string name = node.attribute("id").value();
       const std::string where = "lane \"" + name + "\" of edge \"" + id + "\"";
-      if (name.empty() || !node.attribute("index")) {
-        fail(where, "expected an id and an index");
+      const double index = number(node, "index", -1.0, where);
+      if (name.empty() || index < 0.0 || index > 99.0 || index != std::floor(index)) {
+        fail(where, "expected an id and an index from 0 on");
       }
-      known_.insert(name);
+      if (!known_.insert(name).second || by_index.count(static_cast<int>(index)) != 0) {
+        fail(where, "expected an id and an index of its own; there is another lane with it");
+      }
       if (walked || !open_to_cars(node)) {
         continue;
       }
       NetworkLane lane;
       lane.name = name;
       lane.edge = id;
-      lane.index = node.attribute("index").as_int();
+      lane.index = static_cast<int>(index);
       lane.in_junction = function == "internal";
       lane.width_m = number(node, "width", kDefaultWidth_m, where);
       lane.speed_limit_mps = number(node, "speed", kDefaultSpeed_mps, where);
-      if (lane.width_m <= 0.0 || lane.speed_limit_mps <= 0.0) {
-        fail(where, "expected width and speed above 0");
+      if (lane.width_m <= 0.0 || lane.width_m > 100.0 || lane.speed_limit_mps <= 0.0) {
+        fail(where, "expected width (up to 100 m) and speed above 0");
       }
       const std::vector<Vec2> shape = shape_of(node, where);
-      try {
-        lane.centre = Polyline(shape);
-      } catch (const std::invalid_argument&) {
-        if (lane.in_junction) {
-          continue;  // no longer than a point, as at a node that only ends one edge: passed over
-        }
-        fail(where, "shape: all points are the same");
+      if (shape.size() < 2 && lane.in_junction) {
+        continue;  // no longer than a point, as at a node that only ends one edge: passed over
       }
+      if (shape.size() < 2) {
+        fail(where, "shape: expected at least two different points x,y");
+      }
+      lane.centre = Polyline(shape);
+      lane.sumo_length_m = number(node, "length", lane.centre.length_m(), where);
       const LaneId number = static_cast<LaneId>(network_.lanes.size());
       by_index[lane.index] = number;
-      may_go_left[lane.index] = !node.attribute("changeLeft") || names_cars(node.attribute("changeLeft"));
-      may_go_right[lane.index] = !node.attribute("changeRight") || names_cars(node.attribute("changeRight"));
+      may_go_left[lane.index] = change_open(node, "changeLeft");
+      may_go_right[lane.index] = change_open(node, "changeRight");
       lane_of_[name] = number;
       network_.lanes.push_back(std::move(lane));
     }
@@ -191,10 +196,47 @@ class Reader {
         fail(where, "names the lane \"" + name + "\", which no <edge> has");
       }
     }
-    if (lane_of_.count(from_lane) != 0 && lane_of_.count(to_lane) != 0 && open_to_cars(node)) {
-      ways_[from_lane].push_back({via, to_lane});
-    } else if (known_.count(from_lane) != 0 && from_lane.front() == ':') {
+    const bool open = lane_of_.count(from_lane) != 0 && lane_of_.count(to_lane) != 0 && open_to_cars(node);
+    if (open || from_lane.front() != ':') {
+      ways_[from_lane].push_back({via, to_lane, open});
+    } else {
       passed_over_[from_lane] = {via, to_lane};
+    }
+  }
+
+  /// Built without lanes inside junctions: they are put in, in the order in which requests count the ways.
+  void bridge_junctions(const pugi::xml_node& net) {
+    for (const pugi::xml_node node : net.children("junction")) {
+      const std::string id = node.attribute("id").value();
+      int number = 0;
+      for (const std::string& from : words_in(node.attribute("incLanes").value())) {
+        const auto ways = ways_.find(from);
+        for (std::size_t i = 0; ways != ways_.end() && i < ways->second.size(); ++i) {
+          Way& way = ways->second[i];
+          const std::string name = ":" + id + "_" + std::to_string(number++);
+          if (!way.via.empty() || from.front() == ':') {
+            continue;
+          }
+          std::string inside;
+          if (way.open) {
+            const LaneId before = lane_of_.at(from);
+            const LaneId after = lane_of_.at(way.to);
+            if (std::optional<NetworkLane> bridge = bridge_between(lane(before), lane(after))) {
+              inside = name + "_0";
+              bridge->name = inside;
+              bridge->edge = name;
+              if (!known_.insert(inside).second) {
+                fail("junction \"" + id + "\"", "expected a via for each of its connections, or for none");
+              }
+              lane_of_[inside] = static_cast<LaneId>(network_.lanes.size());
+              network_.lanes.push_back(*std::move(bridge));
+              ways_[inside].push_back({"", way.to, true});
+              way.via = inside;
+            }
+          }
+          bridges_[id].push_back(inside);
+        }
+      }
     }
   }
 
@@ -236,13 +278,19 @@ class Reader {
         continue;
       }
       Junction junction;
-      std::istringstream names(node.attribute("intLanes").value());
-      for (std::string name; names >> name;) {
+      junction.signals = std::string(node.attribute("type").value()).rfind("traffic_light", 0) == 0;
+      junction.first_come = std::string(node.attribute("type").value()) == "allway_stop";
+      std::vector<std::string> names = words_in(node.attribute("intLanes").value());
+      const auto bridges = bridges_.find(node.attribute("id").value());
+      if (names.empty() && bridges != bridges_.end()) {
+        names = bridges->second;
+      }
+      for (const std::string& name : names) {
         const auto lane = lane_of_.find(name);
         junction.links.push_back(lane == lane_of_.end() ? Link{} : link_through(lane->second));
       }
       if (junction.links.empty()) {
-        continue;  // built without lanes inside junctions: ways are known, conflicts are not
+        continue;
       }
       for (const pugi::xml_node request : node.children("request")) {
         const std::string where = "junction \"" + std::string(node.attribute("id").value()) + "\"";
@@ -306,6 +354,7 @@ class Reader {
     }
     link.from = lane(link.inside.front()).predecessors.front();
     link.to = lane(link.inside.back()).successors.front();
+    link.priority = priority_.at(lane(link.from).edge);
     return link;
   }
 
@@ -314,6 +363,8 @@ class Reader {
   std::set<std::string> known_;  ///< every lane's name, those cars may not use too
   std::map<std::string, LaneId> lane_of_;
   std::map<std::string, std::vector<Way>> ways_;
+  std::map<std::string, int> priority_;                      ///< of an edge; SUMO's -1: not said
+  std::map<std::string, std::vector<std::string>> bridges_;  ///< lanes put into a junction
   std::map<std::string, Way> passed_over_;
 };
 

@@ -7,7 +7,7 @@
 #include <toml.hpp>
 #include <vector>
 
-#include "sim_host/world/scenario.hpp"
+#include "sim_host/world/traffic_demand.hpp"
 
 namespace s4tp::world {
 

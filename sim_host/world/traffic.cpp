@@ -18,6 +18,7 @@ constexpr double kDistractionShare =
 constexpr double kInvites_s = 4.5;  // somebody waiting; he stops a little longer, lest both go at once
 constexpr double kNear_m = 8.0;     // of the line: waiting time counts
 constexpr double kSideGone = 0.75;  // of a change, when the old lane is free again
+constexpr double kMinimumBehind_m = 2.5;  // to somebody before whom a car appears
 
 }  // namespace
 
@@ -31,6 +32,15 @@ Traffic::Traffic(const Network& network, const std::vector<FlowGroup>& groups, s
       random_(seed),
       plan_(draw_flows(network, groups, kDrawnUntil_s, random_)),
       waiting_(network.lanes.size()) {}
+
+Traffic::Traffic(const Scenario& scenario, std::uint64_t episode, std::uint64_t seed)
+    : Traffic(scenario.network, scenario.flows, seed) {
+  if (!scenario.demands.empty()) {
+    const Mission& mission = scenario.mission;
+    plan_ = draw_demand(scenario.network, scenario.demands[episode % scenario.demands.size()],
+                        std::max(kDrawnUntil_s, mission.entry_time_s + mission.time_limit_s), random_);
+  }
+}
 
 void Traffic::step(const EgoSeen* ego) {
   if (ticks_ % kDecisionTicks == 0) {
@@ -182,6 +192,14 @@ double Traffic::acceleration(TrafficCar& car, const Actor& self, const TrafficVi
   return std::clamp(result, -car.driver.emergency_mps2, car.driver.acceleration_mps2);
 }
 
+/// Whether a car that appeared amid its lane would be too close before somebody.
+bool Traffic::somebody_comes(const TrafficView& view, const TrafficCar& car) const {
+  const Leader behind = view.follower(car.lane, car.s_m, -1, car.length_m);
+  return behind.actor != nullptr && behind.gap_m < kMinimumBehind_m + behind.actor->speed_mps *
+                                                                          behind.actor->speed_mps /
+                                                                          (2.0 * kComfortableBraking_mps2);
+}
+
 void Traffic::insert_waiting(const TrafficView& view) {
   while (next_departure_ < plan_.departures.size() && plan_.departures[next_departure_].time_s <= time_s()) {
     const Departure& departure = plan_.departures[next_departure_++];
@@ -196,7 +214,13 @@ void Traffic::insert_waiting(const TrafficView& view) {
     car.way = departure.way;
     car.driver = departure.driver;
     car.lane = static_cast<LaneId>(id);
-    car.s_m = 0.5 * car.length_m + 0.1;
+    car.length_m = departure.length_m;
+    car.width_m = departure.width_m;
+    const bool at_start = departure.s_m < 0.0;
+    car.s_m = at_start ? 0.5 * car.length_m + 0.1 : departure.s_m;
+    if (!at_start && somebody_comes(view, car)) {
+      continue;
+    }
     const std::vector<WayPart> way = view.way_from(car.lane, car.s_m, &plan_.ways[car.way].guide);
     double wanted = wanted_speed_mps(car, way);
     for (const WayPart& part : way) {  // slow enough to stop at a junction's line
@@ -209,10 +233,10 @@ void Traffic::insert_waiting(const TrafficView& view) {
       continue;
     }
     const Leader leader = view.leader(way, -1, car.length_m);
-    car.speed_mps = wanted;
+    car.speed_mps = std::min(wanted, departure.speed_mps);
     if (leader.actor != nullptr) {
       if (leader.gap_m < 40.0) {
-        car.speed_mps = std::min(wanted, std::max(leader.actor->speed_mps, 1.0));
+        car.speed_mps = std::min(car.speed_mps, std::max(leader.actor->speed_mps, 1.0));
       }
       if (leader.gap_m < car.driver.min_gap_m + 0.5 * car.driver.headway_s * car.speed_mps ||
           following_acceleration_mps2(car.driver, car.speed_mps, wanted, leader.gap_m,

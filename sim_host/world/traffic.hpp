@@ -60,6 +60,8 @@ class Traffic final : public TrafficEngine {
  public:
   /// WORLD-021 The same network, groups and seed give the same traffic to the bit.
   Traffic(const Network& network, const std::vector<FlowGroup>& groups, std::uint64_t seed);
+  /// \param episode  chooses among the scenario's route files
+  Traffic(const Scenario& scenario, std::uint64_t episode, std::uint64_t seed);
 
   void step(const EgoSeen* ego) override;
   [[nodiscard]] double time_s() const override { return static_cast<double>(ticks_) * 0.01; }
@@ -85,6 +87,7 @@ class Traffic final : public TrafficEngine {
                                  bool urgent) const;
   void watch_ego(const Actor& ego, const TrafficView& view);
   [[nodiscard]] const Driver& driver_of(int id) const;
+  [[nodiscard]] bool somebody_comes(const TrafficView& view, const TrafficCar& car) const;
   void insert_waiting(const TrafficView& view);
   void move(TrafficCar& car);
   [[nodiscard]] const NetworkLane& lane(LaneId id) const { return road_.lane(id); }

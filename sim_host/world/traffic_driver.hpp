@@ -2,7 +2,7 @@
 /// One driver as data, and the laws he drives by: car following, imperfection, gap acceptance.
 
 #include "sim_host/world/random.hpp"
-#include "sim_host/world/scenario.hpp"
+#include "sim_host/world/traffic_demand.hpp"
 
 namespace s4tp::world {
 

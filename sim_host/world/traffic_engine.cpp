@@ -28,7 +28,7 @@ std::unique_ptr<TrafficEngine> make_engine(const Scenario& scenario, const Engin
   if (options.ego == EgoDriver::kEngine) {
     throw std::invalid_argument("the built-in traffic drives no ego; SUMO does (--traffic sumo)");
   }
-  return std::make_unique<Traffic>(scenario.network, scenario.flows, options.seed);
+  return std::make_unique<Traffic>(scenario, options.episode, options.seed);
 }
 
 }  // namespace s4tp::world

@@ -29,6 +29,11 @@ constexpr std::uint32_t kMapUpdate_ms = 200;
 constexpr std::uint32_t kPerceptionPhase_ms = 70;  // a list is complete before the next 100 ms boundary
 constexpr std::uint32_t kSlow_ms = 1000;
 
+/// MapOrigin reaches 838 km: of coordinates counted from further away (UTM's) it says the last 1000 km.
+double on_the_wire(double coordinate_m) {
+  return std::remainder(coordinate_m, 1e6);
+}
+
 Vec2 rounded(Vec2 point) {  // as MapOrigin can say it
   return {std::round(point.x * 10.0) / 10.0, std::round(point.y * 10.0) / 10.0};
 }
@@ -335,8 +340,8 @@ void World::Impl::publish(std::vector<wire::Frame>& frames) {
   publish_map(frames);
   if (now_ms % kSlow_ms == 10U) {
     wire::MapOrigin map_origin;
-    map_origin.x_m = static_cast<float>(origin.x);
-    map_origin.y_m = static_cast<float>(origin.y);
+    map_origin.x_m = static_cast<float>(on_the_wire(origin.x));
+    map_origin.y_m = static_cast<float>(on_the_wire(origin.y));
     append(map_origin, origin_sender, frames);
     wire::VersionWorld version;
     version.wire_version = wire::wire_version();
@@ -376,6 +381,10 @@ bool World::finished() const {
 
 double World::time_s() const {
   return (impl_->tick_number - impl_->entry_tick) * kTick_s;
+}
+
+Vec2 World::origin() const {
+  return impl_->origin;
 }
 
 const Recording& World::recording() const {

@@ -48,6 +48,7 @@ class World {
 
   [[nodiscard]] bool finished() const;
   [[nodiscard]] double time_s() const;  ///< since the ECU took over
+  [[nodiscard]] Vec2 origin() const;    ///< of the odometry frame, network coordinates
   [[nodiscard]] const Recording& recording() const;
 
  private:

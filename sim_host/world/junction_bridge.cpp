@@ -1,0 +1,54 @@
+#include <algorithm>
+#include <cmath>
+
+#include "sim_host/world/box.hpp"
+#include "sim_host/world/junction_links.hpp"
+
+namespace s4tp::world {
+namespace {
+
+constexpr double kTouching_m = 0.1;
+constexpr double kSideways_mps2 = 5.5;  // netconvert's limit of the speed in turns
+constexpr int kPoints = 20;
+
+}  // namespace
+
+std::optional<NetworkLane> bridge_between(const NetworkLane& from, const NetworkLane& to) {
+  const PolylinePose start = from.centre.at(from.centre.length_m());
+  const PolylinePose end = to.centre.at(0.0);
+  const double chord_m = std::hypot(end.point.x - start.point.x, end.point.y - start.point.y);
+  if (chord_m < kTouching_m) {
+    return std::nullopt;
+  }
+  // The cubic that comes nearest to a circle's arc; its handles are a third of the chord when straight.
+  const double turn_rad = std::abs(wrap_angle(end.heading_rad - start.heading_rad));
+  const double sine = std::sin(0.5 * turn_rad);
+  const double handle_m =
+      sine > 1e-3 ? chord_m * 4.0 / 3.0 * std::tan(0.25 * turn_rad) / (2.0 * sine) : chord_m / 3.0;
+  const Vec2 a = start.point;
+  const Vec2 b{a.x + handle_m * std::cos(start.heading_rad), a.y + handle_m * std::sin(start.heading_rad)};
+  const Vec2 d = end.point;
+  const Vec2 c{d.x - handle_m * std::cos(end.heading_rad), d.y - handle_m * std::sin(end.heading_rad)};
+  std::vector<Vec2> points;
+  for (int i = 0; i <= kPoints; ++i) {
+    const double t = static_cast<double>(i) / kPoints;
+    const double u = 1.0 - t;
+    const auto blend = [&](double p, double q, double r, double s) {
+      return u * u * u * p + 3.0 * u * u * t * q + 3.0 * u * t * t * r + t * t * t * s;
+    };
+    points.push_back({blend(a.x, b.x, c.x, d.x), blend(a.y, b.y, c.y, d.y)});
+  }
+  NetworkLane bridge;
+  bridge.in_junction = true;
+  bridge.centre = Polyline(points);
+  bridge.sumo_length_m = bridge.centre.length_m();
+  bridge.width_m = std::min(from.width_m, to.width_m);
+  bridge.speed_limit_mps = std::min(from.speed_limit_mps, to.speed_limit_mps);
+  if (sine > 1e-3) {
+    bridge.speed_limit_mps =
+        std::min(bridge.speed_limit_mps, std::sqrt(kSideways_mps2 * chord_m / (2.0 * sine)));
+  }
+  return bridge;
+}
+
+}  // namespace s4tp::world

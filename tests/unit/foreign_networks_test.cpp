@@ -1,0 +1,257 @@
+// Networks as others draw them (tests/networks, made by its build.py): every kind of junction without
+// signals, and with; turned, far from the origin, with strange names, without lanes inside junctions.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim_host/world/lane_roles.hpp"
+#include "sim_host/world/map_node.hpp"
+#include "tests/support/networks.hpp"
+
+namespace s4tp::world {
+namespace {
+
+using test::lane;
+
+std::filesystem::path folder() {
+  return std::filesystem::path(S4TP_SOURCE_DIR) / "tests" / "networks";
+}
+
+Scenario foreign(const std::string& name, const std::string& flavour = {}) {
+  return load_scenario(folder() / (name + ".toml"), flavour);
+}
+
+/// From an edge through the junction to another.
+struct Turn {
+  std::string from;
+  std::string to;
+};
+
+std::vector<LaneId> inside(const Network& network, const Turn& turn) {
+  std::vector<LaneId> all;
+  for (const LaneId start : network.lanes_of(turn.from)) {
+    for (LaneId at : network.lanes[static_cast<std::size_t>(start)].successors) {
+      std::vector<LaneId> way;
+      while (network.lanes[static_cast<std::size_t>(at)].in_junction) {
+        way.push_back(at);
+        at = network.lanes[static_cast<std::size_t>(at)].successors.at(0);
+      }
+      if (network.lanes[static_cast<std::size_t>(at)].edge == turn.to) {
+        all.insert(all.end(), way.begin(), way.end());
+      }
+    }
+  }
+  return all;
+}
+
+/// What the first turn owes the second one, wherever they meet; nothing: they do not meet, or not always
+/// alike.
+std::optional<Rule> rule_between(const Network& network, const Turn& first, const Turn& second) {
+  std::optional<Rule> rule;
+  for (const LaneId mine : inside(network, first)) {
+    for (const LaneId other : inside(network, second)) {
+      for (const NetworkConflict& each : network.conflicts) {
+        const bool turned = each.first == other && each.second == mine;
+        if (!turned && !(each.first == mine && each.second == other)) {
+          continue;
+        }
+        const Rule here = !turned || each.rule == Rule::kFirstCome ? each.rule
+                          : each.rule == Rule::kFirstYields        ? Rule::kFirstHasPriority
+                                                                   : Rule::kFirstYields;
+        if (rule && *rule != here) {
+          return std::nullopt;
+        }
+        rule = here;
+      }
+    }
+  }
+  return rule;
+}
+
+bool stops_before(const Scenario& scenario, const std::string& name) {
+  return yields_at_end(scenario.network, test::guide_of(scenario), scenario.network.find(name));
+}
+
+/// A T as seen from its foot: arms to the right and left, and the foot.
+void expect_rules_of_a_tee(const Network& network, const std::string& right_in, const std::string& right_out,
+                           const std::string& left_in, const std::string& left_out,
+                           const std::string& foot_in, const std::string& foot_out) {
+  const Turn left{foot_in, left_out};
+  const Turn right{foot_in, right_out};
+  const Turn main_left{right_in, foot_out};
+  EXPECT_EQ(rule_between(network, left, {right_in, left_out}), Rule::kFirstYields);
+  EXPECT_EQ(rule_between(network, left, {left_in, right_out}), Rule::kFirstYields);
+  EXPECT_EQ(rule_between(network, left, main_left), Rule::kFirstYields);
+  EXPECT_EQ(rule_between(network, right, {left_in, right_out}), Rule::kFirstYields);
+  EXPECT_EQ(rule_between(network, right, {right_in, left_out}), std::nullopt);
+  EXPECT_EQ(rule_between(network, main_left, {left_in, right_out}), Rule::kFirstYields);
+  EXPECT_EQ(rule_between(network, main_left, {left_in, foot_out}), Rule::kFirstYields);
+  EXPECT_EQ(rule_between(network, {left_in, right_out}, {right_in, left_out}), std::nullopt);
+}
+
+// NET-002 Every shape of T owes the same: drawn plainly, with strange edge names, and without lanes inside,
+// where ways and their order come from connections and requests alone.
+TEST(ForeignNetworks, ATeeIsATee) {
+  expect_rules_of_a_tee(foreign("tee").network, "e_in", "e_out", "w_in", "w_out", "s_in", "s_out");
+  expect_rules_of_a_tee(foreign("no_inner_lanes").network, "e_in", "e_out", "w_in", "w_out", "s_in", "s_out");
+  expect_rules_of_a_tee(foreign("strange_names").network, "-12#3", "12#3", "gneE:4", "-gneE:4", "Straße_0",
+                        "a+b.1_0");
+}
+
+// NET-002 All have a stop sign, or nobody has any sign: whoever comes first, opposing left turns too.
+TEST(ForeignNetworks, AllWayStopAndUnregulatedAreFirstCome) {
+  for (const char* name : {"all_way_stop", "unregulated"}) {
+    const Network network = foreign(name).network;
+    ASSERT_FALSE(network.conflicts.empty()) << name;
+    for (const NetworkConflict& each : network.conflicts) {
+      EXPECT_EQ(each.rule, Rule::kFirstCome) << name;
+    }
+    EXPECT_EQ(rule_between(network, {"s_in", "n_out"}, {"e_in", "w_out"}), Rule::kFirstCome) << name;
+  }
+}
+
+// NET-002 The car from the south owes the one from its right (east), is owed by the one from its left (west),
+// and turning left owes the one from opposite.
+TEST(ForeignNetworks, RightBeforeLeft) {
+  const Network network = foreign("right_before_left").network;
+  EXPECT_EQ(rule_between(network, {"s_in", "n_out"}, {"e_in", "w_out"}), Rule::kFirstYields);
+  EXPECT_EQ(rule_between(network, {"s_in", "n_out"}, {"w_in", "e_out"}), Rule::kFirstHasPriority);
+  EXPECT_EQ(rule_between(network, {"s_in", "w_out"}, {"n_in", "s_out"}), Rule::kFirstYields);
+  EXPECT_EQ(rule_between(network, {"e_in", "w_out"}, {"n_in", "s_out"}), Rule::kFirstYields);
+}
+
+// NET-002 Of a zipper's two lanes neither has the right of way.
+TEST(ForeignNetworks, AZipperIsFirstCome) {
+  const Scenario scenario = foreign("zipper");
+  ASSERT_FALSE(scenario.network.conflicts.empty());
+  for (const NetworkConflict& each : scenario.network.conflicts) {
+    EXPECT_EQ(each.rule, Rule::kFirstCome);
+  }
+}
+
+// NET-002 Into a roundabout one yields to the ring; who drives on in the ring does not stop.
+TEST(ForeignNetworks, TheRingHasPriority) {
+  const Scenario scenario = foreign("roundabout", "over");
+  EXPECT_EQ(rule_between(scenario.network, {"s_in", "ring_s"}, {"ring_w", "ring_s"}), Rule::kFirstYields);
+  EXPECT_EQ(scenario.mission.edges, (std::vector<std::string>{"s_in", "ring_s", "ring_e", "n_out"}));
+  EXPECT_TRUE(stops_before(scenario, "s_in_0"));
+  EXPECT_FALSE(stops_before(scenario, "ring_s_0"));
+}
+
+// NET-002 Stop signs, and signals that are not obeyed: the more important road goes first, straight on or
+// turning.
+TEST(ForeignNetworks, SignsAndSignalsFollowThePriorities) {
+  for (const char* name : {"stop_signs", "signals"}) {
+    const Scenario scenario = foreign(name);
+    const Turn ego{"s_in", "w_out"};
+    EXPECT_EQ(rule_between(scenario.network, ego, {"e_in", "w_out"}), Rule::kFirstYields) << name;
+    EXPECT_EQ(rule_between(scenario.network, ego, {"w_in", "e_out"}), Rule::kFirstYields) << name;
+    EXPECT_TRUE(stops_before(scenario, "s_in_0")) << name;
+  }
+}
+
+// NET-002 At right angles two ways 1.6 m from their roads' middles cross (1.6 + 7.2) = 8.8 m along each;
+// boxes of 5 x 1.8 m with 0.1 m around touch within 3.6 m of it: 5.2 .. 12.4, sampled every 0.25 m.
+TEST(ForeignNetworks, ZonesAreWhereBoxesTouch) {
+  const Network network = foreign("all_way_stop").network;
+  const LaneId mine = inside(network, {"s_in", "n_out"}).at(0);
+  const LaneId other = inside(network, {"e_in", "w_out"}).at(0);
+  const auto found = std::find_if(
+      network.conflicts.begin(), network.conflicts.end(),
+      [&](const NetworkConflict& c) { return std::minmax(c.first, c.second) == std::minmax(mine, other); });
+  ASSERT_NE(found, network.conflicts.end());
+  const bool first = found->first == mine;
+  EXPECT_NEAR(first ? found->first_entry_m : found->second_entry_m, 5.2, 0.3);
+  EXPECT_NEAR(first ? found->first_exit_m : found->second_exit_m, 12.4, 0.3);
+}
+
+// Turned by any angle and moved as far as UTM coordinates lie, a cross has the zones it has at home.
+TEST(ForeignNetworks, PlaceAndTurnDoNotMatter) {
+  const Network far = foreign("far_away").network;
+  const Network near = foreign("stop_signs").network;  // the same cross
+  ASSERT_EQ(far.conflicts.size(), near.conflicts.size());
+  EXPECT_EQ(rule_between(far, {"s_in", "w_out"}, {"e_in", "w_out"}), Rule::kFirstYields);
+  EXPECT_NEAR(lane(far, "s_in_0").centre.length_m(), lane(near, "s_in_0").centre.length_m(), 0.05);
+}
+
+// NET-003 The third lane is wanted 45 m before the turn: two changes from the lane that leads on from the
+// first edge.
+TEST(ForeignNetworks, LateChangesAreKnown) {
+  const Scenario scenario = foreign("late_changes");
+  const RouteGuide guide = test::guide_of(scenario);
+  EXPECT_EQ(guide.advice(scenario.network.find("w_in_0")).changes_needed, 2);
+  EXPECT_LT(lane(scenario.network, "w_in_0").centre.length_m(), 60.0);
+  const RouteGuide right = test::guide_of(foreign("late_changes", "right"));
+  EXPECT_EQ(right.advice(scenario.network.find("w_in_0")).changes_needed, 0);
+}
+
+// SCN-002 A shoulder that cars may not use is no lane: SUMO's lane 1 is the rightmost one; the mission keeps
+// its lane.
+TEST(ForeignNetworks, AShoulderIsNoLane) {
+  const Scenario scenario = foreign("curve", "change");
+  EXPECT_EQ(scenario.network.find("bend_0"), kNoLane);
+  EXPECT_EQ(scenario.mission.start_lane, scenario.network.lane_of("bend", 1));
+  EXPECT_EQ(lane(scenario.network, "bend_1").right, kNoLane);
+  EXPECT_EQ(test::guide_of(scenario).advice(scenario.mission.start_lane).changes_needed, 1);
+}
+
+// Four lanes, the turn only from the rightmost: from the third one two changes to the right.
+TEST(ForeignNetworks, FourLanesToTheRightTurn) {
+  const Scenario scenario = foreign("four_lanes", "right");
+  EXPECT_EQ(test::guide_of(scenario).advice(scenario.network.find("w_in_2")).changes_needed, -2);
+}
+
+class ForeignMaps : public testing::TestWithParam<std::string> {};
+
+// MAP-002 For every network and mission: what the map node shows fits the bus, lies around the ego, holds the
+// whole route, and every zone lies on its lanes.
+TEST_P(ForeignMaps, AreShownRight) {
+  const Scenario scenario = foreign(GetParam());
+  const Polyline& start =
+      scenario.network.lanes[static_cast<std::size_t>(scenario.mission.start_lane)].centre;
+  const Vec2 origin = start.at(scenario.mission.start_s_m).point;
+  const RouteGuide guide = test::guide_of(scenario);
+  MapNode node(scenario.network, guide, origin);
+  const wire::Map& map = node.update(origin);
+  EXPECT_EQ(map.lanes_left_out, 0);
+  int on_route = 0;
+  for (const wire::Lane& shown : map.lanes) {
+    for (int i = 0; shown.present && i < shown.point_count; ++i) {
+      EXPECT_LT(std::hypot(shown.x_m[i], shown.y_m[i]), 400.0F);
+    }
+    on_route += shown.present && shown.on_route ? 1 : 0;
+    EXPECT_FALSE(shown.present && shown.on_route && shown.kind != 0) << "the route is ours";
+  }
+  EXPECT_GT(on_route, 0);
+  for (const wire::Conflict& conflict : map.conflicts) {
+    if (conflict.present) {
+      ASSERT_LT(conflict.first, wire::kMaxLanes);
+      ASSERT_LT(conflict.second, wire::kMaxLanes);
+      EXPECT_LE(conflict.first_entry_m, conflict.first_exit_m);
+      EXPECT_LE(conflict.second_entry_m, conflict.second_exit_m);
+    }
+  }
+  for (const NetworkLane& each : scenario.network.lanes) {  // lanes join: no gaps where ways go on
+    for (const LaneId next : each.successors) {
+      const Vec2 a = each.centre.points().back();
+      const Vec2 b = scenario.network.lanes[static_cast<std::size_t>(next)].centre.points().front();
+      EXPECT_LT(std::hypot(a.x - b.x, a.y - b.y), 0.2) << each.name;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ForeignMaps,
+                         testing::Values("skewed", "all_way_stop", "right_before_left", "zipper",
+                                         "roundabout", "tee", "four_lanes", "short_ramp", "curve",
+                                         "late_changes", "far_away", "strange_names", "no_inner_lanes",
+                                         "unregulated", "stop_signs", "signals"),
+                         [](const auto& each) { return each.param; });
+
+}  // namespace
+}  // namespace s4tp::world
