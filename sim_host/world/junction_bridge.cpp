@@ -11,7 +11,40 @@ constexpr double kTouching_m = 0.1;
 constexpr double kSideways_mps2 = 5.5;  // netconvert's limit of the speed in turns
 constexpr int kPoints = 20;
 
+constexpr double kCorner_rad = 0.17;  // 10 degrees between two pieces of a line
+constexpr double kClose_m = 0.5;
+
+bool has_corner(const Polyline& line) {
+  const std::vector<Vec2>& points = line.points();
+  for (std::size_t i = 2; i < points.size(); ++i) {
+    const double before = std::atan2(points[i - 1].y - points[i - 2].y, points[i - 1].x - points[i - 2].x);
+    const double after = std::atan2(points[i].y - points[i - 1].y, points[i].x - points[i - 1].x);
+    if (std::abs(wrap_angle(after - before)) > kCorner_rad) {
+      return true;
+    }
+  }
+  return false;
+}
+
+bool close_to(const Polyline& line, const std::vector<Vec2>& points) {
+  return std::all_of(points.begin(), points.end(), [&](Vec2 point) {
+    const PolylineProjection at = line.project(point);
+    const double beyond_m = std::max({0.0, -at.s_m, at.s_m - line.length_m()});
+    return std::abs(at.d_m) + beyond_m < kClose_m;
+  });
+}
+
 }  // namespace
+
+void round_turn(NetworkLane& turn, const NetworkLane& from, const NetworkLane& to) {
+  if (!has_corner(turn.centre)) {
+    return;
+  }
+  const std::optional<NetworkLane> arc = bridge_between(from, to);
+  if (arc && close_to(arc->centre, turn.centre.points())) {
+    turn.centre = arc->centre;
+  }
+}
 
 std::optional<NetworkLane> bridge_between(const NetworkLane& from, const NetworkLane& to) {
   const PolylinePose start = from.centre.at(from.centre.length_m());

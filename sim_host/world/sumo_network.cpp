@@ -49,6 +49,12 @@ class Reader {
         }
       }
     }
+    for (NetworkLane& each : network_.lanes) {
+      const bool whole = each.in_junction && each.predecessors.size() == 1 && each.successors.size() == 1;
+      if (whole && !lane(each.predecessors[0]).in_junction && !lane(each.successors[0]).in_junction) {
+        round_turn(each, lane(each.predecessors[0]), lane(each.successors[0]));
+      }
+    }
     network_.conflicts = find_conflicts(network_.lanes, read_junctions(net));
     join_seams();
     return std::move(network_);

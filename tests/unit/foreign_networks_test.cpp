@@ -201,6 +201,17 @@ TEST(ForeignNetworks, AShoulderIsNoLane) {
   EXPECT_EQ(test::guide_of(scenario).advice(scenario.mission.start_lane).changes_needed, 1);
 }
 
+// A right turn as netconvert draws it, with five points, turns over 40 degrees in its middle two metres; a
+// car follows the arc of 5.6 m between its lanes (1/5.6 = 0.18 1/m; ours can do 0.21).
+TEST(ForeignNetworks, RightTurnsAreArcs) {
+  const Network network = foreign("tee").network;
+  const Polyline& turn =
+      network.lanes[static_cast<std::size_t>(inside(network, {"s_in", "e_out"}).at(0))].centre;
+  for (double s = 0.5; s < turn.length_m() - 0.5; s += 0.25) {
+    EXPECT_NEAR(std::abs(turn.at(s).curvature_1pm), 1.0 / 5.6, 0.02) << s;
+  }
+}
+
 // Four lanes, the turn only from the rightmost: from the third one two changes to the right.
 TEST(ForeignNetworks, FourLanesToTheRightTurn) {
   const Scenario scenario = foreign("four_lanes", "right");
