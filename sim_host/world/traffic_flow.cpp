@@ -136,7 +136,7 @@ FlowPlan draw_flows(const Network& network, const std::vector<FlowGroup>& groups
 FlowPlan draw_demand(const Network& network, const Demand& demand, double until_s, Random& random) {
   FlowPlan plan;
   for (const TrafficRoute& route : demand.routes) {
-    plan.ways.push_back({guide_for(network, route), route.edges.back()});
+    plan.ways.push_back({guide_for(network, route), route.edges.back(), route});
   }
   for (const DemandFlow& flow : demand.flows) {
     for (const double time_s : times_of(flow, until_s, random)) {
