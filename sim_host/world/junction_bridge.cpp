@@ -12,7 +12,7 @@ constexpr double kSideways_mps2 = 5.5;  // netconvert's limit of the speed in tu
 constexpr int kPoints = 20;
 
 constexpr double kCorner_rad = 0.17;  // 10 degrees between two pieces of a line
-constexpr double kClose_m = 0.5;
+constexpr double kClose_m = 2.0;  // of a sharp turn of 120 degrees; still on the paved ground of its junction
 
 bool has_corner(const Polyline& line) {
   const std::vector<Vec2>& points = line.points();

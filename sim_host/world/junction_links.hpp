@@ -35,7 +35,7 @@ struct Junction {
 [[nodiscard]] std::optional<NetworkLane> bridge_between(const NetworkLane& from, const NetworkLane& to);
 
 /// netconvert draws turns with few corners and tighter in the middle than a car can turn. One with corners is
-/// put on the arc between its lanes where that stays as close to it as a driver does.
+/// put on the arc between its lanes where that stays within 2 m of it.
 void round_turn(NetworkLane& turn, const NetworkLane& from, const NetworkLane& to);
 
 }  // namespace s4tp::world

@@ -101,7 +101,7 @@ def late_changes():
     del edges["w_in"]
     edges["w_far"] = ("w", "m", 1, 13.89, {"priority": 5})
     edges["w_in"] = ("m", "c", 3, 13.89, {"priority": 5})
-    return nodes, edges, [("w_far", "w_in", 0, 0), ("w_in", "s_out", 0, 0), ("w_in", "e_out", 1, 0),
+    return nodes, edges, [("w_far", "w_in", 0, 2), ("w_in", "s_out", 0, 0), ("w_in", "e_out", 1, 0),
                           ("w_in", "n_out", 2, 0)], {}
 
 
@@ -149,7 +149,7 @@ SCENARIOS = {
                    [("e_in", "w_out", 900), ("w_in", "e_out", 900)]),
     "short_ramp": ("ramp_0", "on_1", {}, [("main", "on", 900)]),
     "curve": ("bend_1", "bend_1", {"change": ("bend_1", "bend_2")}, [("bend", "bend", 600)]),
-    "late_changes": ("w_far_0", "n_out_0", {"right": ("w_far_0", "s_out_0")},
+    "late_changes": ("w_far_0", "s_out_0", {"left": ("w_far_0", "n_out_0")},
                      [("w_far", "e_out", 300), ("e_in", "w_out", 300)]),
     "far_away": ("s_in_0", "w_out_0", {}, [("n_in", "s_out", 150), ("e_in", "w_out", 200), ("w_in", "e_out", 200)]),
     "strange_names": ("Straße_0_0", "-gneE:4_0", {}, [("-12#3", "-gneE:4", 300), ("gneE:4", "12#3", 300)]),

@@ -180,15 +180,13 @@ TEST(ForeignNetworks, PlaceAndTurnDoNotMatter) {
   EXPECT_NEAR(lane(far, "s_in_0").centre.length_m(), lane(near, "s_in_0").centre.length_m(), 0.05);
 }
 
-// NET-003 The third lane is wanted 45 m before the turn: two changes from the lane that leads on from the
-// first edge.
+// NET-003 The right lane is wanted less than 50 m after one has come into the left one of three: two changes.
 TEST(ForeignNetworks, LateChangesAreKnown) {
   const Scenario scenario = foreign("late_changes");
-  const RouteGuide guide = test::guide_of(scenario);
-  EXPECT_EQ(guide.advice(scenario.network.find("w_in_0")).changes_needed, 2);
-  EXPECT_LT(lane(scenario.network, "w_in_0").centre.length_m(), 60.0);
-  const RouteGuide right = test::guide_of(foreign("late_changes", "right"));
-  EXPECT_EQ(right.advice(scenario.network.find("w_in_0")).changes_needed, 0);
+  const LaneId entered = scenario.network.find("w_in_2");
+  EXPECT_EQ(test::guide_of(scenario).advice(entered).changes_needed, -2);
+  EXPECT_LT(lane(scenario.network, "w_in_2").centre.length_m(), 50.0);
+  EXPECT_EQ(test::guide_of(foreign("late_changes", "left")).advice(entered).changes_needed, 0);
 }
 
 // SCN-002 A shoulder that cars may not use is no lane: SUMO's lane 1 is the rightmost one; the mission keeps
