@@ -1,50 +1,117 @@
 #include "sim_host/campaign/campaign.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <exception>
+#include <map>
 #include <mutex>
+#include <optional>
+#include <set>
+#include <stdexcept>
 #include <thread>
 
-namespace s4tp::campaign {
+#include "sim_host/campaign/digest.hpp"
 
-std::vector<EpisodeRow> run_campaign(const std::vector<world::Scenario>& scenarios,
-                                     const CampaignOptions& options) {
-  struct Job {
-    const std::string* planner;
-    const world::Scenario* scenario;
-    std::uint64_t seed;
-  };
-  std::vector<Job> jobs;
-  for (const std::string& planner : options.planners) {
-    for (const world::Scenario& scenario : scenarios) {
-      for (int i = 0; i < options.episodes; ++i) {
-        jobs.push_back({&planner, &scenario, options.first_seed + static_cast<std::uint64_t>(i)});
+namespace s4tp::campaign {
+namespace {
+
+/// Of the scenario's tables, and those beside and above it that it may name, its network and its routes.
+std::string digest_of(const world::Scenario& scenario) {
+  std::set<std::filesystem::path> tables;
+  for (const std::filesystem::path& folder : {scenario.folder, scenario.folder / ".."}) {
+    for (const auto& entry : std::filesystem::directory_iterator(folder.empty() ? "." : folder)) {
+      if (entry.path().extension() == ".toml") tables.insert(entry.path());
+    }
+  }
+  Digest digest;
+  for (const std::filesystem::path& table : tables) digest.add_file(table);
+  digest.add_file(scenario.network_file);
+  for (const std::filesystem::path& routes : scenario.route_files) digest.add_file(routes);
+  return digest.hex();
+}
+
+}  // namespace
+
+Campaign load_campaign(const CampaignPlan& plan, const std::filesystem::path& scenario_root) {
+  Campaign campaign{plan, {}};
+  std::map<std::string, std::string> argument_of;  // scenario name -> argument
+  std::map<std::pair<std::string, std::string>, std::shared_ptr<const CampaignScenario>> loaded;
+  for (const std::string& flavour : plan.flavours) {
+    for (const std::string& argument : plan.scenarios) {
+      auto one = std::make_shared<CampaignScenario>();
+      one->argument = argument;
+      one->scenario = world::load_scenario(world::scenario_path(scenario_root, argument), flavour);
+      one->digest = digest_of(one->scenario);
+      const auto [known, fresh] = argument_of.emplace(one->scenario.name, argument);
+      if (!fresh && known->second != argument) {
+        throw std::invalid_argument("scenarios " + known->second + " and " + argument + " are both called '" +
+                                    one->scenario.name + "': results could not be told apart");
+      }
+      loaded[{flavour, argument}] = one;
+    }
+  }
+  for (const std::string& planner : plan.planners) {
+    for (const bool guarded : plan.guards) {
+      for (const std::string& traffic : plan.traffic) {
+        for (const std::string& flavour : plan.flavours) {
+          for (const std::string& argument : plan.scenarios) {
+            const auto& scenario = loaded.at({flavour, argument});
+            campaign.cells.push_back(
+                {{planner, scenario->scenario.name, flavour, traffic, guarded, plan.perception}, scenario});
+          }
+        }
       }
     }
   }
+  return campaign;
+}
 
-  std::vector<EpisodeRow> rows(jobs.size());
+std::vector<Job> jobs_of(const Campaign& campaign, const Shard& shard) {
+  std::vector<Job> jobs;
+  std::size_t number = 0;
+  for (std::size_t cell = 0; cell < campaign.cells.size(); ++cell) {
+    for (int i = 0; i < campaign.plan.episodes; ++i, ++number) {
+      if (number % static_cast<std::size_t>(shard.count) != static_cast<std::size_t>(shard.index - 1))
+        continue;
+      jobs.push_back({cell, campaign.plan.first_seed + static_cast<std::uint64_t>(i)});
+    }
+  }
+  return jobs;
+}
+
+std::vector<EpisodeRow> run_campaign(const Campaign& campaign, const std::vector<Job>& jobs,
+                                     const CampaignOptions& options) {
+  std::vector<std::optional<EpisodeRow>> rows(jobs.size());
   std::atomic<std::size_t> next{0};
   std::mutex report_mutex;
   std::exception_ptr failure;
+  const auto drive = [&](const Job& job) {
+    const CampaignCell& cell = campaign.cells[job.cell];
+    EpisodeOptions episode;
+    episode.seed = job.seed;
+    episode.planner = cell.cell.planner;
+    episode.guarded = cell.cell.guarded;
+    episode.engine = world::engine_of(cell.cell.traffic);
+    episode.perception = world::perception_preset(cell.cell.perception);
+    episode.parameters = campaign.plan.parameters;
+    episode.trace = options.trace;
+    try {
+      return run_episode(cell.scenario->scenario, episode);
+    } catch (const std::exception& error) {
+      throw std::runtime_error(words(cell.cell) + ", seed " + std::to_string(job.seed) + ": " + error.what());
+    }
+  };
   const auto work = [&] {
     for (std::size_t i = next++; i < jobs.size(); i = next++) {
-      const Job& job = jobs[i];
+      if (options.stop != nullptr && *options.stop) return;
       try {
-        EpisodeOptions episode;
-        episode.seed = job.seed;
-        episode.planner = *job.planner;
-        episode.engine = options.engine;
-        episode.parameters = options.parameters;
-        episode.trace = options.trace;
-        const EpisodeResult result = run_episode(*job.scenario, episode);
-        rows[i] = {job.scenario->name, *job.planner, metrics::evaluate(result.recording)};
+        const EpisodeResult result = drive(jobs[i]);
+        const CampaignCell& cell = campaign.cells[jobs[i].cell];
+        rows[i] = {cell.cell, metrics::evaluate(result.recording)};
         const std::lock_guard lock(report_mutex);
-        if (options.on_episode) options.on_episode(*job.scenario, *job.planner, result);
+        if (options.on_episode) options.on_episode(cell, *rows[i], result);
       } catch (...) {
         const std::lock_guard lock(report_mutex);
-        failure = std::current_exception();
+        if (!failure) failure = std::current_exception();
         next = jobs.size();
       }
     }
@@ -56,7 +123,11 @@ std::vector<EpisodeRow> run_campaign(const std::vector<world::Scenario>& scenari
     for (int i = 0; i < std::max(wanted, 1); ++i) threads.emplace_back(work);
   }
   if (failure) std::rethrow_exception(failure);
-  return rows;
+  std::vector<EpisodeRow> driven;
+  for (std::optional<EpisodeRow>& row : rows) {
+    if (row) driven.push_back(std::move(*row));
+  }
+  return driven;
 }
 
 }  // namespace s4tp::campaign

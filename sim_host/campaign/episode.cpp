@@ -27,6 +27,7 @@ EpisodeResult run_episode(const world::Scenario& scenario, const EpisodeOptions&
   world::WorldOptions world_options;
   world_options.seed = options.seed;
   world_options.engine = options.engine;
+  world_options.perception = options.perception;
   world::World world(scenario, world_options);
   std::optional<BusLog> log;
   if (options.log)

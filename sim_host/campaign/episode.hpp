@@ -11,6 +11,7 @@
 #include "algo/core/parameters.hpp"
 #include "firmware/wire/frame.hpp"
 #include "sim_host/campaign/trace.hpp"
+#include "sim_host/world/perception.hpp"
 #include "sim_host/world/recording.hpp"
 #include "sim_host/world/scenario.hpp"
 #include "sim_host/world/traffic_engine.hpp"
@@ -21,6 +22,7 @@ struct EpisodeOptions {
   std::uint64_t seed = 0;
   std::string planner = "s4tp";
   bool guarded = true;  ///< make_ecu()
+  world::PerceptionOptions perception;
   world::Engine engine = world::Engine::kBuiltin;
   Parameters parameters;
   std::optional<std::filesystem::path> log;  ///< candump log of every frame on the bus

@@ -1,133 +1,182 @@
 #include "sim_host/campaign/results.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <fstream>
-#include <nlohmann/json.hpp>
+#include <map>
 #include <stdexcept>
+#include <tuple>
 
-#include "algo/core/versions.hpp"
+#include "sim_host/campaign/episode_record.hpp"
 
 namespace s4tp::campaign {
 namespace {
 
-using nlohmann::json;
+using nlohmann::ordered_json;
 
-json to_json(const metrics::Summary& sum) {
-  return {{"episodes", sum.episodes},
-          {"goals", sum.goals},
-          {"success_wilson_95", {sum.success.low, sum.success.high}},
-          {"with_collision", sum.with_collision},
-          {"with_own_fault", sum.with_own_fault},
-          {"with_competition_box_collision", sum.with_competition_box_collision},
-          {"off_road", sum.off_road},
-          {"time_out", sum.time_out},
-          {"dead_ecu", sum.dead_ecu},
-          {"seconds_to_goal", sum.seconds_to_goal},
-          {"mean_abs_jerk_mps3", sum.mean_abs_jerk_mps3},
-          {"min_gap_m", sum.min_gap_m},
-          {"median_min_ttc_s", sum.median_min_ttc_s},
-          {"rss_violation_share", sum.rss_violation_share},
-          {"comp1_time", sum.comp1_time},
-          {"comp1_humanness", sum.comp1_humanness}};
+std::vector<Cell> cells_of(const ordered_json& header) {
+  std::vector<Cell> cells;
+  for (const ordered_json& planner : header.at("planners")) {
+    for (const ordered_json& guard : header.at("guard")) {
+      for (const ordered_json& traffic : header.at("traffic")) {
+        for (const ordered_json& flavour : header.at("flavours")) {
+          for (const ordered_json& scenario : header.at("scenarios")) {
+            cells.push_back(
+                {planner, scenario.at("name"), flavour, traffic, guard == "on", header.at("perception")});
+          }
+        }
+      }
+    }
+  }
+  return cells;
 }
 
-json to_json(const EpisodeRow& row) {
-  const metrics::EpisodeMetrics& m = row.metrics;
-  return {{"scenario", row.scenario},
-          {"planner", row.planner},
-          {"seed", m.seed},
-          {"ending", metrics::ending_name(m.ending)},
-          {"redrawn", m.redrawn},
-          {"collisions_at_fault", m.collisions_at_fault},
-          {"collisions_other_fault", m.collisions_other_fault},
-          {"collisions_competition_box", m.collisions_competition_box},
-          {"duration_s", m.duration_s},
-          {"mean_abs_jerk_mps3", m.mean_abs_jerk_mps3},
-          {"hardest_braking_mps2", m.hardest_braking_mps2},
-          {"min_gap_m", m.min_gap_m},
-          {"mean_gap_m", m.mean_gap_m},
-          {"min_time_to_collision_s", m.min_time_to_collision_s},
-          {"rss_violation_share", m.rss_violation_share},
-          {"comp1",
-           {{"success", m.comp1.success},
-            {"steps", m.comp1.steps},
-            {"goal_distance_m", m.comp1.goal_distance_m},
-            {"jerk_linear", m.comp1.jerk_linear},
-            {"jerk_angular", m.comp1.jerk_angular},
-            {"lane_centre_offset", m.comp1.lane_centre_offset},
-            {"obstacle", m.comp1.obstacle}}}};
+CellResult result_of(const Cell& cell, std::vector<metrics::EpisodeMetrics> episodes) {
+  std::sort(episodes.begin(), episodes.end(), [](const auto& a, const auto& b) { return a.seed < b.seed; });
+  metrics::Summary summary = metrics::summarize(episodes);
+  return {cell, std::move(summary), std::move(episodes)};
+}
+
+/// By cell, each episode once.
+std::map<Cell, std::vector<metrics::EpisodeMetrics>> sorted_out(const std::vector<EpisodeRow>& rows) {
+  std::map<Cell, std::vector<metrics::EpisodeMetrics>> episodes;
+  std::map<std::pair<Cell, std::uint64_t>, std::string> seen;
+  for (const EpisodeRow& row : rows) {
+    const std::string line = to_json(row).dump();
+    const auto [known, fresh] = seen.emplace(std::pair{row.cell, row.metrics.seed}, line);
+    if (fresh) {
+      episodes[row.cell].push_back(row.metrics);
+    } else if (known->second != line) {
+      throw std::runtime_error(words(row.cell) + ", seed " + std::to_string(row.metrics.seed) +
+                               " is there twice, with different outcomes");
+    }
+  }
+  return episodes;
+}
+
+ordered_json pair_of(const metrics::Interval& interval) {
+  return {interval.low, interval.high};
+}
+
+ordered_json failures_of(const CellResult& result) {
+  ordered_json failures = ordered_json::array();
+  for (const metrics::EpisodeMetrics& episode : result.episodes) {
+    if (episode.ending == world::Ending::kGoal) continue;
+    failures.push_back({{"seed", episode.seed},
+                        {"cause", episode.cause},
+                        {"time_s", episode.duration_s},
+                        {"ending", metrics::ending_name(episode.ending)},
+                        {"at_fault", episode.collisions_at_fault > 0},
+                        {"standing", episode.collided_standing}});
+  }
+  return failures;
+}
+
+ordered_json run_json(const CellResult& result) {
+  const Cell& cell = result.cell;
+  const metrics::Summary& s = result.summary;
+  ordered_json run{
+      {"planner", cell.planner},
+      {"scenario", cell.scenario},
+      {"flavour", cell.flavour},
+      {"traffic", cell.traffic},
+      {"guarded", cell.guarded},
+      {"perception", cell.perception},
+      {"episodes", s.episodes},
+      {"success_rate", s.success.share},
+      {"wilson_low", s.success.interval.low},
+      {"wilson_high", s.success.interval.high},
+      {"collision_rate", s.collision.share},
+      {"at_fault_collision_rate", s.at_fault.share},
+      {"off_road_rate", s.off_road.share},
+      {"timeout_rate", s.time_out.share},
+      {"seconds_to_goal_mean", s.success.count > 0 ? ordered_json(s.seconds_to_goal) : nullptr},
+      {"min_ttc_s_p05", s.min_ttc_s_p05},
+      {"comp1", {{"success", s.comp1_success}, {"time", s.comp1_time}, {"humanness", s.comp1_humanness}}}};
+  run["collision_wilson"] = pair_of(s.collision.interval);
+  run["at_fault_collision_wilson"] = pair_of(s.at_fault.interval);
+  run["off_road_wilson"] = pair_of(s.off_road.interval);
+  run["timeout_wilson"] = pair_of(s.time_out.interval);
+  run["dead_ecu_rate"] = s.dead_ecu.share;
+  run["competition_box_collision_rate"] = s.competition_box_collision.share;
+  run["hit_standing_rate"] = s.hit_standing.share;
+  run["collision_causes"] = s.causes;
+  run["redrawn"] = s.redrawn;
+  run["mean_speed_mps"] = s.mean_speed_mps;
+  run["progress_share"] = s.progress_share;
+  run["mean_abs_jerk_mps3"] = s.mean_abs_jerk_mps3;
+  run["rms_acceleration_mps2"] = s.rms_acceleration_mps2;
+  run["hardest_braking_mps2"] = s.hardest_braking_mps2;
+  run["max_lateral_mps2"] = s.max_lateral_mps2;
+  run["min_gap_m"] = s.min_gap_m;
+  run["min_ttc_s_median"] = s.min_ttc_s_median;
+  run["near_misses"] = s.near_misses;
+  run["rss_violation_share"] = s.rss_violation_share;
+  run["rss_violations"] = s.rss_violations;
+  run["failures"] = failures_of(result);
+  return run;
 }
 
 }  // namespace
 
-std::vector<ResultCell> summarize(const std::vector<EpisodeRow>& rows) {
-  std::vector<ResultCell> cells;
-  std::vector<std::vector<metrics::EpisodeMetrics>> episodes;
+std::vector<CellResult> collect(const std::vector<EpisodeRow>& rows) {
+  auto episodes = sorted_out(rows);
+  std::vector<CellResult> results;
   for (const EpisodeRow& row : rows) {
-    auto cell = std::find_if(cells.begin(), cells.end(), [&](const ResultCell& one) {
-      return one.planner == row.planner && one.scenario == row.scenario;
-    });
-    if (cell == cells.end()) {
-      cells.push_back({row.planner, row.scenario, {}});
-      episodes.emplace_back();
-      cell = std::prev(cells.end());
-    }
-    episodes[static_cast<std::size_t>(cell - cells.begin())].push_back(row.metrics);
+    const auto found = episodes.find(row.cell);
+    if (found == episodes.end()) continue;
+    results.push_back(result_of(row.cell, std::move(found->second)));
+    episodes.erase(found);
   }
-  for (std::size_t i = 0; i < cells.size(); ++i) cells[i].summary = metrics::summarize(episodes[i]);
-  return cells;
+  return results;
 }
 
-void print_table(std::ostream& out, const std::vector<ResultCell>& cells) {
-  out << "planner         scenario       goal      95 % interval  coll. (ours)  off road  time-out   to goal"
-         "   |jerk|   comp1 time  humanness\n";
-  std::string planner;
-  for (const ResultCell& cell : cells) {
-    const metrics::Summary& s = cell.summary;
-    if (!planner.empty() && planner != cell.planner) out << '\n';
-    planner = cell.planner;
-    char line[200];
-    std::snprintf(
-        line, sizeof line,
-        "%-15s %-12s %3d/%-3d   %5.1f..%5.1f %%   %3d  (%d)      %3d       %3d     %6.1f s  %5.2f m/s3"
-        "  %7.1f  %9.2f\n",
-        cell.planner.c_str(), cell.scenario.c_str(), s.goals, s.episodes, 100.0 * s.success.low,
-        100.0 * s.success.high, s.with_collision, s.with_own_fault, s.off_road, s.time_out + s.dead_ecu,
-        s.seconds_to_goal, s.mean_abs_jerk_mps3, s.comp1_time, s.comp1_humanness);
-    out << line;
+std::vector<CellResult> collect(const std::vector<EpisodeRow>& rows, const ordered_json& header) {
+  auto episodes = sorted_out(rows);
+  std::vector<CellResult> results;
+  for (const Cell& cell : cells_of(header)) results.push_back(result_of(cell, std::move(episodes[cell])));
+  return results;
+}
+
+std::size_t planned_episodes(const ordered_json& header) {
+  return cells_of(header).size() * header.at("episodes").get<std::size_t>();
+}
+
+ordered_json results_json(const ordered_json& header, const std::vector<CellResult>& cells) {
+  std::size_t done = 0;
+  ordered_json runs = ordered_json::array();
+  for (const CellResult& cell : cells) {
+    done += cell.episodes.size();
+    if (!cell.episodes.empty()) runs.push_back(run_json(cell));
   }
+  return {{"first_seed", header.at("first_seed")},
+          {"episodes_per_run", header.at("episodes")},
+          {"episodes_done", done},
+          {"episodes_planned", planned_episodes(header)},
+          {"parameters_crc", header.at("parameters_crc")},
+          {"wire_version", header.at("wire_version")},
+          {"scenarios", header.at("scenarios")},
+          {"runs", runs}};
+}
+
+ordered_json results_json(const EpisodeRow& row) {
+  return {{"runs", ordered_json::array({run_json(collect({row}).front())})}, {"episode", to_json(row)}};
+}
+
+void write_json(const std::filesystem::path& file, const ordered_json& document) {
+  if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path());
+  std::ofstream stream(file);
+  stream << document.dump(1) << '\n';
+  if (!stream.flush()) throw std::runtime_error(file.string() + ": cannot write the results");
 }
 
 void print_episode(std::ostream& out, const EpisodeRow& row, const world::Recording& recording) {
   const metrics::EpisodeMetrics& m = row.metrics;
-  out << row.scenario << " seed " << m.seed << ", " << row.planner << ": " << metrics::ending_name(m.ending)
-      << " after " << m.duration_s << " s, smallest gap " << m.min_gap_m << " m, mean |jerk| "
-      << m.mean_abs_jerk_mps3 << " m/s^3\n";
+  out << words(row.cell) << ", seed " << m.seed << ": " << metrics::ending_name(m.ending) << " after "
+      << m.duration_s << " s, smallest gap " << m.min_gap_m << " m, smallest time to collision "
+      << m.min_time_to_collision_s << " s, mean |jerk| " << m.mean_abs_jerk_mps3 << " m/s^3\n";
   for (const world::Collision& collision : recording.collisions) {
     out << "  at " << collision.time_s << " s: " << collision.cause << " vehicle " << collision.other << '\n';
   }
-}
-
-void write_json(const std::filesystem::path& file, const std::vector<EpisodeRow>& rows,
-                const CampaignOptions& options, const json* more) {
-  json document{{"first_seed", options.first_seed},
-                {"episodes_per_cell", options.episodes},
-                {"parameters_crc", parameters_crc(options.parameters)},
-                {"wire_version", kWireVersion},
-                {"cells", json::array()},
-                {"episodes", json::array()}};
-  for (const ResultCell& cell : summarize(rows)) {
-    json entry = to_json(cell.summary);
-    entry["planner"] = cell.planner;
-    entry["scenario"] = cell.scenario;
-    document["cells"].push_back(entry);
-  }
-  for (const EpisodeRow& row : rows) document["episodes"].push_back(to_json(row));
-  if (more != nullptr) document.update(*more);
-  std::ofstream stream(file);
-  stream << document.dump(1) << '\n';
-  if (!stream) throw std::runtime_error(file.string() + ": cannot write the results");
 }
 
 }  // namespace s4tp::campaign

@@ -1,6 +1,7 @@
 #pragma once
 /// The commands of the host tool: one file each, which adds its options and says what it does with them.
-/// Exit codes: 0 done, 1 the result is not good enough or an episode failed, 2 wrong use or broken input.
+/// Exit codes: 0 done, 1 the result is not good enough or an episode failed, 2 wrong use or broken input,
+/// 130 stopped by a signal.
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
@@ -18,6 +19,7 @@ namespace s4tp::commands {
 inline constexpr int kDone = 0;
 inline constexpr int kNotGoodEnough = 1;
 inline constexpr int kWrongUse = 2;
+inline constexpr int kInterrupted = 130;
 
 struct Command {
   CLI::App* app = nullptr;

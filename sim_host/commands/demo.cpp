@@ -1,15 +1,19 @@
 #include <algorithm>
 #include <iostream>
 
+#include "sim_host/campaign/episode_record.hpp"
 #include "sim_host/campaign/results.hpp"
-#include "sim_host/commands/drive.hpp"
+#include "sim_host/campaign/table.hpp"
+#include "sim_host/commands/command.hpp"
+#include "sim_host/view/episode_picture.hpp"
+#include "sim_host/view/report.hpp"
 
 namespace s4tp::commands {
 namespace {
 
 /// The promises of the demo. Fewer than 20 episodes a cell are too few for its rates: then only that nobody
 /// was hit through our fault, and that the ECU was never silent.
-int judge_demo(const std::vector<campaign::EpisodeRow>& rows) {
+int judge_demo(const std::vector<campaign::CellResult>& cells) {
   constexpr int kEnough = 20;
   bool good = true;
   int own_fault = 0;
@@ -18,17 +22,17 @@ int judge_demo(const std::vector<campaign::EpisodeRow>& rows) {
     if (!holds) std::cout << "FALLS SHORT: " << what << '\n';
     good = good && holds;
   };
-  for (const campaign::ResultCell& cell : campaign::summarize(rows)) {
-    const metrics::Summary& s = cell.summary;
-    const int lost = s.episodes - s.goals;
-    demand(s.dead_ecu == 0, "the ECU fell silent in " + cell.scenario);
+  for (const auto& [cell, s, rows] : cells) {
+    const int lost = s.episodes - s.success.count;
+    demand(s.dead_ecu.count == 0, "the ECU fell silent in " + cell.scenario);
     if (cell.planner == "s4tp") {
-      own_fault += s.with_own_fault;
+      own_fault += s.at_fault.count;
       episodes += s.episodes;
     }
     if (s.episodes < kEnough) continue;
     if (cell.planner == "s4tp") {
-      demand(20 * s.goals >= 16 * s.episodes, "s4tp reaches fewer than 16 of 20 goals in " + cell.scenario);
+      demand(20 * s.success.count >= 16 * s.episodes,
+             "s4tp reaches fewer than 16 of 20 goals in " + cell.scenario);
     } else if (cell.scenario == "left_turn") {
       demand(20 * lost >= 6 * s.episodes,
              cell.planner + " loses fewer than 6 of 20 left turns: traffic is too tame");
@@ -38,20 +42,59 @@ int judge_demo(const std::vector<campaign::EpisodeRow>& rows) {
     }
   }
   demand(80 * own_fault <= std::max(episodes, 80), "s4tp causes more than one collision in 80 episodes");
-  return good ? 0 : kNotGoodEnough;
+  return good ? kDone : kNotGoodEnough;
+}
+
+/// A campaign with a picture of every episode, and the page that shows them.
+int demo(const CommonOptions& common, int episodes) {
+  campaign::CampaignPlan plan;
+  plan.planners = {"s4tp", "constant_speed", "blind"};
+  plan.flavours = {common.flavour};
+  plan.episodes = episodes;
+  plan.first_seed = common.seed;
+  plan.parameters = common.parameters();
+  const campaign::Campaign campaign = campaign::load_campaign(plan, common.scenario_root);
+  std::filesystem::create_directories(common.out);
+
+  campaign::CampaignOptions options;
+  options.trace = true;
+  std::size_t done = 0;
+  options.on_episode = [&](const campaign::CampaignCell& cell, const campaign::EpisodeRow& row,
+                           const campaign::EpisodeResult& result) {
+    std::cerr << '[' << ++done << '/' << campaign.episodes() << "] " << words(row.cell) << ", seed "
+              << row.metrics.seed << ": " << metrics::ending_name(row.metrics.ending) << '\n';
+    view::draw_episode(
+        cell.scenario->scenario, result,
+        common.out / view::picture_name(row.cell.scenario, row.cell.planner, row.metrics.seed));
+  };
+  std::cerr << "seeds " << plan.first_seed << " to "
+            << plan.first_seed + static_cast<std::uint64_t>(plan.episodes) - 1 << '\n';
+  const std::vector<campaign::EpisodeRow> rows = run_campaign(campaign, jobs_of(campaign), options);
+
+  const auto header = campaign::header_of(campaign, {}, common.parameters_file);
+  const std::vector<campaign::CellResult> cells = collect(rows, header);
+  campaign::print_table(std::cout, cells);
+  campaign::write_json(common.out / "results.json", campaign::results_json(header, cells));
+  view::write_report(common.out, rows);
+  std::cout << "\nreport: " << (common.out / "index.html").string()
+            << "\nnumbers: " << (common.out / "results.json").string() << '\n';
+  return judge_demo(cells);
 }
 
 }  // namespace
 
 Command add_demo(CLI::App& tool) {
-  CLI::App* demo = tool.add_subcommand("demo", "the four scenarios, s4tp beside two careless drivers");
-  const auto options = std::make_shared<DriveOptions>();
+  CLI::App* app = tool.add_subcommand("demo", "the four scenarios, s4tp beside two careless drivers");
+  struct Options {
+    CommonOptions common;
+    int episodes = 20;
+  };
+  const auto options = std::make_shared<Options>();
   options->common.out = std::filesystem::path("out") / "demo";
-  options->planners = {"s4tp", "constant_speed", "blind"};
-  options->common.add_to(*demo);
-  demo->add_option("--episodes", options->episodes, "per scenario and planner (default 20)")
+  options->common.add_to(*app);
+  app->add_option("--episodes", options->episodes, "per scenario and planner (default 20)")
       ->check(CLI::PositiveNumber);
-  return {demo, [options] { return judge_demo(drive(*options)); }};
+  return {app, [options] { return demo(options->common, options->episodes); }};
 }
 
 }  // namespace s4tp::commands

@@ -26,6 +26,7 @@ struct RunOptions {
   std::string planner = "s4tp";
   std::string guard = "on";
   [[nodiscard]] bool guarded() const { return guard == "on"; }
+  std::string perception = "ideal";
   std::string bus;
   bool realtime = false;
   bool no_ecu = false;
@@ -43,6 +44,7 @@ int run_one(const RunOptions& run) {
   options.planner = run.planner;
   options.guarded = run.guarded();
   options.engine = world::engine_of(run.common.traffic);
+  options.perception = world::perception_preset(run.perception);
   options.parameters = run.common.parameters();
   options.trace = true;
   if (!run.log.empty()) options.log = run.log;
@@ -52,15 +54,12 @@ int run_one(const RunOptions& run) {
   const fs::path picture =
       run.common.out / view::picture_name(scenario.name, run.planner, result.recording.seed);
   view::draw_episode(scenario, result, picture);
-  const std::vector<campaign::EpisodeRow> rows{
-      {scenario.name, run.planner, metrics::evaluate(result.recording)}};
-  campaign::CampaignOptions one;
-  one.episodes = 1;
-  one.first_seed = run.common.seed;
-  one.parameters = options.parameters;
-  campaign::write_json(run.common.out / "run.json", rows, one);
+  const campaign::EpisodeRow row{
+      {run.planner, scenario.name, run.common.flavour, run.common.traffic, run.guarded(), run.perception},
+      metrics::evaluate(result.recording)};
+  campaign::write_json(run.common.out / "run.json", campaign::results_json(row));
 
-  campaign::print_episode(std::cout, rows.front(), result.recording);
+  campaign::print_episode(std::cout, row, result.recording);
   const fs::path reasons = fs::path(picture).replace_extension(".txt");
   std::ofstream explanations(reasons);
   view::print_explanations(explanations, *result.trace, -result.recording.snapshots.front().time_s);
@@ -81,6 +80,7 @@ int run_on_bus(const RunOptions& run) {
   }
   options.world.seed = run.common.seed;
   options.world.engine = world::engine_of(run.common.traffic);
+  options.world.perception = world::perception_preset(run.perception);
   options.world.realtime = run.realtime;
   options.world.answer_within_ms = 1000 * run.patience_s;
   options.world.dead_after_ms = 2000 * run.patience_s;
@@ -130,6 +130,9 @@ Command add_run(CLI::App& tool) {
   CLI::Option* const guard = run->add_option("--guard", options->guard,
                                              "check, RSS and minimum-risk manoeuvre behind him (default on)")
                                  ->check(CLI::IsMember({"on", "off"}));
+  run->add_option("--perception", options->perception,
+                  "ideal (default), or real: noise, latency, dropouts, occlusion")
+      ->check(CLI::IsMember(world::perception_names()));
   run->add_option("--log", options->log, "write every frame on the bus here, in candump's format");
   CLI::Option* const bus =
       run->add_option("--bus", options->bus,

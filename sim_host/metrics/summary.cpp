@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 namespace s4tp::metrics {
 
@@ -16,40 +17,68 @@ Interval wilson(int successes, int trials) {
   return {std::max(0.0, centre - half), std::min(1.0, centre + half)};
 }
 
+double percentile(std::vector<double> values, double share) {
+  const double rank = std::ceil(share * static_cast<double>(values.size()) - 1e-9);
+  const std::ptrdiff_t index = std::max(static_cast<std::ptrdiff_t>(rank) - 1, std::ptrdiff_t{0});
+  std::nth_element(values.begin(), values.begin() + index, values.end());
+  return values[static_cast<std::size_t>(index)];
+}
+
 Summary summarize(const std::vector<EpisodeMetrics>& episodes) {
+  using world::Ending;
   Summary sum;
   sum.episodes = static_cast<int>(episodes.size());
   if (episodes.empty()) return sum;
-  sum.min_gap_m = episodes.front().min_gap_m;
+  const auto rate = [&](const auto& holds) {
+    const int count = static_cast<int>(std::count_if(episodes.begin(), episodes.end(), holds));
+    return Rate{count, static_cast<double>(count) / sum.episodes, wilson(count, sum.episodes)};
+  };
+  const auto ended = [&](Ending ending) {
+    return rate([ending](const EpisodeMetrics& episode) { return episode.ending == ending; });
+  };
+  const auto mean = [&](const auto& value) {
+    double total = 0.0;
+    for (const EpisodeMetrics& episode : episodes) total += value(episode);
+    return total / sum.episodes;
+  };
+  sum.success = ended(Ending::kGoal);
+  sum.collision = rate([](const auto& e) { return e.collisions_at_fault + e.collisions_other_fault > 0; });
+  sum.at_fault = rate([](const auto& e) { return e.collisions_at_fault > 0; });
+  sum.competition_box_collision = rate([](const auto& e) { return e.collisions_competition_box > 0; });
+  sum.off_road = ended(Ending::kOffRoad);
+  sum.time_out = ended(Ending::kTimeOut);
+  sum.dead_ecu = ended(Ending::kDeadEcu);
+  sum.hit_standing = rate([](const auto& e) { return e.collided_standing; });
+
   std::vector<double> ttc_s;
+  double goal_s = 0.0;
+  double time_s = 0.0;
+  double distance_m = 0.0;
+  sum.min_gap_m = episodes.front().min_gap_m;
   for (const EpisodeMetrics& episode : episodes) {
-    if (episode.ending == world::Ending::kGoal) {
-      ++sum.goals;
-      sum.seconds_to_goal += episode.duration_s;
-    }
-    sum.with_collision += episode.collisions_at_fault + episode.collisions_other_fault > 0;
-    sum.with_own_fault += episode.collisions_at_fault > 0;
-    sum.with_competition_box_collision += episode.collisions_competition_box > 0;
-    sum.off_road += episode.ending == world::Ending::kOffRoad;
-    sum.time_out += episode.ending == world::Ending::kTimeOut;
-    sum.dead_ecu += episode.ending == world::Ending::kDeadEcu;
-    sum.mean_abs_jerk_mps3 += episode.mean_abs_jerk_mps3;
+    sum.redrawn += episode.redrawn;
     sum.min_gap_m = std::min(sum.min_gap_m, episode.min_gap_m);
-    sum.rss_violation_share += episode.rss_violation_share;
-    sum.comp1_time += episode.comp1.time();
-    sum.comp1_humanness += episode.comp1.humanness();
+    time_s += episode.duration_s;
+    distance_m += episode.distance_m;
     ttc_s.push_back(episode.min_time_to_collision_s);
+    if (episode.ending == Ending::kGoal) goal_s += episode.duration_s;
+    if (episode.ending == Ending::kCollision) ++sum.causes[episode.cause];
   }
-  const double n = sum.episodes;
-  sum.success = wilson(sum.goals, sum.episodes);
-  if (sum.goals > 0) sum.seconds_to_goal /= sum.goals;
-  sum.mean_abs_jerk_mps3 /= n;
-  sum.rss_violation_share /= n;
-  sum.comp1_time /= n;
-  sum.comp1_humanness /= n;
-  const auto middle = ttc_s.begin() + static_cast<std::ptrdiff_t>(ttc_s.size() / 2);
-  std::nth_element(ttc_s.begin(), middle, ttc_s.end());
-  sum.median_min_ttc_s = *middle;
+  if (sum.success.count > 0) sum.seconds_to_goal = goal_s / sum.success.count;
+  if (time_s > 0.0) sum.mean_speed_mps = distance_m / time_s;
+  sum.min_ttc_s_p05 = percentile(ttc_s, 0.05);
+  sum.min_ttc_s_median = percentile(ttc_s, 0.5);
+  sum.progress_share = mean([](const auto& e) { return e.progress_share; });
+  sum.mean_abs_jerk_mps3 = mean([](const auto& e) { return e.mean_abs_jerk_mps3; });
+  sum.rms_acceleration_mps2 = mean([](const auto& e) { return e.rms_acceleration_mps2; });
+  sum.hardest_braking_mps2 = mean([](const auto& e) { return e.hardest_braking_mps2; });
+  sum.max_lateral_mps2 = mean([](const auto& e) { return e.max_lateral_mps2; });
+  sum.near_misses = mean([](const auto& e) { return e.near_misses; });
+  sum.rss_violation_share = mean([](const auto& e) { return e.rss_violation_share; });
+  sum.rss_violations = mean([](const auto& e) { return e.rss_violations; });
+  sum.comp1_success = mean([](const auto& e) { return e.comp1.success ? 1.0 : 0.0; });
+  sum.comp1_time = mean([](const auto& e) { return e.comp1.time(); });
+  sum.comp1_humanness = mean([](const auto& e) { return e.comp1.humanness(); });
   return sum;
 }
 

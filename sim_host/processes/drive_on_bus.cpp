@@ -62,16 +62,20 @@ int drive_on_bus(const world::Scenario& scenario, const DriveOptions& options, s
     out << "no ECU on " << world.bus << '\n';
     return 2;
   }
-  const std::vector<campaign::EpisodeRow> rows{
-      {scenario.name, options.planner, metrics::evaluate(result.recording)}};
+  campaign::EpisodeRow row;
+  row.cell.planner = options.planner;
+  row.cell.scenario = scenario.name;
+  row.cell.traffic = world::engine_names().at(static_cast<std::size_t>(options.world.engine));
+  row.metrics = metrics::evaluate(result.recording);
   print_link(out, world, result, bus->can());
-  campaign::print_episode(out, rows.front(), result.recording);
+  campaign::print_episode(out, row, result.recording);
   if (!options.out.empty()) {
-    campaign::CampaignOptions one;
-    one.episodes = 1;
-    one.first_seed = world.seed;
-    const nlohmann::json timing = timing_of(result, options.ecu_command.empty() ? "" : ecu_report);
-    campaign::write_json(options.out / "run.json", rows, one, result.timing ? &timing : nullptr);
+    nlohmann::ordered_json document = campaign::results_json(row);
+    if (result.timing) {
+      document.update(
+          nlohmann::ordered_json(timing_of(result, options.ecu_command.empty() ? "" : ecu_report)));
+    }
+    campaign::write_json(options.out / "run.json", document);
   }
   if (world.log) out << "bus log: " << world.log->string() << '\n';
   return result.recording.ending == world::Ending::kGoal ? 0 : 1;

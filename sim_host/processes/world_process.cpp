@@ -61,6 +61,7 @@ class Session {
     world::WorldOptions result;
     result.seed = options.seed;
     result.engine = options.engine;
+    result.perception = options.perception;
     return result;
   }
 

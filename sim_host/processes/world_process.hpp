@@ -11,6 +11,7 @@
 
 #include "hal/linux/linux_can.hpp"
 #include "sim_host/processes/realtime_report.hpp"
+#include "sim_host/world/perception.hpp"
 #include "sim_host/world/recording.hpp"
 #include "sim_host/world/scenario.hpp"
 #include "sim_host/world/traffic_engine.hpp"
@@ -21,6 +22,7 @@ struct WorldProcessOptions {
   std::string bus;  ///< its name, for messages
   std::uint64_t seed = 0;
   world::Engine engine = world::Engine::kBuiltin;
+  world::PerceptionOptions perception;
   bool realtime = false;
   int wait_s = 10;                           ///< for a sign of the ECU; 0: begin at once
   std::optional<std::filesystem::path> log;  ///< every frame of the bus from the first tick on

@@ -4,6 +4,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "sim_host/campaign/table.hpp"
+
 namespace s4tp::view {
 namespace {
 
@@ -36,14 +38,14 @@ void write_report(const std::filesystem::path& folder, const std::vector<campaig
   const std::filesystem::path file = folder / "index.html";
   std::ofstream out(file);
   std::ostringstream table;
-  campaign::print_table(table, campaign::summarize(rows));
+  campaign::print_table(table, campaign::collect(rows));
   out << kHead << "<pre>" << table.str() << "</pre>\n";
 
   std::string heading;
   for (const campaign::EpisodeRow& row : rows) {
-    const std::string picture = picture_name(row.scenario, row.planner, row.metrics.seed);
+    const std::string picture = picture_name(row.cell.scenario, row.cell.planner, row.metrics.seed);
     if (!std::filesystem::exists(folder / picture)) continue;
-    const std::string wanted = row.planner + ": " + row.scenario;
+    const std::string wanted = row.cell.planner + ": " + row.cell.scenario;
     if (wanted != heading) {
       if (!heading.empty()) out << "</div>\n";
       out << "<h2>" << wanted << "</h2>\n<div class='episodes'>\n";

@@ -47,6 +47,7 @@ struct Recording {
   std::uint64_t seed = 0;
   int redrawn = 0;  ///< episodes thrown away for an overlap in the first second
   Ending ending = Ending::kRunning;
+  Vec2 goal;                                      ///< where it lies
   double goal_distance_m = 0.0;                   ///< Manhattan distance to the goal at the end
   std::vector<Snapshot> snapshots;                ///< every 0.1 s
   std::vector<Collision> collisions;              ///< boxes of the cars' own size

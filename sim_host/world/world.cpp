@@ -265,6 +265,7 @@ void World::Impl::watch_collisions() {
 void World::Impl::end(Ending ending) {
   recording.ending = ending;
   const Vec2 goal = network.lanes[static_cast<std::size_t>(goal_lane)].centre.at(mission.goal_s_m).point;
+  recording.goal = goal;
   recording.goal_distance_m = std::abs(goal.x - ego.centre.x) + std::abs(goal.y - ego.centre.y);
 }
 

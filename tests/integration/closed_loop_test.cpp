@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <set>
 #include <sstream>
 
 #include "sim_host/campaign/campaign.hpp"
@@ -77,21 +78,46 @@ TEST(ClosedLoop, StopsWhenPerceptionDies) {
   EXPECT_NE(result.recording.ending, world::Ending::kOffRoad);
 }
 
-// Rows come in the order planner, scenario, seed, whatever the number of threads.
+// Rows come in the order of cells and seeds, whatever the number of threads.
 TEST(Campaign, RowsDoNotDependOnThreads) {
+  CampaignPlan plan;
+  plan.planners = {"constant_speed"};
+  plan.scenarios = {"overtake"};
+  plan.episodes = 3;
+  const Campaign campaign =
+      load_campaign(plan, std::filesystem::path(S4TP_SOURCE_DIR) / "sim_host" / "scenarios");
   CampaignOptions options;
-  options.planners = {"constant_speed"};
-  options.episodes = 3;
-  const std::vector<world::Scenario> scenarios{shipped("overtake")};
   options.threads = 1;
-  const auto one = run_campaign(scenarios, options);
+  const auto one = run_campaign(campaign, jobs_of(campaign), options);
   options.threads = 3;
-  const auto three = run_campaign(scenarios, options);
-  ASSERT_EQ(one.size(), three.size());
+  const auto three = run_campaign(campaign, jobs_of(campaign), options);
+  ASSERT_EQ(one.size(), 3U);
+  ASSERT_EQ(three.size(), 3U);
   for (std::size_t i = 0; i < one.size(); ++i) {
-    EXPECT_EQ(one[i].metrics.seed, three[i].metrics.seed);
+    EXPECT_EQ(one[i].metrics.seed, i);
+    EXPECT_EQ(three[i].metrics.seed, i);
     EXPECT_EQ(one[i].metrics.duration_s, three[i].metrics.duration_s);
   }
+}
+
+// The parts of a campaign have every episode once, and each part some of every cell.
+TEST(Campaign, ShardsShareEveryCell) {
+  CampaignPlan plan;
+  plan.planners = {"s4tp", "blind"};
+  plan.scenarios = {"overtake"};
+  plan.episodes = 10;
+  const Campaign campaign =
+      load_campaign(plan, std::filesystem::path(S4TP_SOURCE_DIR) / "sim_host" / "scenarios");
+  std::set<std::pair<std::size_t, std::uint64_t>> all;
+  for (int i = 1; i <= 3; ++i) {
+    std::set<std::size_t> cells;
+    for (const Job& job : jobs_of(campaign, {i, 3})) {
+      EXPECT_TRUE(all.emplace(job.cell, job.seed).second);
+      cells.insert(job.cell);
+    }
+    EXPECT_EQ(cells.size(), 2U);
+  }
+  EXPECT_EQ(all.size(), 20U);
 }
 
 // An unknown planner is refused with the list of those there are.

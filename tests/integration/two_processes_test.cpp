@@ -190,7 +190,7 @@ TEST(TwoProcesses, KilledEcuIsReported) {
   for (int i = 0; i < 200 && (!fs::exists(log) || fs::file_size(log) < 1000); ++i) usleep(50'000);
   EXPECT_EQ(ecu.end(SIGKILL), 128 + SIGKILL);
   EXPECT_EQ(world.wait(), 1);
-  EXPECT_NE(content(scratch("out") / "run.json").find("\"dead_ecu\": 1"), std::string::npos);
+  EXPECT_NE(content(scratch("out") / "run.json").find("\"ending\": \"dead ECU\""), std::string::npos);
 }
 
 // PROC-015, PROC-023, RT-022 Realtime, ended after a while: run.json says of both sides how late they were.

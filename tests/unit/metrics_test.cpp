@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "sim_host/metrics/paired.hpp"
 #include "sim_host/metrics/summary.hpp"
 
 namespace s4tp::metrics {
@@ -36,9 +37,10 @@ Recording cruise(int count, double speed_mps) {
   return recording;
 }
 
-// 50 steps to the goal cost 50; a crash costs 800 plus the way still to go (12 m).
+// 51 states are 50 steps, as the state at take-over is none: to the goal they cost 50; a crash costs 800 plus
+// the way still to go (12 m).
 TEST(Comp1, TimeIsStepsPlusDistance) {
-  Recording recording = cruise(50, 10.0);
+  Recording recording = cruise(51, 10.0);
   EXPECT_DOUBLE_EQ(evaluate(recording).comp1.time(), 50.0);
   recording.ending = Ending::kCollision;
   recording.goal_distance_m = 12.0;
@@ -54,13 +56,37 @@ TEST(Comp1, OnlyTheGoalIsSuccess) {
   }
 }
 
-// Acceleration steps once from 0 to 2 m/s^2: 2^2 over the 4 differences of 6 snapshots = 1; in true units one
-// difference of 2 / 0.1 s = 20 m/s^3 over 5 differences = 4.
-TEST(Comp1, JerkIsADifferenceSquared) {
-  Recording recording = cruise(6, 10.0);
-  for (std::size_t i = 3; i < 6; ++i) recording.snapshots[i].ego.acceleration_mps2 = 2.0;
-  EXPECT_NEAR(evaluate(recording).comp1.jerk_linear, 1.0, 1e-12);
-  EXPECT_NEAR(evaluate(recording).mean_abs_jerk_mps3, 4.0, 1e-12);
+// Speeds 10, 10, 10.2, 10.4, 10.6 m/s are accelerations 0, 2, 2, 2 m/s^2 in 4 steps; the one difference, 2,
+// squared over 4 steps is 1.
+TEST(Comp1, JerkIsADifferenceOfAccelerationsSquared) {
+  Recording recording = cruise(5, 10.0);
+  for (std::size_t i = 2; i < 5; ++i) recording.snapshots[i].ego.speed_mps = 10.0 + 0.2 * (i - 1.0);
+  EXPECT_NEAR(evaluate(recording).comp1.jerk_linear, 1.0, 1e-9);
+  EXPECT_EQ(evaluate(recording).comp1.jerk_angular, 0.0);
+}
+
+// The velocity turns by 90 degrees at 10 m/s between steps 1 and 2, so in step 2 the acceleration is
+// (-100, 100) m/s^2 and in step 3 none again: two differences of 20000 (m/s^2)^2 over 3 steps.
+TEST(Comp1, JerkCountsTheDirection) {
+  Recording recording = cruise(4, 10.0);
+  for (std::size_t i = 2; i < 4; ++i) recording.snapshots[i].ego.heading_rad = std::acos(0.0);
+  EXPECT_NEAR(evaluate(recording).comp1.jerk_linear, 2.0 * 20000.0 / 3.0, 1e-6);
+}
+
+// Yaw rates 0, 0, 0.1, 0.1 rad/s are angular accelerations 0, 1, 0 rad/s^2: two differences of 1 over 3
+// steps.
+TEST(Comp1, AngularJerkLikewise) {
+  Recording recording = cruise(4, 10.0);
+  recording.snapshots[2].ego.yaw_rate_radps = recording.snapshots[3].ego.yaw_rate_radps = 0.1;
+  EXPECT_NEAR(evaluate(recording).comp1.jerk_angular, 2.0 / 3.0, 1e-9);
+}
+
+// Humanness is the plain sum of the four: exp(-1) of a car 20 m ahead, lane offset 0.25, no jerk.
+TEST(Comp1, HumannessIsTheSum) {
+  Recording recording = cruise(3, 10.0);
+  for (Snapshot& snapshot : recording.snapshots) snapshot.ego_lane_offset_m = 0.8;
+  recording.snapshots.back().others = {car_at(recording.snapshots.back().ego.centre.x + 20.0, 0.0)};
+  EXPECT_NEAR(evaluate(recording).comp1.humanness(), std::exp(-1.0) + 0.25, 1e-12);
 }
 
 // 0.8 m off the centre of a 3.2 m lane is half of half the width: 0.25.
@@ -117,7 +143,137 @@ TEST(Metrics, PreRollDoesNotCount) {
   before.ego.acceleration_mps2 = -9.0;
   recording.snapshots.insert(recording.snapshots.begin(), before);
   EXPECT_EQ(evaluate(recording).hardest_braking_mps2, 0.0);
-  EXPECT_DOUBLE_EQ(evaluate(recording).comp1.steps, 10.0);
+  EXPECT_DOUBLE_EQ(evaluate(recording).comp1.steps, 9.0);
+}
+
+// Accelerations 0, 2, 2, -4 m/s^2: jerks 20, 0 and 60 m/s^3, on average 80 / 3; rms sqrt(24 / 4); braking 4;
+// at 10 m/s a yaw rate of 0.3 rad/s is 3 m/s^2 sideways.
+TEST(Metrics, Comfort) {
+  Recording recording = cruise(4, 10.0);
+  recording.snapshots[1].ego.acceleration_mps2 = recording.snapshots[2].ego.acceleration_mps2 = 2.0;
+  recording.snapshots[3].ego.acceleration_mps2 = -4.0;
+  recording.snapshots[2].ego.yaw_rate_radps = -0.3;
+  const EpisodeMetrics metrics = evaluate(recording);
+  EXPECT_NEAR(metrics.mean_abs_jerk_mps3, 80.0 / 3.0, 1e-9);
+  EXPECT_NEAR(metrics.max_abs_jerk_mps3, 60.0, 1e-9);
+  EXPECT_NEAR(metrics.rms_acceleration_mps2, std::sqrt(6.0), 1e-12);
+  EXPECT_EQ(metrics.hardest_braking_mps2, 4.0);
+  EXPECT_NEAR(metrics.max_lateral_mps2, 3.0, 1e-12);
+}
+
+// 40 m of a Manhattan distance of 30 + 20 m, 25 m still to go: half of it covered, whatever the detour.
+TEST(Metrics, Progress) {
+  Recording recording = cruise(41, 10.0);
+  recording.ending = Ending::kTimeOut;
+  recording.goal = {30.0, -20.0};
+  recording.goal_distance_m = 25.0;
+  EXPECT_NEAR(evaluate(recording).distance_m, 40.0, 1e-9);
+  EXPECT_NEAR(evaluate(recording).progress_share, 0.5, 1e-12);
+  recording.ending = Ending::kGoal;
+  EXPECT_EQ(evaluate(recording).progress_share, 1.0);
+}
+
+// A car comes across: its front is at y = -11.5, ours at x = 2.5. At 10 m/s each, ours reaches its side
+// (x = 19.1) after 1.66 s, when its front is at y = 5.1 and its rear at 0.1, within our 0.9 m: contact then.
+TEST(Metrics, TimeToCollisionSeesCrossingCars) {
+  Recording recording = cruise(1, 10.0);
+  CarState other = car_at(20.0, 10.0);
+  other.centre.y = -14.0;
+  other.heading_rad = std::acos(0.0);
+  recording.snapshots[0].others = {other};
+  EXPECT_NEAR(evaluate(recording).min_time_to_collision_s, 1.66, 1e-9);
+}
+
+// Gap 10 m, closing at 10 m/s: 1 s is a near miss; closing at 5 m/s, 2 s is none; a touch is no near miss.
+// Three states of the same car count once.
+TEST(Metrics, NearMisses) {
+  Recording recording = cruise(3, 10.0);
+  const auto with = [&](double ahead_m, double speed_mps) {
+    for (Snapshot& snapshot : recording.snapshots) {
+      snapshot.others = {car_at(snapshot.ego.centre.x + ahead_m, speed_mps)};
+    }
+    return evaluate(recording).near_misses;
+  };
+  EXPECT_EQ(with(15.0, 0.0), 1);
+  EXPECT_EQ(with(15.0, 5.0), 0);
+  EXPECT_EQ(with(4.0, 0.0), 0);
+}
+
+// Unsafe, safe, unsafe: violated twice, two thirds of the time.
+TEST(Metrics, RssViolationsAreCountedWhenTheyBegin) {
+  Recording recording = cruise(3, 10.0);
+  for (std::size_t i : {0U, 2U}) {
+    recording.snapshots[i].others = {car_at(recording.snapshots[i].ego.centre.x + 18.0, 5.0)};
+  }
+  EXPECT_EQ(evaluate(recording).rss_violations, 2);
+  EXPECT_NEAR(evaluate(recording).rss_violation_share, 2.0 / 3.0, 1e-12);
+}
+
+// The world goes on for a second after a touch: a touch at 0.2 s ends what is measured there, so the braking
+// at 0.3 s is not ours. It is counted with its cause and whose fault it was.
+TEST(Metrics, NothingCountsAfterTheTouch) {
+  Recording recording = cruise(5, 10.0);
+  recording.ending = Ending::kCollision;
+  recording.collisions = {{0.2, 1, world::Fault::kOther, "rear-ended by"}};
+  recording.snapshots[3].ego.acceleration_mps2 = -9.0;
+  const EpisodeMetrics metrics = evaluate(recording);
+  EXPECT_NEAR(metrics.duration_s, 0.2, 1e-12);
+  EXPECT_EQ(metrics.hardest_braking_mps2, 0.0);
+  EXPECT_EQ(metrics.cause, "rear-ended by");
+  EXPECT_EQ(metrics.collisions_other_fault, 1);
+  EXPECT_EQ(metrics.collisions_at_fault, 0);
+  EXPECT_FALSE(metrics.collided_standing);
+}
+
+// A car that stands when it is hit is told apart: with an engine outside, part of those is the coupling.
+TEST(Metrics, HitWhileStanding) {
+  Recording recording = cruise(3, 0.0);
+  recording.ending = Ending::kCollision;
+  recording.collisions = {{0.2, 1, world::Fault::kOther, "rear-ended by"}};
+  EXPECT_TRUE(evaluate(recording).collided_standing);
+}
+
+// Nearest rank: of 1 .. 20 the 5th percentile is the 1st value, of 1 .. 21 the 2nd; the median of three the
+// 2nd.
+TEST(Summary, Percentile) {
+  std::vector<double> values;
+  for (int i = 20; i > 0; --i) values.push_back(i);
+  EXPECT_EQ(percentile(values, 0.05), 1.0);
+  values.push_back(21.0);
+  EXPECT_EQ(percentile(values, 0.05), 2.0);
+  EXPECT_EQ(percentile({3.0, 1.0, 2.0}, 0.5), 2.0);
+}
+
+// 1 and 8 discordant pairs: 2 (1 + 9) / 2^9 = 0.0390625; 0 and 5: 2 / 2^5 = 0.0625, not yet better; equal
+// numbers or none: 1.
+TEST(Paired, McNemarExact) {
+  EXPECT_NEAR(mcnemar_p({100, 1, 8}), 0.0390625, 1e-12);
+  EXPECT_NEAR(mcnemar_p({100, 0, 5}), 0.0625, 1e-12);
+  EXPECT_NEAR(mcnemar_p({100, 3, 3}), 1.0, 1e-12);
+  EXPECT_EQ(mcnemar_p({100, 0, 0}), 1.0);
+  EXPECT_TRUE(first_is_better({100, 1, 8}));
+  EXPECT_FALSE(first_is_better({100, 8, 1}));
+  EXPECT_FALSE(first_is_better({100, 0, 5}));
+}
+
+// Without discordant pairs z^2 / (n + z^2): 3.8415 / 103.8415 = 3.70 % of 100, still under 1 % from 381 on.
+TEST(Paired, UpperBoundWithoutDifference) {
+  EXPECT_NEAR(difference_upper({100, 0, 0}), 3.841459 / 103.841459, 1e-6);
+  EXPECT_FALSE(first_is_no_worse({380, 0, 0}));
+  EXPECT_TRUE(first_is_no_worse({381, 0, 0}));
+}
+
+// Where only the first ever fails alone, the difference is a plain rate, and the bound Wilson's.
+TEST(Paired, UpperBoundIsWilsonsForOneKindOfPair) {
+  EXPECT_NEAR(difference_upper({50, 7, 0}), wilson(7, 50).high, 1e-9);
+}
+
+// Failing alone more often in the second counts for the first: 0 and 10 of 500 bound the difference below
+// zero, 10 and 0 above 2 %.
+TEST(Paired, UpperBoundFollowsTheSign) {
+  EXPECT_LT(difference_upper({500, 0, 10}), 0.0);
+  EXPECT_GT(difference_upper({500, 10, 0}), 0.02);
+  EXPECT_LT(difference_upper({500, 2, 2}), difference_upper({500, 3, 2}));
 }
 
 // METHOD: 500 of 500 only bounds the failure rate below 0.8 %. 16 of 20: 58.4 .. 91.9 % (tabulated).
@@ -136,11 +292,14 @@ TEST(Summary, CountsAndAverages) {
   episodes[1].duration_s = 6.0;
   episodes[2].ending = Ending::kCollision;
   episodes[2].collisions_at_fault = 1;
+  episodes[2].cause = "ran into";
   const Summary sum = summarize(episodes);
-  EXPECT_EQ(sum.goals, 2);
+  EXPECT_EQ(sum.success.count, 2);
   EXPECT_DOUBLE_EQ(sum.seconds_to_goal, 5.0);
-  EXPECT_EQ(sum.with_collision, 1);
-  EXPECT_EQ(sum.with_own_fault, 1);
+  EXPECT_EQ(sum.collision.count, 1);
+  EXPECT_EQ(sum.at_fault.count, 1);
+  EXPECT_NEAR(sum.at_fault.share, 1.0 / 3.0, 1e-12);
+  EXPECT_EQ(sum.causes, (std::map<std::string, int>{{"ran into", 1}}));
 }
 
 }  // namespace

@@ -1,0 +1,200 @@
+#include "sim_host/campaign/episode_record.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <stdexcept>
+#include <type_traits>
+
+#include "algo/core/versions.hpp"
+#include "sim_host/campaign/digest.hpp"
+
+namespace s4tp::campaign {
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr const char* kKind = "s4tp campaign";
+
+[[noreturn]] void fail(const std::filesystem::path& file, const std::string& what) {
+  throw std::runtime_error(file.string() + ": " + what);
+}
+
+/// Every field of an episode with its key, in the order of the line.
+template <class Row, class Visit>
+void visit_fields(Row& row, const Visit& visit) {
+  auto& cell = row.cell;
+  visit("planner", cell.planner);
+  visit("scenario", cell.scenario);
+  visit("flavour", cell.flavour);
+  visit("traffic", cell.traffic);
+  visit("guarded", cell.guarded);
+  visit("perception", cell.perception);
+  auto& m = row.metrics;
+  visit("seed", m.seed);
+  visit("ending", m.ending);
+  visit("cause", m.cause);
+  visit("redrawn", m.redrawn);
+  visit("collisions_at_fault", m.collisions_at_fault);
+  visit("collisions_other_fault", m.collisions_other_fault);
+  visit("collisions_competition_box", m.collisions_competition_box);
+  visit("collided_standing", m.collided_standing);
+  visit("duration_s", m.duration_s);
+  visit("distance_m", m.distance_m);
+  visit("progress_share", m.progress_share);
+  visit("mean_abs_jerk_mps3", m.mean_abs_jerk_mps3);
+  visit("max_abs_jerk_mps3", m.max_abs_jerk_mps3);
+  visit("rms_acceleration_mps2", m.rms_acceleration_mps2);
+  visit("hardest_braking_mps2", m.hardest_braking_mps2);
+  visit("max_lateral_mps2", m.max_lateral_mps2);
+  visit("min_gap_m", m.min_gap_m);
+  visit("mean_gap_m", m.mean_gap_m);
+  visit("min_time_to_collision_s", m.min_time_to_collision_s);
+  visit("near_misses", m.near_misses);
+  visit("rss_violation_share", m.rss_violation_share);
+  visit("rss_violations", m.rss_violations);
+  visit("comp1_success", m.comp1.success);
+  visit("comp1_steps", m.comp1.steps);
+  visit("comp1_goal_distance_m", m.comp1.goal_distance_m);
+  visit("comp1_jerk_linear", m.comp1.jerk_linear);
+  visit("comp1_jerk_angular", m.comp1.jerk_angular);
+  visit("comp1_lane_centre_offset", m.comp1.lane_centre_offset);
+  visit("comp1_obstacle", m.comp1.obstacle);
+}
+
+}  // namespace
+
+ordered_json header_of(const Campaign& campaign, const Shard& shard, const std::string& parameters_file) {
+  const CampaignPlan& plan = campaign.plan;
+  ordered_json scenarios = ordered_json::array();
+  for (const CampaignCell& cell : campaign.cells) {
+    const CampaignScenario& one = *cell.scenario;
+    const ordered_json entry{{"name", one.scenario.name}, {"argument", one.argument}, {"digest", one.digest}};
+    if (std::find(scenarios.begin(), scenarios.end(), entry) == scenarios.end()) scenarios.push_back(entry);
+  }
+  ordered_json guards = ordered_json::array();
+  for (const bool guarded : plan.guards) guards.push_back(guarded ? "on" : "off");
+  return {{"kind", kKind},
+          {"planners", plan.planners},
+          {"scenarios", scenarios},
+          {"flavours", plan.flavours},
+          {"traffic", plan.traffic},
+          {"guard", guards},
+          {"perception", plan.perception},
+          {"episodes", plan.episodes},
+          {"first_seed", plan.first_seed},
+          {"parameters", parameters_file},
+          {"parameters_crc", parameters_crc(plan.parameters)},
+          {"wire_version", kWireVersion},
+          {"build", build_digest()},
+          {"shard", std::to_string(shard.index) + "/" + std::to_string(shard.count)}};
+}
+
+std::string difference(const ordered_json& there, const ordered_json& here, const std::string& but) {
+  std::string text;
+  const auto note = [&](const std::string& key, const std::string& first, const std::string& second) {
+    text += (text.empty() ? "" : "; ") + key + ": " + first + " there, " + second + " here";
+  };
+  for (const auto& [key, value] : here.items()) {
+    if (key == but) continue;
+    if (!there.contains(key)) {
+      note(key, "nothing", value.dump());
+    } else if (there.at(key) != value) {
+      note(key, there.at(key).dump(), value.dump());
+    }
+  }
+  return text;
+}
+
+ordered_json to_json(const EpisodeRow& row) {
+  ordered_json line;
+  visit_fields(row, [&](const char* key, const auto& value) {
+    if constexpr (std::is_same_v<decltype(value), const world::Ending&>) {
+      line[key] = metrics::ending_name(value);
+    } else {
+      line[key] = value;
+    }
+  });
+  return line;
+}
+
+EpisodeRow row_of(const ordered_json& line) {
+  EpisodeRow row;
+  visit_fields(row, [&](const char* key, auto& value) {
+    if constexpr (std::is_same_v<decltype(value), world::Ending&>) {
+      value = metrics::ending_of(line.at(key).get<std::string>());
+    } else {
+      line.at(key).get_to(value);
+    }
+  });
+  return row;
+}
+
+Part read_part(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) fail(file, "cannot be read");
+  Part part;
+  std::string line;
+  for (int number = 1; std::getline(stream, line) && !stream.eof(); ++number) {  // eof: no end of line
+    try {
+      ordered_json read = ordered_json::parse(line);
+      if (number > 1) {
+        part.rows.push_back(row_of(read));
+      } else if (read.at("kind") == kKind) {
+        part.header = std::move(read);
+      } else {
+        throw std::invalid_argument("is of another kind");
+      }
+    } catch (const std::exception& error) {
+      fail(file, "line " + std::to_string(number) + " is no part of a campaign: " + error.what());
+    }
+    part.whole_bytes += line.size() + 1;
+  }
+  return part;
+}
+
+EpisodeRecord::EpisodeRecord(const std::filesystem::path& file, const ordered_json& header) : file_(file) {
+  descriptor_ = ::open(file.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
+  if (descriptor_ < 0) fail(file, std::strerror(errno));
+  try {
+    if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0) fail(file, "a campaign is writing it now");
+    Part part = read_part(file);
+    if (part.header.is_null()) {
+      if (::ftruncate(descriptor_, 0) != 0) fail(file, std::strerror(errno));
+      write_line(header);
+      return;
+    }
+    const std::string differs = difference(part.header, header);
+    if (!differs.empty()) {
+      fail(file, "holds episodes of another campaign and cannot be gone on with (" + differs +
+                     "); name another --out, or remove it");
+    }
+    if (::ftruncate(descriptor_, static_cast<off_t>(part.whole_bytes)) != 0) fail(file, std::strerror(errno));
+    found_ = std::move(part.rows);
+  } catch (...) {
+    ::close(descriptor_);
+    throw;
+  }
+}
+
+EpisodeRecord::~EpisodeRecord() {
+  ::close(descriptor_);
+}
+
+void EpisodeRecord::append(const EpisodeRow& row) {
+  write_line(to_json(row));
+}
+
+void EpisodeRecord::write_line(const ordered_json& line) {
+  const std::string text = line.dump() + '\n';
+  if (::write(descriptor_, text.data(), text.size()) != static_cast<ssize_t>(text.size())) {
+    fail(file_, std::strerror(errno));
+  }
+}
+
+}  // namespace s4tp::campaign

@@ -1,0 +1,31 @@
+#pragma once
+/// How far a campaign is: a bar with the time left on a terminal, now and then a plain line elsewhere.
+
+#include <cstddef>
+#include <ostream>
+#include <string>
+
+namespace s4tp::campaign {
+
+class Progress {
+ public:
+  /// \param already  of `total`, done before this start
+  Progress(std::ostream& out, bool terminal, std::size_t total, std::size_t already);
+  /// One more episode is done. \param elapsed_s  since the start  \param what  it was and how it ended
+  void done(double elapsed_s, const std::string& what);
+  /// Leaves the bar's line.
+  void end();
+
+ private:
+  std::ostream& out_;
+  bool terminal_;
+  std::size_t total_;
+  std::size_t already_;
+  std::size_t done_ = 0;
+  double last_line_s_ = 0.0;
+};
+
+/// "45 s", "12 min", "3 h 20 min"
+[[nodiscard]] std::string rough_time(double seconds);
+
+}  // namespace s4tp::campaign
