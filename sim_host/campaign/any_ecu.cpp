@@ -14,12 +14,11 @@ std::vector<std::string> planner_names() {
 
 std::unique_ptr<AnyEcu> make_ecu(const std::string& planner, bool guarded, const Parameters& parameters,
                                  const ecu::Ports& ports, Probe* probe) {
-  std::string known;
-  for (const PlannerEntry& entry : planners()) {
-    if (entry.name == planner) return (guarded ? entry.guarded : entry.bare)(parameters, ports, probe);
-    known += (known.empty() ? "" : ", ") + entry.name;
+  const PlannerEntry& entry = find_planner(planner);
+  if (entry.drives_in_sumo) {
+    throw std::invalid_argument(planner + " is a driver of SUMO's and runs on no ECU");
   }
-  throw std::invalid_argument("no planner '" + planner + "'; there are: " + known);
+  return (guarded ? entry.guarded : entry.bare)(parameters, ports, probe);
 }
 
 }  // namespace s4tp::campaign

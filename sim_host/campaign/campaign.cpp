@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "sim_host/campaign/digest.hpp"
+#include "sim_host/campaign/planner_registry.hpp"
 
 namespace s4tp::campaign {
 namespace {
@@ -50,8 +51,10 @@ Campaign load_campaign(const CampaignPlan& plan, const std::filesystem::path& sc
     }
   }
   for (const std::string& planner : plan.planners) {
-    for (const bool guarded : plan.guards) {
+    const bool by_sumo = find_planner(planner).drives_in_sumo;  // in its traffic only, and nothing to guard
+    for (const bool guarded : by_sumo ? std::vector<bool>{false} : plan.guards) {
       for (const std::string& traffic : plan.traffic) {
+        if (by_sumo && world::engine_of(traffic) != world::Engine::kSumo) continue;
         for (const std::string& flavour : plan.flavours) {
           for (const std::string& argument : plan.scenarios) {
             const auto& scenario = loaded.at({flavour, argument});
@@ -61,6 +64,9 @@ Campaign load_campaign(const CampaignPlan& plan, const std::filesystem::path& sc
         }
       }
     }
+  }
+  if (campaign.cells.empty()) {
+    throw std::invalid_argument(plan.planners.front() + " drives in SUMO's traffic only: --traffic sumo");
   }
   return campaign;
 }

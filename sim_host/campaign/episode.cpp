@@ -5,6 +5,7 @@
 #include "firmware/wire/codec.hpp"
 #include "sim_host/campaign/bus_log.hpp"
 #include "sim_host/campaign/driver.hpp"
+#include "sim_host/campaign/planner_registry.hpp"
 #include "sim_host/world/world.hpp"
 
 namespace s4tp::campaign {
@@ -23,11 +24,14 @@ EpisodeResult run_episode(const world::Scenario& scenario, const EpisodeOptions&
   EpisodeResult result;
   result.trace = std::make_unique<Trace>();
   Trace* const trace = options.trace ? result.trace.get() : nullptr;
-  const auto driver = make_driver(options.planner, options.guarded, options.parameters, trace, trace);
+  const bool by_sumo = find_planner(options.planner).drives_in_sumo;
+  const auto driver =
+      by_sumo ? nullptr : make_driver(options.planner, options.guarded, options.parameters, trace, trace);
   world::WorldOptions world_options;
   world_options.seed = options.seed;
   world_options.engine = options.engine;
   world_options.perception = options.perception;
+  world_options.ego_by_traffic = by_sumo;
   world::World world(scenario, world_options);
   std::optional<BusLog> log;
   if (options.log)
@@ -47,10 +51,10 @@ EpisodeResult run_episode(const world::Scenario& scenario, const EpisodeOptions&
     }
     if (misses < options.deadline_misses_s.size() && world.time_s() >= options.deadline_misses_s[misses]) {
       ++misses;
-      driver->inject_deadline_miss();
+      if (driver) driver->inject_deadline_miss();
       if (log) log->write_deadline_miss();
     }
-    driver->tick(delivered, from_ecu);
+    if (driver) driver->tick(delivered, from_ecu);
     for (const wire::Frame& frame : from_ecu) world.receive(frame);
     if (log) {
       log->write(tick * 10'000, delivered);

@@ -69,11 +69,21 @@ void visit_fields(Row& row, const Visit& visit) {
 
 }  // namespace
 
+ordered_json cell_json(const Cell& cell) {
+  return {cell.planner, cell.scenario, cell.flavour, cell.traffic, cell.guarded, cell.perception};
+}
+
+Cell cell_of(const ordered_json& json) {
+  return {json.at(0), json.at(1), json.at(2), json.at(3), json.at(4), json.at(5)};
+}
+
 ordered_json header_of(const Campaign& campaign, const Shard& shard, const std::string& parameters_file) {
   const CampaignPlan& plan = campaign.plan;
   ordered_json scenarios = ordered_json::array();
+  ordered_json cells = ordered_json::array();
   for (const CampaignCell& cell : campaign.cells) {
     const CampaignScenario& one = *cell.scenario;
+    cells.push_back(cell_json(cell.cell));
     const ordered_json entry{{"name", one.scenario.name}, {"argument", one.argument}, {"digest", one.digest}};
     if (std::find(scenarios.begin(), scenarios.end(), entry) == scenarios.end()) scenarios.push_back(entry);
   }
@@ -92,6 +102,7 @@ ordered_json header_of(const Campaign& campaign, const Shard& shard, const std::
           {"parameters_crc", parameters_crc(plan.parameters)},
           {"wire_version", kWireVersion},
           {"build", build_digest()},
+          {"cells", cells},
           {"shard", std::to_string(shard.index) + "/" + std::to_string(shard.count)}};
 }
 
@@ -101,7 +112,7 @@ std::string difference(const ordered_json& there, const ordered_json& here, cons
     text += (text.empty() ? "" : "; ") + key + ": " + first + " there, " + second + " here";
   };
   for (const auto& [key, value] : here.items()) {
-    if (key == but) continue;
+    if (key == but || key == "cells") continue;  // the cells follow from the rest
     if (!there.contains(key)) {
       note(key, "nothing", value.dump());
     } else if (there.at(key) != value) {

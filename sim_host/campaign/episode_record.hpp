@@ -16,6 +16,10 @@ namespace s4tp::campaign {
 [[nodiscard]] nlohmann::ordered_json header_of(const Campaign& campaign, const Shard& shard,
                                                const std::string& parameters_file);
 
+/// A cell to and from an array of its members.
+[[nodiscard]] nlohmann::ordered_json cell_json(const Cell& cell);
+[[nodiscard]] Cell cell_of(const nlohmann::ordered_json& json);
+
 /// What two headers differ in, in words: "episodes: 100 there, 200 here"; empty: nothing.
 /// \param but  a key that may differ
 [[nodiscard]] std::string difference(const nlohmann::ordered_json& there, const nlohmann::ordered_json& here,

@@ -22,6 +22,15 @@ const std::vector<PlannerEntry>& planners() {
   return registry();
 }
 
+const PlannerEntry& find_planner(const std::string& name) {
+  std::string known;
+  for (const PlannerEntry& entry : planners()) {
+    if (entry.name == name) return entry;
+    known += (known.empty() ? "" : ", ") + entry.name;
+  }
+  throw std::invalid_argument("no planner '" + name + "'; there are: " + known);
+}
+
 RegisterPlanner::RegisterPlanner(const PlannerEntry& entry) {
   const auto place = std::lower_bound(registry().begin(), registry().end(), entry, before);
   if (place != registry().end() && place->name == entry.name) {

@@ -27,7 +27,12 @@ struct PlannerEntry {
   std::string meaning;  ///< one line, for help and reports
   EcuFactory bare;      ///< what it plans goes to the command gate as it is
   EcuFactory guarded;   ///< with check, RSS envelope and minimum-risk manoeuvre
+  /// Not a planner of ours but SUMO's own driver in the ego's place: no ECU, no factories, nothing to guard.
+  bool drives_in_sumo = false;
 };
+
+/// \throws std::invalid_argument naming those there are
+[[nodiscard]] const PlannerEntry& find_planner(const std::string& name);
 
 /// In the order of names, s4tp first.
 [[nodiscard]] const std::vector<PlannerEntry>& planners();

@@ -15,18 +15,7 @@ using nlohmann::ordered_json;
 
 std::vector<Cell> cells_of(const ordered_json& header) {
   std::vector<Cell> cells;
-  for (const ordered_json& planner : header.at("planners")) {
-    for (const ordered_json& guard : header.at("guard")) {
-      for (const ordered_json& traffic : header.at("traffic")) {
-        for (const ordered_json& flavour : header.at("flavours")) {
-          for (const ordered_json& scenario : header.at("scenarios")) {
-            cells.push_back(
-                {planner, scenario.at("name"), flavour, traffic, guard == "on", header.at("perception")});
-          }
-        }
-      }
-    }
-  }
+  for (const ordered_json& cell : header.at("cells")) cells.push_back(cell_of(cell));
   return cells;
 }
 

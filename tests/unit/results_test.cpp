@@ -37,6 +37,9 @@ nlohmann::ordered_json header(int episodes) {
           {"perception", "ideal"},
           {"episodes", episodes},
           {"first_seed", 0},
+          {"cells",
+           {{"a", "merge", "smarts", "builtin", true, "ideal"},
+            {"b", "merge", "smarts", "builtin", true, "ideal"}}},
           {"parameters_crc", 1},
           {"wire_version", 1},
           {"shard", "1/1"}};
