@@ -110,6 +110,7 @@ int run_on_target(const RunOptions& run) {
   options.image = run.image;
   options.world.seed = run.common.seed;
   options.world.engine = world::engine_of(run.common.traffic);
+  options.world.perception = world::perception_preset(run.perception);
   options.world.ecu_note = campaign::ecu_note("s4tp", true, Parameters{});
   if (!run.log.empty()) options.world.log = run.log;
   options.out = run.common.out;
