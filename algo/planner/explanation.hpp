@@ -47,7 +47,8 @@ struct Explanation {
   std::uint8_t decisions = 0;           ///< how many were predicted with our plan
   std::uint8_t dominating_track = 255;  ///< track id of the vehicle whose risk is largest; 255: nobody
   std::uint8_t dominating_step = 0;
-  CheckReport check;
+  CheckReport held_up;               ///< why the rejected candidate that goes furthest was rejected
+  std::uint8_t held_up_track = 255;  ///< track id of who is in its way; 255: nobody
   bool rss_clipped = false;
   std::uint16_t work[kStageCount] = {};  ///< units used per stage
   std::uint32_t parameters_crc = 0;

@@ -157,6 +157,8 @@ void Planner::rank(bool careful, Explanation& explanation) {
   const StageScope scope(probe, Stage::kRank);
   decisions_.clear();
   keeps_plan_ = false;
+  CheckReport report;
+  float held_up_m = 0.0F;
   for (int i = 0; i < candidates_.size(); ++i) {
     const Candidate& candidate = candidates_[i];
     const bool leaves_lane = scene_.ego_paths[candidate.path].manoeuvre != Manoeuvre::kKeep;
@@ -166,8 +168,11 @@ void Planner::rank(bool careful, Explanation& explanation) {
       continue;
     }
     roll_out(lines_[candidate.path], candidate, start_, running_, start_ms_, parameters_, chosen_);
-    explanation.rejections[i] = judge(candidate.path, conditioned_, explanation.check);
-    if (explanation.rejections[i] != Rejection::kNone) continue;
+    explanation.rejections[i] = judge(candidate.path, conditioned_, report);
+    if (explanation.rejections[i] != Rejection::kNone) {
+      note_held_up(report, held_up_m, explanation);
+      continue;
+    }
     costs_[i] = score_motion(scene_, keep_going_, candidate.path, chosen_, previous, careful, parameters_);
     count(explanation, Stage::kRank, 1);
     const DecisionKey key = decision_key(scene_, candidate.path, chosen_, unconditioned_);
@@ -185,6 +190,16 @@ void Planner::rank(bool careful, Explanation& explanation) {
     decisions_.offer(key, i, costs_[i].total());
   }
   decisions_.shortlist(allowance.decisions, keeps_plan_, plan_key_);
+}
+
+void Planner::note_held_up(const CheckReport& report, float& furthest_m, Explanation& explanation) const {
+  float way_m = 0.0F;
+  for (const TrajectoryPoint& point : chosen_.points) way_m = way_m + kStepS * point.speed_mps;
+  if (way_m <= furthest_m) return;
+  furthest_m = way_m;
+  explanation.held_up = report;
+  explanation.held_up_track =
+      report.agent < scene_.agents.size() ? scene_.agents[report.agent].track.id : kNobody;
 }
 
 Rejection Planner::judge(int path, const PredictionSet& conditioned, CheckReport& report) const {
@@ -262,7 +277,8 @@ bool Planner::evaluate(int index, Explanation& explanation) {
   }
   {
     const StageScope scope(probe, Stage::kCheck);
-    explanation.rejections[index] = judge(candidate.path, conditioned_, explanation.check);
+    CheckReport report;
+    explanation.rejections[index] = judge(candidate.path, conditioned_, report);
     count(explanation, Stage::kCheck, 1);
     if (explanation.rejections[index] != Rejection::kNone) return false;
   }

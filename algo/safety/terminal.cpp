@@ -70,13 +70,17 @@ bool stops_before(const Along& along, float s_m, const Parameters& parameters) {
   return square(along.end_mps) <= 2.0F * braking_mps2 * left_m;
 }
 
-bool zone_safe(const Scene& scene, const ConflictZone& zone, const Along& along,
-               const Parameters& parameters) {
+TerminalVerdict blame(TerminalCause cause, int agent = 255) {
+  return {cause, static_cast<std::uint8_t>(agent)};
+}
+
+TerminalVerdict judge_zone(const Scene& scene, const ConflictZone& zone, const Along& along,
+                           const Parameters& parameters) {
   const float centre_m = rear_axle_to_centre_m(parameters);
   const float entry_s_m = zone.entry_s_m - centre_m;
   const float exit_s_m = zone.exit_s_m - centre_m;
-  if (along.start_s_m() >= exit_s_m) return true;
-  if (along.start_s_m() > entry_s_m) return true;  // inside already
+  if (along.start_s_m() >= exit_s_m) return {};
+  if (along.start_s_m() > entry_s_m) return {};  // inside already
   const float line_s_m = zone.stop_s_m - rear_axle_to_front_m(parameters);
   const float edge_s_m = entry_s_m - kClearOfZoneM;
   float hold_s_m = min(line_s_m + kLineToleranceM, edge_s_m);
@@ -85,17 +89,19 @@ bool zone_safe(const Scene& scene, const ConflictZone& zone, const Along& along,
     hold_s_m = min(along.start_s_m() + square(along.start_mps) / (2.0F * parameters.comfort.braking_mps2),
                    entry_s_m);
   }
-  if (stops_before(along, hold_s_m, parameters)) return true;
-  if (along.end_s_m() < exit_s_m && along.end_mps < kMovingMps) return false;  // would stand in it
+  if (stops_before(along, hold_s_m, parameters)) return {};
+  if (along.end_s_m() < exit_s_m && along.end_mps < kMovingMps) return blame(TerminalCause::kStopsInZone);
 
   const bool committed =
       square(along.start_mps) > 2.0F * kCommittedMps2 * max(entry_s_m - along.start_s_m(), 0.0F);
   const float in_s = time_at(along, entry_s_m);
   const float out_s = time_at(along, exit_s_m);
   for (int i = 0; i < scene.agents.size(); ++i) {
-    if (!leaves_zone_to_us(scene, i, zone, in_s, out_s, committed, parameters)) return false;
+    if (!leaves_zone_to_us(scene, i, zone, in_s, out_s, committed, parameters)) {
+      return blame(TerminalCause::kZone, i);
+    }
   }
-  return true;
+  return {};
 }
 
 /// Whether the path is another lane than the one most of us is in.
@@ -105,9 +111,8 @@ bool changes_lane(const Scene& scene, const EgoPath& path) {
 }
 
 /// Way left between us and the leader when both have stopped, it at b_max from the horizon's end on.
-bool leader_safe(const Scene& scene, const EgoPath& path, const Along& along, bool changes,
+bool leader_safe(const EgoPath& path, const Leader& leader, const Along& along, bool changes,
                  const Parameters& parameters) {
-  const Leader leader = find_leader(scene, path, path.frenet.s_m, parameters);
   if (leader.agent < 0) return true;
   const float later_mps = max(0.0F, leader.speed_mps + min(0.0F, leader.acceleration_mps2) * kHorizonS);
   const float braking = min(leader.acceleration_mps2, -0.1F);
@@ -128,10 +133,7 @@ bool leader_safe(const Scene& scene, const EgoPath& path, const Along& along, bo
 }
 
 /// A lane change must not make the one behind, in the lane we come to, brake hard.
-bool follower_safe(const Scene& scene, const EgoPath& path, const Along& along,
-                   const Parameters& parameters) {
-  const Frenet& frenet = path.frenet;
-  const Leader follower = find_follower(scene, path, frenet.s_m, parameters);
+bool follower_safe(const Leader& follower, const Along& along, const Parameters& parameters) {
   if (follower.agent < 0) return true;
   // A drive harder than comfort may lag behind its plan: it is not counted on.
   const float end_mps =
@@ -146,9 +148,11 @@ bool follower_safe(const Scene& scene, const EgoPath& path, const Along& along,
 
 }  // namespace
 
-bool terminal_safe(const Scene& scene, int path_index, const Trajectory& trajectory,
-                   const Parameters& parameters) {
-  if (scene.map == nullptr || path_index < 0 || path_index >= scene.ego_paths.size()) return false;
+TerminalVerdict judge_terminal(const Scene& scene, int path_index, const Trajectory& trajectory,
+                               const Parameters& parameters) {
+  if (scene.map == nullptr || path_index < 0 || path_index >= scene.ego_paths.size()) {
+    return blame(TerminalCause::kNoPath);
+  }
   const EgoPath& path = scene.ego_paths[path_index];
   Along along;
   measure(scene, path, trajectory, along);
@@ -157,18 +161,26 @@ bool terminal_safe(const Scene& scene, int path_index, const Trajectory& traject
   // With the bumper over the end of the road already, what is left is to stop at once.
   const float at_once_m =
       along.start_s_m() + square(along.start_mps) / (2.0F * parameters.comfort.braking_mps2);
-  if (!stops_before(along, max(end_of_road_m, at_once_m), parameters)) return false;
+  if (!stops_before(along, max(end_of_road_m, at_once_m), parameters)) return blame(TerminalCause::kRoadEnd);
   // Where the road ends in the wrong lane, room is left to change lanes from rest; who is past it, is.
   const float last_change_m = end_of_road_m - change_room_m(scene, path);
   const float room_m = last_change_m - along.start_s_m();
   const bool still_comfortable = square(along.start_mps) <= 2.0F * parameters.comfort.braking_mps2 * room_m;
-  if (still_comfortable && !stops_before(along, last_change_m, parameters)) return false;
+  if (still_comfortable && !stops_before(along, last_change_m, parameters)) {
+    return blame(TerminalCause::kLaneEnd);
+  }
   for (const ConflictZone& zone : path.zones) {
-    if (!zone_safe(scene, zone, along, parameters)) return false;
+    const TerminalVerdict verdict = judge_zone(scene, zone, along, parameters);
+    if (!verdict.safe()) return verdict;
   }
   const bool changes = changes_lane(scene, path);
-  return leader_safe(scene, path, along, changes, parameters) &&
-         (!changes || follower_safe(scene, path, along, parameters));
+  const Leader leader = find_leader(scene, path, path.frenet.s_m, parameters);
+  if (!leader_safe(path, leader, along, changes, parameters))
+    return blame(TerminalCause::kLeader, leader.agent);
+  if (!changes) return {};
+  const Leader follower = find_follower(scene, path, path.frenet.s_m, parameters);
+  if (!follower_safe(follower, along, parameters)) return blame(TerminalCause::kFollower, follower.agent);
+  return {};
 }
 
 }  // namespace s4tp

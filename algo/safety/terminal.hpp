@@ -1,12 +1,31 @@
 #pragma once
 /// Terminal condition (METHOD 4.2): the end of a plan must be safe for ever, though the horizon is 3 s.
 
+#include <cstdint>
+
 #include "algo/core/parameters.hpp"
 #include "algo/core/trajectory.hpp"
 #include "algo/safety/right_of_way.hpp"
 #include "algo/scene/scene.hpp"
 
 namespace s4tp {
+
+enum class TerminalCause : std::uint8_t {
+  kNone = 0,     ///< the end is safe
+  kNoPath,       ///< nothing is known of the way
+  kRoadEnd,      ///< cannot stop before the road ends
+  kLaneEnd,      ///< cannot stop before the last place to change lanes
+  kStopsInZone,  ///< would stand where ways cross
+  kZone,         ///< somebody may be in a conflict zone with us
+  kLeader,
+  kFollower,
+};
+
+struct TerminalVerdict {
+  TerminalCause cause = TerminalCause::kNone;
+  std::uint8_t agent = 255;  ///< who is in the way; 255: nobody
+  [[nodiscard]] bool safe() const { return cause == TerminalCause::kNone; }
+};
 
 /// Safe for ever means, for each conflict zone of the path not yet left at the start:
 /// - the end can still stop before it (TERM-001), at comfortable deceleration or as hard as the start already
@@ -26,7 +45,7 @@ namespace s4tp {
 /// lane change keeps a distance to the leader there that asks for less than rss b_min at once, and leaves the
 /// one behind 0.3 s and 2.5 m, and a braking of 3 m/s^2 at most (TERM-010); drive beyond comfort is not
 /// counted on for it. \param path index of the ego path the trajectory follows
-[[nodiscard]] bool terminal_safe(const Scene& scene, int path, const Trajectory& trajectory,
-                                 const Parameters& parameters);
+[[nodiscard]] TerminalVerdict judge_terminal(const Scene& scene, int path, const Trajectory& trajectory,
+                                             const Parameters& parameters);
 
 }  // namespace s4tp

@@ -2,7 +2,6 @@
 
 #include "algo/core/inline.hpp"
 #include "algo/safety/right_of_way.hpp"
-#include "algo/safety/terminal.hpp"
 #include "algo/trajectory/along_path.hpp"
 #include "algo/trajectory/bicycle.hpp"
 
@@ -110,9 +109,9 @@ CheckReport check_trajectory(const Scene& scene, int ego_path, const Trajectory&
   } else if (ego_path < 0 || ego_path >= scene.ego_paths.size() ||  // then nothing is known of the end
              (clear_of(scene, ego_path, trajectory, keep_going, parameters, report) &&
               clear_of(scene, ego_path, trajectory, unconditioned, parameters, report) &&
-              clear_of(scene, ego_path, trajectory, conditioned, parameters, report) &&
-              !terminal_safe(scene, ego_path, trajectory, parameters))) {
-    report.result = CheckResult::kTerminal;
+              clear_of(scene, ego_path, trajectory, conditioned, parameters, report))) {
+    const TerminalVerdict verdict = judge_terminal(scene, ego_path, trajectory, parameters);
+    if (!verdict.safe()) report = {CheckResult::kTerminal, verdict.agent, 0, verdict.cause};
   }
   return report;
 }

@@ -5,6 +5,7 @@
 
 #include "algo/core/parameters.hpp"
 #include "algo/core/trajectory.hpp"
+#include "algo/safety/terminal.hpp"
 #include "algo/satp/prediction.hpp"
 #include "algo/scene/scene.hpp"
 
@@ -20,15 +21,16 @@ enum class CheckResult : std::uint8_t {
 
 struct CheckReport {
   CheckResult result = CheckResult::kPassed;
-  std::uint8_t agent = 255;  ///< whom it would hit
-  std::uint8_t step = 0;     ///< and when
+  std::uint8_t agent = 255;  ///< whom it would hit, or who makes its end unsafe; 255: nobody
+  std::uint8_t step = 0;     ///< when it would hit him
+  TerminalCause terminal = TerminalCause::kNone;
 };
 
 /// Finite, feasible, no collision with the modes without plan, the conditioned modes, and "keeps doing what
 /// it does" over the first 1.5 s; then the terminal condition. A future that does not yield is forgiven to a
 /// vehicle that owes us the way, or is already braking to a stop before it, and can do so with 4 m/s^2
 /// (CHECK-006). Being hit from behind by who follows us in the lane we are in is no reason to reject
-/// (CHECK-007). `ego_path` as in terminal_safe.
+/// (CHECK-007). `ego_path` as in judge_terminal.
 [[nodiscard]] CheckReport check_trajectory(const Scene& scene, int ego_path, const Trajectory& trajectory,
                                            const PredictionSet& unconditioned,
                                            const PredictionSet& conditioned, const KinematicSet& keep_going,

@@ -39,8 +39,13 @@ Status Guard::apply(const PlannerInput& input, Status status, Plan& plan, Explan
                                            parameters_, scene_);
   if (status == Status::kOk) status = seen;
   if (status == Status::kOk) {
-    explanation.check = check(plan.trajectory, input.start_ms);
-    if (explanation.check.result != CheckResult::kPassed) status = Status::kNoSafePlan;
+    const CheckReport report = check(plan.trajectory, input.start_ms);
+    if (report.result != CheckResult::kPassed) {
+      status = Status::kNoSafePlan;
+      explanation.held_up = report;
+      if (report.agent < scene_.agents.size())
+        explanation.held_up_track = scene_.agents[report.agent].track.id;
+    }
   }
   explanation.status = status;
   if (status == Status::kOk) {

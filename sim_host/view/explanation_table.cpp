@@ -20,6 +20,15 @@ const char* intent_name(Intent intent) {
   return "?";
 }
 
+/// What kept the plan from going further, as one word.
+const char* held_up_name(const CheckReport& report) {
+  static constexpr const char* kChecks[] = {"", "not finite", "infeasible", "hits", "terminal"};
+  static constexpr const char* kCauses[] = {"",     "no path", "road end", "lane end", "stops in zone",
+                                            "zone", "leader",  "follower"};
+  if (report.result == CheckResult::kTerminal) return kCauses[static_cast<int>(report.terminal)];
+  return kChecks[static_cast<int>(report.result)];
+}
+
 int rejected(const Explanation& explanation, Rejection why) {
   const Rejection* const end =
       explanation.rejections + std::min<int>(explanation.candidate_count, kMaxCandidates);
@@ -30,17 +39,17 @@ int rejected(const Explanation& explanation, Rejection why) {
 
 void print_explanations(std::ostream& out, const campaign::Trace& trace, double pre_roll_s) {
   out << "  time s  status         plan   v m/s  path intent       a m/s2  cand infeas coll term  rss"
-         "   progress  speed   jerk    lat   lane   risk   total  runner-up  risk from\n";
+         "   progress  speed   jerk    lat   lane   risk   total  runner-up  risk from  held up by\n";
   for (const campaign::CycleTrace& cycle : trace.cycles) {
     const Explanation& e = cycle.record.explanation;
     const CostBreakdown& c = e.chosen_cost;
     const Plan& plan = cycle.record.plan;
     const float accelerations = plan.trajectory.points[5].acceleration_mps2;
-    char line[260];
+    char line[300];
     std::snprintf(line, sizeof line,
                   "%8.1f  %-13s  %-5s %6.2f  %4d %-11s %7.2f  %4d %6d %4d %4d  %3s  %8.1f %6.1f %6.2f %6.2f "
                   "%6.1f %6.1f "
-                  "%7.1f  %9.1f  %d\n",
+                  "%7.1f  %9.1f  %9d  %s %d\n",
                   plan.start_ms / 1000.0 - pre_roll_s, status_name(e.status),
                   plan.kind == PlanKind::kDrive ? "drive" : "stop",
                   static_cast<double>(plan.trajectory.points[0].speed_mps), e.chosen.path,
@@ -50,7 +59,8 @@ void print_explanations(std::ostream& out, const campaign::Trace& trace, double 
                   e.rss_clipped ? "yes" : "", static_cast<double>(c.progress), static_cast<double>(c.speed),
                   static_cast<double>(c.jerk), static_cast<double>(c.lateral), static_cast<double>(c.lane),
                   static_cast<double>(c.risk), static_cast<double>(c.total()),
-                  static_cast<double>(e.runner_up_cost.total()), e.dominating_track);
+                  static_cast<double>(e.runner_up_cost.total()), e.dominating_track, held_up_name(e.held_up),
+                  e.held_up_track);
     out << line;
   }
 }

@@ -46,7 +46,7 @@ struct Crossing {
     trajectory.points[0] = start;
     for (int i = 1; i < kTrajectoryPoints; ++i)
       trajectory.points[i] = bicycle_step(trajectory.points[i - 1], acceleration_mps2, 0.0F, kStepS);
-    return terminal_safe(scene, 0, trajectory, parameters);
+    return judge_terminal(scene, 0, trajectory, parameters).safe();
   }
   Agent& other(float s_m, float speed_mps) { return add_vehicle(scene, map, theirs, s_m, speed_mps); }
   [[nodiscard]] const ConflictZone& zone() const { return scene.ego_paths[0].zones[0]; }
@@ -213,10 +213,10 @@ TEST(Terminal, LaneChangeLeavesTheFollowerRoom) {
       trajectory.points[i] = bicycle_step(trajectory.points[i - 1], 0.0F, 0.0F, kStepS);
       trajectory.points[i].rear_axle.y_m = kLaneWidthM * static_cast<float>(i) / 30.0F;
     }
-    EXPECT_EQ(terminal_safe(scene, 1, trajectory, Parameters{}), gap_m > 6.0F) << gap_m;
+    EXPECT_EQ(judge_terminal(scene, 1, trajectory, Parameters{}).safe(), gap_m > 6.0F) << gap_m;
     scene.agents.clear();
     add_vehicle(scene, map, scene.ego_paths[1].path, 104.0F + gap_m - 1.0F + 2.5F, 10.0F);
-    EXPECT_EQ(terminal_safe(scene, 1, trajectory, Parameters{}), gap_m > 6.0F) << gap_m;
+    EXPECT_EQ(judge_terminal(scene, 1, trajectory, Parameters{}).safe(), gap_m > 6.0F) << gap_m;
   }
 }
 
@@ -238,7 +238,7 @@ TEST(EarliestArrival, FreeToAccelerate) {
 
 // TERM-002 Without a map or path nothing can be promised.
 TEST(Terminal, NoPathIsNotSafe) {
-  EXPECT_FALSE(terminal_safe(Scene{}, 0, Trajectory{}, Parameters{}));
+  EXPECT_FALSE(judge_terminal(Scene{}, 0, Trajectory{}, Parameters{}).safe());
 }
 
 }  // namespace
