@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "sim_host/metrics/time_to_collision.hpp"
 #include "sim_host/world/box.hpp"
 
 namespace s4tp::metrics {
@@ -27,10 +28,6 @@ Vec2 local(const CarState& car, Vec2 point) {
   const double c = std::cos(car.heading_rad);
   const double s = std::sin(car.heading_rad);
   return {c * dx + s * dy, -s * dx + c * dy};
-}
-
-Vec2 velocity(const CarState& car) {
-  return {car.speed_mps * std::cos(car.heading_rad), car.speed_mps * std::sin(car.heading_rad)};
 }
 
 struct Ahead {
@@ -118,12 +115,9 @@ void measure_distances(const std::vector<const Snapshot*>& driven, EpisodeMetric
   std::set<int> touched;
   for (const Snapshot* const now : driven) {
     for (const CarState& other : now->others) {
-      const world::Box ours = world::box_of(now->ego);
-      const world::Box theirs = world::box_of(other);
-      const double gap_m = world::distance_m(ours, theirs);
+      const double gap_m = world::distance_m(world::box_of(now->ego), world::box_of(other));
       result.min_gap_m = std::min(result.min_gap_m, gap_m);
-      const double contact_s =
-          gap_m > 0.0 ? world::time_to_contact_s(ours, velocity(now->ego), theirs, velocity(other)) : 0.0;
+      const double contact_s = time_to_collision_s(now->ego, other, kTtcHorizonS);
       result.min_time_to_collision_s = std::min(result.min_time_to_collision_s, contact_s);
       if (contact_s < kNearMissTtcS) near.insert(other.id);
       if (gap_m <= 0.0) touched.insert(other.id);

@@ -39,7 +39,7 @@ struct EpisodeMetrics {
   // Distance kept.
   double min_gap_m = 0.0;   ///< between boxes, to anybody; 0 when they touch, 1000 when alone
   double mean_gap_m = 0.0;  ///< to the nearest vehicle ahead in our way; 0 when there never was one
-  /// Smallest time until boxes touch when both keep velocity and heading, to anybody; at most kTtcHorizonS.
+  /// Smallest time until boxes touch when both keep speed and yaw rate, to anybody; at most kTtcHorizonS.
   double min_time_to_collision_s = kTtcHorizonS;
   int near_misses = 0;               ///< cars met with less than kNearMissTtcS and not touched
   double rss_violation_share = 0.0;  ///< of the time: nearer to the vehicle ahead than RSS allows

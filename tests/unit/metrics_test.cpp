@@ -184,6 +184,39 @@ TEST(Metrics, TimeToCollisionSeesCrossingCars) {
   EXPECT_NEAR(evaluate(recording).min_time_to_collision_s, 1.66, 1e-9);
 }
 
+// We stand at the origin. A car at (-5, 5) heads for us, -45 degrees, at 5 m/s, and turns left with 1 rad/s:
+// on its arc, of radius 5 m, its centre falls by 5 (1 - cos 45) = 1.46 m to y = 3.54, where it is parallel to
+// us, 1.74 m clear. Frozen headings would have it hit us within a second.
+TEST(Metrics, TimeToCollisionFollowsTurns) {
+  Recording recording = cruise(1, 0.0);
+  CarState other = car_at(0.0, 5.0);
+  other.centre.x = -5.0;
+  other.centre.y = 5.0;
+  other.heading_rad = -std::atan(1.0);
+  recording.snapshots[0].others = {other};
+  EXPECT_LT(evaluate(recording).min_time_to_collision_s, 1.0);
+  recording.snapshots[0].others[0].yaw_rate_radps = 1.0;
+  EXPECT_EQ(evaluate(recording).min_time_to_collision_s, kTtcHorizonS);
+  EXPECT_EQ(evaluate(recording).near_misses, 0);
+}
+
+// Two cars 20 m apart on one circle of radius 50 m, both at 10 m/s: they never meet, though both are headed
+// off it; when the one ahead stands still on it, the arc of 20 m less about 5 m takes 1.5 s.
+TEST(Metrics, TimeToCollisionAlongABend) {
+  Recording recording = cruise(1, 10.0);
+  CarState& ego = recording.snapshots[0].ego;
+  ego.centre = {0.0, -50.0};
+  ego.yaw_rate_radps = 0.2;
+  CarState other = car_at(0.0, 10.0);
+  other.centre = {50.0 * std::sin(0.4), -50.0 * std::cos(0.4)};
+  other.heading_rad = 0.4;
+  other.yaw_rate_radps = 0.2;
+  recording.snapshots[0].others = {other};
+  EXPECT_EQ(evaluate(recording).min_time_to_collision_s, kTtcHorizonS);
+  recording.snapshots[0].others[0].speed_mps = recording.snapshots[0].others[0].yaw_rate_radps = 0.0;
+  EXPECT_NEAR(evaluate(recording).min_time_to_collision_s, 1.5, 0.1);
+}
+
 // Gap 10 m, closing at 10 m/s: 1 s is a near miss; closing at 5 m/s, 2 s is none; a touch is no near miss.
 // Three states of the same car count once.
 TEST(Metrics, NearMisses) {
