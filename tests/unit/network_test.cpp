@@ -245,7 +245,8 @@ TEST(Network, JunctionLanesOfNoLengthArePassedOver) {
   EXPECT_EQ(lane(network, "west_in_0").successors, std::vector<LaneId>{network.find("east_out_0")});
 }
 
-// A network built without junction lanes gets arcs from lane to lane: here straight on, the 10 m between them.
+// A network built without junction lanes gets arcs from lane to lane: here straight on, the 10 m between
+// them.
 TEST(Network, LoadsWithoutJunctionLanes) {
   const Network network = network_of(R"(<net>
     <edge id="a"><lane id="a_0" index="0" shape="0,0 50,0"/></edge>
