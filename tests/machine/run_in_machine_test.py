@@ -56,7 +56,7 @@ class RunInMachine(unittest.TestCase):
         self.assertEqual(done.returncode, 1, done.stdout + done.stderr)
         self.assertIn(inside.stdout.splitlines()[0], done.stdout)
         self.assertEqual((self.folder / "vcan.log").read_bytes(), (self.folder / "inside.log").read_bytes())
-        self.assertIn('"goals"', (self.folder / "out" / "run.json").read_text())
+        self.assertIn('"ending": "time-out"', (self.folder / "out" / "run.json").read_text())
 
     # PROC-030 The machine has one bus, whose name is an interface's, and no other ECU.
     def test_wrong_use_is_refused(self):
