@@ -84,11 +84,12 @@ ThreadedDrive drive_on_two_threads(const world::Scenario& scenario, int late_one
     for (hal::CanFrame frame; world_port->receive(frame);) world.receive(campaign::to_wire(frame));
     if (!ecu->planning_due()) {
       busy_ticks = 0;
+      hold = false;  // a cycle that had begun before it was to be held
       continue;
     }
     if (++busy_ticks == 1) ++snapshots;
     const bool late = late_one > 0 && snapshots % late_one == 0;
-    if (late) hold = busy_ticks < 15;
+    hold = late && busy_ticks < 15;
     if (busy_ticks < (late ? 15 : 5)) continue;
     while (ecu->planning_due()) std::this_thread::yield();
     busy_ticks = 0;
