@@ -15,13 +15,6 @@ constexpr float kBendRad = 0.5F;       // lanes that turn by less are driven lik
 constexpr float kHurriedLateralMps2 = 7.0F;  // nobody turns faster
 constexpr float kHurriedBrakingMps2 = 6.0F;  // or brakes for the turn later
 
-/// Who has waited long takes gaps he would have let pass.
-float zone_margin_s(const Scene& scene, const Parameters& parameters) {
-  return scene.waited_s > parameters.safety.patience_s
-             ? min(parameters.safety.zone_margin_waited_s, parameters.safety.zone_margin_s)
-             : parameters.safety.zone_margin_s;
-}
-
 /// Whether its present braking, kept up, ends before the zone.
 bool is_stopping(const Agent& agent, const Approach& approach) {
   const float braking = agent.track.acceleration_mps2;
@@ -141,7 +134,7 @@ bool leaves_zone_to_us(const Scene& scene, int index, const ConflictZone& zone, 
     // Who comes after us into the same lane may be on the ground shared while we are: not when we leave it.
     const float meeting_s =
         zone.merging ? earliest_time_s(scene, agent, zone, approach.to_exit_m, parameters) : arrival_s;
-    return meeting_s > out_s + zone_margin_s(scene, parameters);
+    return meeting_s > out_s + parameters.safety.zone_margin_s;
   }
   // It owes us the way, or we can no longer stop: will it, at its present speed, be there while we are?
   if (!we_yield && can_stop_for_us(agent, approach)) return true;

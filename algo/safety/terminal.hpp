@@ -32,11 +32,10 @@ struct TerminalVerdict {
 ///   demands; or
 /// - every vehicle that may reach it leaves it to us (TERM-002): where we yield, it comes
 /// safety.zone_margin_s
-///   (after safety.patience_s of standing zone_margin_waited_s: TERM-013) after we have left, at limit *
-///   safety.over_limit and accelerating (TERM-003); where it owes us the way, it can stop with 4 m/s^2 or
-///   less, or comes later (TERM-004); or it has plainly gone before we come (TERM-005). First come: the other
-///   has right of way when it can be there first. Who could stop only with more than 5 m/s^2 is bound to go,
-///   and counts on others' present speeds;
+///   after we have left, at limit * safety.over_limit and accelerating (TERM-003); where it owes us the way,
+///   it can stop with 4 m/s^2 or less, or comes later (TERM-004); or it has plainly gone before we come
+///   (TERM-005). First come: the other has right of way when it can be there first. Who could stop only with
+///   more than 5 m/s^2 is bound to go, and counts on others' present speeds;
 /// - the end does not stand in it (TERM-006). Who is inside already has to leave, unless a leader blocks the
 /// way
 ///   (TERM-007).

@@ -66,7 +66,6 @@ struct Scene {
   BoundedVector<Agent, kMaxTracks> agents;  ///< the first `watched` are the relevant ones
   int watched = 0;                          ///< <= kMaxAgents, predicted with interaction
   const LaneMap* map = nullptr;             ///< valid during the cycle only
-  float waited_s = 0.0F;                    ///< how long we have stood; kept while we set off
 };
 
 /// Which vehicles SATP watches (METHOD 4.0).
@@ -84,7 +83,7 @@ class SceneBuilder {
   /// range. \param list_time_ms  vehicle time of `tracks`; a list older than the last one is ignored \param
   /// map  may be null or empty: the scene then has no ego paths and the status says so \return kOk, kNoLane
   /// (the scene is still usable for a minimum-risk manoeuvre), or kInvalidInput (the ego is not finite: the
-  /// scene is empty). CORE-033 What we have waited is forgotten once we drive faster than 5 m/s.
+  /// scene is empty)
   [[nodiscard]] Status build(std::uint32_t time_ms, const EgoState& ego, const TrackList& tracks,
                              std::uint32_t list_time_ms, const LaneMap* map, const Parameters& parameters,
                              Scene& scene);
@@ -100,7 +99,6 @@ class SceneBuilder {
     History history;
   };
 
-  void note_waiting(std::uint32_t time_ms, float speed_mps);
   void advance_time(std::uint32_t time_ms);
   void take_list(const TrackList& tracks, std::uint32_t list_time_ms);
   int find_past(const Track& track, std::uint32_t list_time_ms) const;
@@ -110,7 +108,6 @@ class SceneBuilder {
   std::uint32_t last_ms_ = 0;
   std::uint32_t last_list_ms_ = 0;
   bool started_ = false;
-  std::int32_t waited_ms_ = 0;
   LaneIndex ego_lane_ = kNoLaneIndex;
 };
 

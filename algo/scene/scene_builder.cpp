@@ -15,10 +15,6 @@ constexpr float kSameSpeedMps = 4.0F;
 constexpr float kJumpM = 8.0F;    // an id this far from where it should be is another vehicle
 constexpr float kHinderS = 2.5F;  // a vehicle within this headway explains another's braking
 constexpr float kHinderBesideM = 2.0F;
-constexpr float kStandingMps = 0.3F;
-constexpr float kUnderWayMps = 5.0F;
-constexpr std::int32_t kLongestStepMs = 500;  // a gap in time is no waiting
-constexpr std::int32_t kLongestWaitMs = 3'600'000;
 constexpr std::uint16_t kPresentBit = 1U << (kHistorySamples - 1);
 
 // Signed, so that the 32-bit time may wrap and lists may lie a little in the future.
@@ -98,17 +94,7 @@ void SceneBuilder::reset() {
   last_ms_ = 0;
   last_list_ms_ = 0;
   started_ = false;
-  waited_ms_ = 0;
   ego_lane_ = kNoLaneIndex;
-}
-
-void SceneBuilder::note_waiting(std::uint32_t time_ms, float speed_mps) {
-  const std::int32_t step_ms = started_ ? elapsed_ms(last_ms_, time_ms) : 0;
-  if (speed_mps > kUnderWayMps) {
-    waited_ms_ = 0;
-  } else if (speed_mps < kStandingMps && step_ms > 0 && waited_ms_ < kLongestWaitMs) {
-    waited_ms_ = waited_ms_ + (step_ms < kLongestStepMs ? step_ms : kLongestStepMs);
-  }
 }
 
 void SceneBuilder::advance_time(std::uint32_t time_ms) {
@@ -186,15 +172,12 @@ Status SceneBuilder::build(std::uint32_t time_ms, const EgoState& ego, const Tra
   scene.watched = 0;
   scene.map = map;
   scene.ego = EgoState{};
-  scene.waited_s = 0.0F;
   if (!sound(ego)) {
     reset();
     scene.ego_history = History{};
     return Status::kInvalidInput;
   }
   scene.ego = ego;
-  note_waiting(time_ms, ego.speed_mps);
-  scene.waited_s = 1e-3F * static_cast<float>(waited_ms_);
   advance_time(time_ms);
   const bool newer = past_.empty() || !started_ || elapsed_ms(last_list_ms_, list_time_ms) > 0;
   const std::int32_t list_age_ms = elapsed_ms(list_time_ms, time_ms);

@@ -60,28 +60,6 @@ TEST(SceneBuilder, OffersKeepLeftRight) {
   EXPECT_NEAR(scene.ego_paths[0].goal_s_m, 200.0F, 1e-3F);
 }
 
-// CORE-033 20 steps at rest are 2 s; setting off at 2 m/s keeps them, 6 m/s forgets them. The first step has
-// no step before it, and a hole of 10 s in time counts as half a second.
-TEST(SceneBuilder, RemembersHowLongWeWaited) {
-  SceneBuilder builder;
-  Scene scene;
-  const LaneMap map = test::straight_road(1, 200.0F);
-  std::uint32_t now_ms = 1000;
-  const auto waited_s = [&](float speed_mps, std::uint32_t step_ms = 100) {
-    now_ms += step_ms;
-    EXPECT_EQ(builder.build(now_ms, test::ego_at(50.0F, 0.0F, 0.0F, speed_mps), TrackList{}, now_ms, &map,
-                            Parameters{}, scene),
-              Status::kOk);
-    return scene.waited_s;
-  };
-  EXPECT_FLOAT_EQ(waited_s(0.0F), 0.0F);
-  for (int i = 0; i < 20; ++i) (void)waited_s(0.0F);
-  EXPECT_FLOAT_EQ(scene.waited_s, 2.0F);
-  EXPECT_FLOAT_EQ(waited_s(2.0F), 2.0F);
-  EXPECT_FLOAT_EQ(waited_s(0.0F, 10'000), 2.5F);
-  EXPECT_FLOAT_EQ(waited_s(6.0F), 0.0F);
-}
-
 // No map at all, and a map without a lane under us: kNoLane, no paths, but the others are still there.
 TEST(SceneBuilder, SaysThatThereIsNoLane) {
   SceneBuilder builder;

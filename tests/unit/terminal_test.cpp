@@ -80,20 +80,6 @@ TEST(Terminal, GapMustLastUntilWeAreGone) {
   EXPECT_TRUE(far.safe(80.0F, 8.0F, 0.0F));
 }
 
-// TERM-013 The same drive, the other 54 m away: there after 54 / 15.28 = 3.5 s, 0.7 s after we have left. Too
-// little, but not for one who has stood 9 s, and 47 m (3.1 s) is too little for him as well.
-TEST(Terminal, WhoHasWaitedTakesASmallerGap) {
-  Crossing crossing(Priority::kFirstYields);
-  crossing.other(96.0F - 54.0F, 15.0F);
-  EXPECT_FALSE(crossing.safe(80.0F, 8.0F, 0.0F));
-  crossing.scene.waited_s = 9.0F;
-  EXPECT_TRUE(crossing.safe(80.0F, 8.0F, 0.0F));
-  Crossing near(Priority::kFirstYields);
-  near.other(96.0F - 47.0F, 15.0F);
-  near.scene.waited_s = 9.0F;
-  EXPECT_FALSE(near.safe(80.0F, 8.0F, 0.0F));
-}
-
 // TERM-004 Who owes us the way and needs less than 4 m/s^2 (10 m/s: 12.5 m) is trusted; who needs more is
 // not.
 TEST(Terminal, OthersAreTrustedWhileTheyCanStop) {
