@@ -1,12 +1,10 @@
 // World and ECU as two processes of this machine, on buses every machine has. (On a vcan: tests/machine.)
 #include <fcntl.h>
 #include <gtest/gtest.h>
-#include <netinet/in.h>
 #include <poll.h>
 #include <signal.h>
 #include <spawn.h>
 #include <stdlib.h>
-#include <sys/socket.h>
 #include <sys/wait.h>
 #include <termios.h>
 #include <unistd.h>
@@ -21,6 +19,7 @@
 #include <vector>
 
 #include "sim_host/campaign/episode.hpp"
+#include "tests/support/free_port.hpp"
 
 namespace s4tp {
 namespace {
@@ -28,18 +27,6 @@ namespace {
 namespace fs = std::filesystem;
 
 const fs::path kPrograms = fs::path(S4TP_BINARY_DIR) / "sim_host";
-
-std::string free_port() {
-  const int probe = socket(AF_INET, SOCK_STREAM, 0);
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  socklen_t size = sizeof address;
-  EXPECT_EQ(bind(probe, reinterpret_cast<sockaddr*>(&address), size), 0);
-  EXPECT_EQ(getsockname(probe, reinterpret_cast<sockaddr*>(&address), &size), 0);
-  close(probe);
-  return std::to_string(ntohs(address.sin_port));
-}
 
 class Process {
  public:
@@ -159,8 +146,8 @@ class Cable {
 TEST(TwoProcesses, TcpGivesTheSameFrames) {
   for (const std::string scenario : {"left_turn", "merge", "cruise", "overtake"}) {
     const fs::path log = scratch("tcp.log");
-    Process run("s4tp_tool", {"run", "--bus", "slcan:tcp:127.0.0.1:" + free_port(), "--scenario", scenario,
-                              "--seed", "3", "--log", log, "--out", scratch("out")});
+    Process run("s4tp_tool", {"run", "--bus", "slcan:tcp:127.0.0.1:" + test::free_port(), "--scenario",
+                              scenario, "--seed", "3", "--log", log, "--out", scratch("out")});
     EXPECT_LE(run.wait(), 1) << scenario;
     EXPECT_EQ(content(log), content(in_process(scenario, 3))) << scenario;
   }
@@ -182,7 +169,7 @@ TEST(TwoProcesses, TerminalsGiveTheSameFrames) {
 // PROC-022 The ECU process is killed in the middle of a drive that has begun: the world says so and ends,
 // with code 1.
 TEST(TwoProcesses, KilledEcuIsReported) {
-  const std::string port = free_port();
+  const std::string port = test::free_port();
   const fs::path log = scratch("killed.log");
   Process world("s4tp_world_process", {"--bus", "slcan:listen:127.0.0.1:" + port, "--realtime", "--log", log,
                                        "--out", scratch("out")});
@@ -196,8 +183,8 @@ TEST(TwoProcesses, KilledEcuIsReported) {
 // PROC-015, PROC-023, RT-022 Realtime, ended after a while: run.json says of both sides how late they were.
 TEST(TwoProcesses, RealtimeIsReported) {
   const fs::path log = scratch("realtime.log");
-  Process run("s4tp_tool", {"run", "--bus", "slcan:tcp:127.0.0.1:" + free_port(), "--realtime", "--log", log,
-                            "--out", scratch("realtime")});
+  Process run("s4tp_tool", {"run", "--bus", "slcan:tcp:127.0.0.1:" + test::free_port(), "--realtime", "--log",
+                            log, "--out", scratch("realtime")});
   for (int i = 0; i < 200 && (!fs::exists(log) || fs::file_size(log) < 10'000); ++i) usleep(50'000);
   EXPECT_EQ(run.end(SIGTERM), 1);
   const auto json = nlohmann::json::parse(content(scratch("realtime") / "run.json"));
@@ -207,7 +194,8 @@ TEST(TwoProcesses, RealtimeIsReported) {
 
 // PROC-020 No ECU: code 2, and nothing on the bus.
 TEST(TwoProcesses, NoEcuIsReported) {
-  Process world("s4tp_world_process", {"--bus", "slcan:listen:127.0.0.1:" + free_port(), "--wait-ecu", "1"});
+  Process world("s4tp_world_process",
+                {"--bus", "slcan:listen:127.0.0.1:" + test::free_port(), "--wait-ecu", "1"});
   EXPECT_EQ(world.wait(), 2);
 }
 
@@ -215,9 +203,10 @@ TEST(TwoProcesses, NoEcuIsReported) {
 // stop 0.
 TEST(TwoProcesses, EcuExitCodes) {
   EXPECT_EQ(Process("s4tp_ecu_process", {"--bus", "slcan:tty:/dev/ttyS0@115200"}).wait(), 2);
-  EXPECT_EQ(
-      Process("s4tp_ecu_process", {"--bus", "slcan:tcp:127.0.0.1:" + free_port(), "--wait", "1"}).wait(), 1);
-  Process ecu("s4tp_ecu_process", {"--bus", "slcan:tcp:127.0.0.1:" + free_port()});
+  EXPECT_EQ(Process("s4tp_ecu_process", {"--bus", "slcan:tcp:127.0.0.1:" + test::free_port(), "--wait", "1"})
+                .wait(),
+            1);
+  Process ecu("s4tp_ecu_process", {"--bus", "slcan:tcp:127.0.0.1:" + test::free_port()});
   usleep(500'000);
   EXPECT_EQ(ecu.end(SIGTERM), 0);
 }

@@ -1,33 +1,19 @@
 // SLCAN over the links that every Linux has: TCP on loopback and pseudo terminals.
 #include "hal/linux/slcan_can.hpp"
 
-#include <arpa/inet.h>
 #include <fcntl.h>
 #include <gtest/gtest.h>
-#include <netinet/in.h>
 #include <stdlib.h>
-#include <sys/socket.h>
 #include <unistd.h>
 
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "tests/support/free_port.hpp"
+
 namespace s4tp::hal::linux_host {
 namespace {
-
-/// A port nobody listens on just now.
-int free_port() {
-  const int probe = socket(AF_INET, SOCK_STREAM, 0);
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  socklen_t size = sizeof address;
-  EXPECT_EQ(bind(probe, reinterpret_cast<sockaddr*>(&address), size), 0);
-  EXPECT_EQ(getsockname(probe, reinterpret_cast<sockaddr*>(&address), &size), 0);
-  close(probe);
-  return ntohs(address.sin_port);
-}
 
 struct End {
   ByteLink link;
@@ -100,7 +86,7 @@ struct Board {
 
 // LINUX-050, LINUX-051 Both ways between a listener and a caller, though each is told S6 and O by the other.
 TEST(SlcanTcp, BothWays) {
-  const std::string place = "127.0.0.1:" + std::to_string(free_port());
+  const std::string place = "127.0.0.1:" + test::free_port();
   End world("slcan:listen:" + place);
   End board("slcan:tcp:" + place);
   ASSERT_TRUE(board.until(CanState::kActive));
@@ -118,7 +104,7 @@ TEST(SlcanTcp, BothWays) {
 // LINUX-051 A peer that does not read for a while costs nothing as long as the queue has room: what the
 // kernel's buffers do not take waits, and comes out in order.
 TEST(SlcanTcp, SlowPeerLosesNothing) {
-  const std::string place = "127.0.0.1:" + std::to_string(free_port());
+  const std::string place = "127.0.0.1:" + test::free_port();
   End world("slcan:listen:" + place);
   End board("slcan:tcp:" + place);
   ASSERT_TRUE(board.until(CanState::kActive));
@@ -138,7 +124,7 @@ TEST(SlcanTcp, SlowPeerLosesNothing) {
 
 // LINUX-052, LINUX-041 The peer goes: down, and frames are refused; another one comes: back.
 TEST(SlcanTcp, PeerGoneAndBack) {
-  const std::string place = "127.0.0.1:" + std::to_string(free_port());
+  const std::string place = "127.0.0.1:" + test::free_port();
   auto world = std::make_unique<End>("slcan:listen:" + place);
   End board("slcan:tcp:" + place);
   ASSERT_TRUE(world->until(CanState::kActive));
@@ -158,7 +144,7 @@ TEST(SlcanTcp, PeerGoneAndBack) {
 
 // LINUX-041 Nobody there yet is no error: the caller calls again.
 TEST(SlcanTcp, ListenerMayComeLater) {
-  const std::string place = "127.0.0.1:" + std::to_string(free_port());
+  const std::string place = "127.0.0.1:" + test::free_port();
   End board("slcan:tcp:" + place);
   EXPECT_FALSE(board.can.wait(20));
   EXPECT_FALSE(board.can.send(frame_of(1)));
