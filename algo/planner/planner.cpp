@@ -61,6 +61,18 @@ bool valid(const PlannerInput& input) {
   return true;
 }
 
+/// A vehicle that goes no way is predicted to stay, and to arrive nowhere.
+void let_others_stand(Scene& scene) {
+  for (Agent& agent : scene.agents) {
+    agent.track.speed_mps = 0.0F;
+    agent.track.acceleration_mps2 = 0.0F;
+    agent.track.yaw_rate_radps = 0.0F;
+    agent.lane = kNoLaneIndex;
+    agent.paths.clear();
+    for (History::Sample& sample : agent.history.samples) sample = {agent.track.centre, 0.0F};
+  }
+}
+
 void count(Explanation& explanation, Stage stage, int work) {
   std::uint16_t& total = explanation.work[static_cast<int>(stage)];
   total = static_cast<std::uint16_t>(total + work);
@@ -97,6 +109,7 @@ Status Planner::plan(const PlannerInput& input, Plan& plan, Explanation& explana
       const StageScope scope(probe, Stage::kScene);
       status = scene_builder_.build(input.now_ms, input.ego, input.tracks, input.tracks_ms, input.map,
                                     parameters_, scene_);
+      if (others_stand) let_others_stand(scene_);
       build_drivable(input.map, drivable_);
       count(explanation, Stage::kScene, scene_.agents.size());
     }

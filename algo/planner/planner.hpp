@@ -54,6 +54,9 @@ class Planner {
   /// is predicted to be hit as one more term; no check, no terminal condition, no RSS envelope. The
   /// minimum-risk manoeuvre is left for when there is no candidate at all.
   bool guarded = true;
+  /// True for comparisons only, never in a car: every other vehicle is taken to stand where it is now, as if
+  /// it had always stood there and will for ever.
+  bool others_stand = false;
 
  private:
   void forget_scene();
