@@ -45,6 +45,16 @@ class Bench {
   Violations violations = 0;
 };
 
+// GATE-001 to GATE-010: bit i of the violations is GATE-(i + 1), and a command not given asks for nothing.
+TEST(Gate, NumbersItsLimits) {
+  const Violations all[] = {
+      kAccelerationLimited, kBrakingLimited, kJerkLimited, kSteeringLimited, kSteeringRateLimited,
+      kLateralLimited,      kSpeedLimited,   kMotionStale, kDenied,          kNotFinite};
+  for (int i = 0; i < 10; ++i) EXPECT_EQ(all[i], 1 << i);
+  EXPECT_EQ(Command{}.acceleration_mps2, 0.0F);
+  EXPECT_EQ(Command{}.steering_rad, 0.0F);
+}
+
 // GATE-001: 3.5 m/s^2 of drive pass as they are, a little more does not.
 TEST(Gate, LimitsDrive) {
   Bench bench;
@@ -118,6 +128,24 @@ TEST(Gate, LimitsLateralAcceleration) {
   EXPECT_EQ(left.settle({0.0F, 0.5F}, 15.0F).steering_rad, -right.settle({0.0F, -0.5F}, 15.0F).steering_rad);
 }
 
+// GATE-006: at 15 m/s m = 6 * 2.9 / 225 = 0.077333, and 3 m / (3 + m^2) = 0.077179 rad.
+TEST(Gate, LateralBoundByHand) {
+  Bench bench;
+  EXPECT_NEAR(bench.settle({0.0F, 0.5F}, 15.0F).steering_rad, 0.077179F, 1e-6F);
+}
+
+// GATE-006: a car that steers up to 0.8 rad. At 2.56 m/s m = 17.4 / 6.5536 = 2.655, beyond the top of 3 m /
+// (3 + m^2) at sqrt(3): all 0.8 rad, though the formula would give 0.793. At 4.8 m/s m = 17.4 / 23.04 =
+// 0.7552: 0.6346 rad.
+TEST(Gate, LateralBoundOfAWideSteering) {
+  Limits limits;
+  limits.steering_max_rad = 0.8F;
+  Bench slow(limits);
+  EXPECT_EQ(slow.settle({0.0F, 0.8F}, 2.56F).steering_rad, 0.8F);
+  Bench faster(limits);
+  EXPECT_NEAR(faster.settle({0.0F, 0.8F}, 4.8F).steering_rad, 0.6346F, 1e-4F);
+}
+
 // GATE-005 before GATE-006: turning in at 5 m/s, then suddenly 20 m/s: the steering goes back 0.007 rad a
 // tick.
 TEST(Gate, SteersBackAtTheRateWhenTheSpeedJumps) {
@@ -159,13 +187,38 @@ TEST(Gate, BrakesWithoutMotionFrames) {
   EXPECT_EQ(bench.violations, 0);
 }
 
-// GATE-008: a gate that never heard a motion frame brakes, whatever is permitted.
+// GATE-008: a gate that never heard a motion frame brakes, whatever is permitted, and for ever: 70,000 ticks
+// are more than its 16 bits count.
 TEST(Gate, DeniedByDefault) {
   CommandGate gate{Limits{}};
-  Command command{2.0F, 0.3F};
+  for (int i = 0; i < 70000; ++i) {
+    Command command{2.0F, 0.3F};
+    ASSERT_EQ(gate.apply(true, command), kMotionStale) << i;
+    ASSERT_EQ(command.acceleration_mps2, -3.0F);
+    ASSERT_EQ(command.steering_rad, 0.0F);
+  }
+}
+
+// GATE-008: the same when the motion frames end after one.
+TEST(Gate, StaleForEver) {
+  Bench bench;
+  bench.motion(5.0F);
+  for (int i = 0; i < 70000; ++i) {
+    Command command;
+    ASSERT_EQ(bench.gate.apply(true, command) & kMotionStale, i > 10 ? kMotionStale : 0) << i;
+  }
+}
+
+// GATE-008: what has never been heard counts as standing still, where the steering is free: at 0.1 m/s the
+// 0.001 m/s^2 of these limits would allow 0.28 rad only, and the 0.3 rad would have to be steered back.
+TEST(Gate, NothingHeardIsStandstill) {
+  Limits limits;
+  limits.lateral_acceleration_max_mps2 = 0.001F;
+  CommandGate gate(limits);
+  gate.reset(0.3F);
+  Command command;
   EXPECT_EQ(gate.apply(true, command), kMotionStale);
-  EXPECT_EQ(command.acceleration_mps2, -3.0F);
-  EXPECT_EQ(command.steering_rad, 0.0F);
+  EXPECT_EQ(command.steering_rad, 0.3F);
 }
 
 // GATE-009: not permitted means gentle braking with the steering held, however good the command.
@@ -192,6 +245,34 @@ TEST(Gate, TreatsNotFiniteAsDenied) {
     EXPECT_EQ(out.acceleration_mps2, -3.0F);
     EXPECT_FLOAT_EQ(out.steering_rad, 0.1F);
   }
+}
+
+// GATE-010: 1e6 is the last number that counts as one; it is limited like any other.
+TEST(Gate, FiniteEndsAtAMillion) {
+  const float beyond = std::nextafter(1e6F, 2e6F);
+  for (const float sign : {1.0F, -1.0F}) {
+    Bench bench;
+    (void)bench.ask({sign * 1e6F, sign * 1e6F});
+    EXPECT_EQ(bench.violations & kNotFinite, 0);
+    (void)bench.ask({sign * beyond, 0.0F});
+    EXPECT_EQ(bench.violations & kNotFinite, kNotFinite);
+    (void)bench.ask({0.0F, sign * beyond});
+    EXPECT_EQ(bench.violations & kNotFinite, kNotFinite);
+  }
+}
+
+// GATE-011: a repeated counter is no news, even with other contents and a sound CRC: 45 m/s are not believed.
+TEST(Gate, RepeatedCounterIsNoNews) {
+  Bench bench;
+  const wire::Frame first = bench.frame(5.0F);
+  wire::Frame second = bench.frame(45.0F);
+  second.data[1] = static_cast<std::uint8_t>((second.data[1] & 0xF0U) | (first.data[1] & 0x0FU));
+  wire::e2e_seal(second);
+  ASSERT_NE(first.data[0] & 0x0F, second.data[0] & 0x0F);  // the CRC is no counter
+  bench.gate.observe(first);
+  bench.gate.observe(second);
+  Command command{0.1F, 0.0F};
+  EXPECT_EQ(bench.gate.apply(true, command), 0);
 }
 
 // GATE-011: a damaged, a repeated, a foreign or a truncated frame is no news: the motion goes stale as
@@ -234,6 +315,15 @@ TEST(Gate, TakesOverFromWhatIsThere) {
   command = {};
   (void)bench.gate.apply(true, command);
   EXPECT_EQ(command.steering_rad, 0.0F);
+}
+
+// GATE-012: taking over before any motion frame counts from 0: with the first one 0.2 m/s^2 are let through.
+TEST(Gate, TakesOverFromRestUnheard) {
+  Bench bench;
+  bench.gate.reset(0.0F);
+  EXPECT_FLOAT_EQ(bench.ask({1.0F, 0.0F}).acceleration_mps2, 0.2F);
+  Bench fresh;  // never reset at all
+  EXPECT_FLOAT_EQ(fresh.ask({1.0F, 0.1F}).acceleration_mps2, 0.2F);
 }
 
 }  // namespace
