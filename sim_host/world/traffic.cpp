@@ -54,36 +54,46 @@ void Traffic::step(const EgoSeen* ego) {
 }
 
 void Traffic::decide(const Actor* ego) {
-  std::vector<Actor> actors;
-  if (ego != nullptr) {
-    actors.push_back(*ego);
-    actors.back().waited_s = ego_waited_s_;
-  }
-  for (const TrafficCar& car : cars_) {
-    actors.push_back(actor_of(car));
-  }
-  const TrafficView view(road_, std::move(actors));
+  const TrafficView view(road_, actors(ego));
   const std::size_t first = ego != nullptr ? 1 : 0;
   for (std::size_t i = 0; i < cars_.size(); ++i) {
     const Actor& self = view.actors()[first + i];
     cars_[i].acceleration_mps2 = acceleration(cars_[i], self, view);
     consider_lane_change(cars_[i], self, view);
   }
-  insert_waiting(view);
+  insert_waiting(ego);
   if (ego != nullptr) {
     watch_ego(view.actors().front(), view);
   }
 }
 
-/// How long the ego has stood at a line, as others see it.
+std::vector<Actor> Traffic::actors(const Actor* ego) const {
+  std::vector<Actor> all;
+  if (ego != nullptr) {
+    all.push_back(*ego);
+    all.back().waited_s = ego_waited_s_;
+    all.back().queues = ego_queues_;
+    all.back().waits_for = ego_waits_for_;
+  }
+  for (const TrafficCar& car : cars_) {
+    all.push_back(actor_of(car));
+  }
+  return all;
+}
+
+/// How long the ego has stood at a line, and for whom it seems to, as others see it.
 void Traffic::watch_ego(const Actor& ego, const TrafficView& view) {
   Approach approach;
   approach.self = &ego;
   approach.driver = &ego_driver_;
-  approach.wanted_mps = ego.speed_mps;
+  approach.wanted_mps = ego.lane == kNoLane ? ego.speed_mps : lane(ego.lane).speed_limit_mps;
+  approach.waited_s = ego_waited_s_;
+  approach.leader = view.leader(ego.way, ego.id, ego.length_m);
   const JunctionChoice choice = choose_at_junction(view, approach);
   const bool at_line = choice.near && choice.line_m < kNear_m;
   ego_waited_s_ = !at_line ? 0.0 : ego_waited_s_ + (ego.speed_mps < 1.0 ? kTick_s * kDecisionTicks : 0.0);
+  ego_queues_ = choice.queues;
+  ego_waits_for_ = choice.waits_for;
 }
 
 Actor Traffic::actor_of(const TrafficCar& car) const {
@@ -96,7 +106,9 @@ Actor Traffic::actor_of(const TrafficCar& car) const {
   actor.guide = &plan_.ways[car.way].guide;
   actor.committed = car.committed;
   actor.waited_s = car.waited_s;
-  actor.lets_go = car.gave_way_s < kInvites_s ? car.lets_go : TrafficCar::kNobody;
+  actor.queues = car.queues;
+  actor.waits_for = car.waits_for;
+  actor.lets_go = car.gave_way_s < kInvites_s ? car.lets_go : kNoCar;
   if (car.leaving != kNoLane) {
     actor.also.push_back({car.leaving, -car.s_m});
   }
@@ -113,10 +125,11 @@ double Traffic::wanted_speed_mps(const TrafficCar& car, const std::vector<WayPar
   return wanted;
 }
 
-double Traffic::follow(TrafficCar& car, const Leader& leader, double wanted_mps) {
+double Traffic::follow(TrafficCar& car, const Actor& self, const TrafficView& view, const Leader& leader,
+                       double wanted_mps) {
   const double free = free_acceleration_mps2(car.driver, car.speed_mps, wanted_mps);
   if (leader.actor == nullptr) {
-    car.known_leader = car.surprise = TrafficCar::kNobody;
+    car.known_leader = car.surprise = kNoCar;
     car.known_gap_m = std::numeric_limits<double>::infinity();
     return free;
   }
@@ -128,13 +141,16 @@ double Traffic::follow(TrafficCar& car, const Leader& leader, double wanted_mps)
       car.surprise = id;
       car.surprise_since_s = time_s();
     }
-    if (time_s() - car.surprise_since_s < car.driver.reaction_s) {
-      return free;
+    if (time_s() - car.surprise_since_s < car.driver.reaction_s) {  // until then he follows who was there
+      const Leader known = view.leader(self.way, car.id, car.length_m, id);
+      return known.actor == nullptr ? free
+                                    : following_acceleration_mps2(car.driver, car.speed_mps, wanted_mps,
+                                                                  known.gap_m, known.actor->speed_mps);
     }
   }
   car.known_leader = id;
   car.known_gap_m = leader.gap_m;
-  car.surprise = TrafficCar::kNobody;
+  car.surprise = kNoCar;
   return following_acceleration_mps2(car.driver, car.speed_mps, wanted_mps, leader.gap_m,
                                      leader.actor->speed_mps);
 }
@@ -142,7 +158,7 @@ double Traffic::follow(TrafficCar& car, const Leader& leader, double wanted_mps)
 double Traffic::acceleration(TrafficCar& car, const Actor& self, const TrafficView& view) {
   const double wanted = wanted_speed_mps(car, self.way);
   const Leader leader = view.leader(self.way, car.id, car.length_m);
-  double result = towards_merging(car, self, view, leader, wanted, follow(car, leader, wanted));
+  double result = towards_merging(car, self, view, leader, wanted, follow(car, self, view, leader, wanted));
   for (const WayPart& part : self.also) {  // the lane being left counts until the car is out of it
     const Leader old = view.leader({part}, car.id, car.length_m);
     if (old.actor != nullptr) {
@@ -160,7 +176,10 @@ double Traffic::acceleration(TrafficCar& car, const Actor& self, const TrafficVi
   const JunctionChoice choice = choose_at_junction(
       view, {&self, &car.driver, wanted, car.waited_s, car.gave_way_s, car.lets_go, car.committed, leader});
   car.lets_go = choice.lets_go;
-  car.gave_way_s += choice.lets_go != TrafficCar::kNobody ? kTick_s * kDecisionTicks : 0.0;
+  car.queues = choice.queues;
+  car.waits_for = choice.waits_for;
+  car.committed = car.committed || choice.goes_first;
+  car.gave_way_s += choice.lets_go != kNoCar ? kTick_s * kDecisionTicks : 0.0;
   const double ordinary_stop_m = car.speed_mps * car.speed_mps / (2.0 * car.driver.deceleration_mps2) +
                                  car.speed_mps * kTick_s * kDecisionTicks;
   if (choice.near && choice.stop && choice.line_m > -0.5 &&
@@ -200,11 +219,15 @@ bool Traffic::somebody_comes(const TrafficView& view, const TrafficCar& car) con
                                                                           (2.0 * kComfortableBraking_mps2);
 }
 
-void Traffic::insert_waiting(const TrafficView& view) {
+void Traffic::insert_waiting(const Actor* ego) {
   while (next_departure_ < plan_.departures.size() && plan_.departures[next_departure_].time_s <= time_s()) {
     const Departure& departure = plan_.departures[next_departure_++];
     waiting_[static_cast<std::size_t>(departure.lane)].push_back(departure);
   }
+  if (std::all_of(waiting_.begin(), waiting_.end(), [](const auto& lane) { return lane.empty(); })) {
+    return;
+  }
+  const TrafficView view(road_, actors(ego));  // who has just committed himself must not be surprised
   for (std::size_t id = 0; id < waiting_.size(); ++id) {
     if (waiting_[id].empty()) {
       continue;

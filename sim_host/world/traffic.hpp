@@ -22,7 +22,6 @@ namespace s4tp::world {
 
 /// One car of the traffic; its box centre is at `s_m` along the lane, `offset_m` to the left of it.
 struct TrafficCar {
-  static constexpr int kNobody = -1;
   static constexpr int kLooking = -2;  ///< attentive just now: whoever is there is no surprise
 
   int id = 0;
@@ -43,14 +42,16 @@ struct TrafficCar {
   bool committed = false;
   double waited_s = 0.0;
   double gave_way_s = 0.0;  ///< standing or braking out of courtesy, at this junction
-  int lets_go = kNobody;
+  int lets_go = kNoCar;
+  bool queues = false;  ///< this and the next: JunctionChoice's
+  std::vector<int> waits_for;
   double distraction = 0.0;  ///< 0 .. 1, redrawn every second: imperfection at work
   double next_distraction_s = 0.0;
-  int known_leader = kNobody;  ///< whom he follows
+  int known_leader = kNoCar;  ///< whom he follows
   double known_gap_m = 0.0;
-  int surprise = kNobody;  ///< who appeared unexpectedly, and since when
+  int surprise = kNoCar;  ///< who appeared unexpectedly, and since when
   double surprise_since_s = 0.0;
-  int hazard = kNobody;
+  int hazard = kNoCar;
   double hazard_since_s = 0.0;
 
   [[nodiscard]] double offset_m() const;
@@ -74,9 +75,11 @@ class Traffic final : public TrafficEngine {
 
  private:
   void decide(const Actor* ego);
+  [[nodiscard]] std::vector<Actor> actors(const Actor* ego) const;
   [[nodiscard]] Actor actor_of(const TrafficCar& car) const;
   [[nodiscard]] double wanted_speed_mps(const TrafficCar& car, const std::vector<WayPart>& way) const;
-  [[nodiscard]] double follow(TrafficCar& car, const Leader& leader, double wanted_mps);
+  [[nodiscard]] double follow(TrafficCar& car, const Actor& self, const TrafficView& view,
+                              const Leader& leader, double wanted_mps);
   [[nodiscard]] double acceleration(TrafficCar& car, const Actor& self, const TrafficView& view);
   void consider_lane_change(TrafficCar& car, const Actor& self, const TrafficView& view);
   [[nodiscard]] double towards_merging(const TrafficCar& car, const Actor& self, const TrafficView& view,
@@ -88,7 +91,7 @@ class Traffic final : public TrafficEngine {
   void watch_ego(const Actor& ego, const TrafficView& view);
   [[nodiscard]] const Driver& driver_of(int id) const;
   [[nodiscard]] bool somebody_comes(const TrafficView& view, const TrafficCar& car) const;
-  void insert_waiting(const TrafficView& view);
+  void insert_waiting(const Actor* ego);
   void move(TrafficCar& car);
   [[nodiscard]] const NetworkLane& lane(LaneId id) const { return road_.lane(id); }
 
@@ -102,6 +105,8 @@ class Traffic final : public TrafficEngine {
   int finished_ = 0;
   std::int64_t ticks_ = 0;
   double ego_waited_s_ = 0.0;
+  bool ego_queues_ = false;
+  std::vector<int> ego_waits_for_;
   Driver ego_driver_;  ///< what others take the ego's driver to be
 };
 

@@ -7,16 +7,17 @@
 namespace s4tp::world {
 namespace {
 
-constexpr double kLook_m = 60.0;        // junctions further away are not thought about
-constexpr double kOther_mps2 = 1.5;     // how quickly one expects others to come
-constexpr double kOwnShareIn = 1.0;     // of the own acceleration, when judging how soon one is there
-constexpr double kOwnShareOut = 0.6;    // and how late one is gone
-constexpr double kOwnTopShare = 0.9;    // of the speed wanted, the same
-constexpr double kBehindOther_s = 0.7;  // entering after somebody has left
-constexpr double kOrder_s = 0.2;        // "at the same time"
+constexpr double kLook_m = 60.0;      // junctions further away are not thought about
+constexpr double kOther_mps2 = 1.5;   // how quickly one expects others to come
+constexpr double kOwnShareIn = 1.0;   // of the own acceleration, when judging how soon one is there
+constexpr double kOwnShareOut = 0.6;  // and how late one is gone
+constexpr double kOwnTopShare = 0.9;  // of the speed wanted, the same
+constexpr double kBehindOther = 1.6;  // reaction times between another's leaving and the own entering
+constexpr double kOrder_s = 0.2;      // "at the same time"
 constexpr double kStanding_mps = 0.3;
 constexpr double kPatience_s = 5.0;  // then somebody who stands is more and more taken to let us go
 constexpr double kLineRoom_m = 0.3;
+constexpr double kDeadlock_s = 2.0;       // until somebody takes heart
 constexpr double kCourteous = 0.5;        // from here on drivers let somebody go who has waited
 constexpr double kCourtesyAfter_s = 5.0;  // he has waited
 constexpr double kCourtesyLasts_s = 5.0;  // then they go themselves
@@ -32,6 +33,9 @@ struct Occupation {
 
 Occupation occupation_of(const TrafficView& view, const Actor& actor, const Meeting& meeting) {
   Occupation occupation;
+  if (actor.queues) {
+    return occupation;  // he cannot come before the one ahead of him has gone
+  }
   for (const WayPart& part : actor.way) {
     if (part.lane != meeting.other) {
       continue;
@@ -77,14 +81,16 @@ bool gap_accepted(const Approach& approach, Rule rule, const OwnTimes& own, cons
     theirs.from_s += 0.5 * std::max(0.0, approach.waited_s - kPatience_s);
   }
   const double margin_s = accepted_margin_s(*approach.driver, approach.waited_s);
-  return own.out_s + margin_s < theirs.from_s || own.in_s > theirs.until_s + kBehindOther_s;
+  return own.out_s + margin_s < theirs.from_s ||
+         own.in_s > theirs.until_s + kBehindOther * approach.driver->reaction_s;
 }
 
 bool must_wait(const Approach& approach, const Meeting& meeting, const OwnTimes& own, const Actor& other,
                const Occupation& theirs) {
   switch (meeting.rule) {
-    case Rule::kFirstHasPriority:
-      return false;
+    case Rule::kFirstHasPriority:  // who stands does not start into somebody who has begun
+      return approach.self->speed_mps < kStanding_mps && other.committed && other.speed_mps > kStanding_mps &&
+             theirs.from_s < own.out_s && own.in_s < theirs.until_s;
     case Rule::kFirstYields:
       return other.lets_go != approach.self->id && !gap_accepted(approach, meeting.rule, own, other, theirs);
     case Rule::kFirstCome:
@@ -112,6 +118,44 @@ bool courteous(const Approach& approach, const Meeting& meeting, const Actor& ot
   const double speed = approach.self->speed_mps;
   return approach.driver->courtesy >= kCourteous && approach.gave_way_s < kCourtesyLasts_s && standing &&
          other.waited_s > kCourtesyAfter_s && speed * speed < 2.0 * kCourtesy_mps2 * line_m;
+}
+
+/// Those ids, and all for whom they wait, be it through others; only who stands waits.
+std::vector<int> waited_for(const TrafficView& view, std::vector<int> ids) {
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    const auto actor = std::find_if(view.actors().begin(), view.actors().end(),
+                                    [id = ids[i]](const Actor& a) { return a.id == id; });
+    if (actor == view.actors().end() || actor->speed_mps >= kStanding_mps) {
+      continue;
+    }
+    for (const int next : actor->waits_for) {
+      if (std::find(ids.begin(), ids.end(), next) == ids.end()) {
+        ids.push_back(next);
+      }
+    }
+  }
+  return ids;
+}
+
+/// Where all wait for each other, the one who has waited longest goes; the ego is not counted upon.
+bool ends_deadlock(const TrafficView& view, const Actor& self, const std::vector<int>& waits_for) {
+  if (waits_for.empty() || self.speed_mps >= kStanding_mps || self.waited_s < kDeadlock_s) {
+    return false;
+  }
+  const auto waits_for_self = [&](int id) {
+    const std::vector<int> all = waited_for(view, {id});
+    return std::find(all.begin(), all.end(), self.id) != all.end();
+  };
+  if (!std::all_of(waits_for.begin(), waits_for.end(), waits_for_self)) {
+    return false;
+  }
+  const std::vector<int> circle = waited_for(view, waits_for);
+  return std::none_of(view.actors().begin(), view.actors().end(), [&](const Actor& other) {
+    const bool longer =
+        other.waited_s > self.waited_s || (other.waited_s == self.waited_s && other.id < self.id);
+    return longer && other.id > 0 && other.id != self.id &&
+           std::find(circle.begin(), circle.end(), other.id) != circle.end() && waits_for_self(other.id);
+  });
 }
 
 /// A queue behind the junction must leave room for the whole car.
@@ -185,6 +229,7 @@ JunctionChoice choose_at_junction(const TrafficView& view, const Approach& appro
         }
         if (!approach.committed && must_wait(approach, meeting, own, other, theirs)) {
           choice.stop = true;
+          choice.waits_for.push_back(other.id);
           if (i < first) {  // shared ground begins before the line
             choice.line_m = std::min(choice.line_m, in_m - kLineRoom_m);
           }
@@ -196,8 +241,13 @@ JunctionChoice choose_at_junction(const TrafficView& view, const Approach& appro
       }
     }
   }
+  choice.queues = approach.leader.gap_m < choice.line_m && approach.self->speed_mps < kStanding_mps &&
+                  approach.leader.actor->speed_mps < kStanding_mps;
+  const bool ends_it = !choice.queues && ends_deadlock(view, *approach.self, choice.waits_for);
+  choice.stop = ends_it ? choice.lets_go != kNoCar : choice.stop;
   const double end_m = after < way.size() ? way[after].start_m : way.back().start_m;
   choice.stop = choice.stop || (!approach.committed && no_room_behind(approach, end_m));
+  choice.goes_first = ends_it && !choice.stop;
   return choice;
 }
 

@@ -85,13 +85,13 @@ std::vector<WayPart> TrafficView::way_from(LaneId lane, double s_m, const RouteG
   return way;
 }
 
-Leader TrafficView::leader(const std::vector<WayPart>& way, int self, double length_m) const {
+Leader TrafficView::leader(const std::vector<WayPart>& way, int self, double length_m, int unseen) const {
   Leader nearest;
   const auto consider = [&](const Occupant& occupant, double start_m) {
     const Actor& actor = actors_[occupant.actor];
     const double ahead_m = start_m + occupant.s_m;
     const double gap_m = ahead_m - 0.5 * (length_m + actor.length_m);
-    if (actor.id != self && ahead_m > 0.0 && gap_m < nearest.gap_m) {
+    if (actor.id != self && actor.id != unseen && ahead_m > 0.0 && gap_m < nearest.gap_m) {
       nearest = {&actor, gap_m, false};
     }
   };
@@ -107,14 +107,14 @@ Leader TrafficView::leader(const std::vector<WayPart>& way, int self, double len
         }
       }
     }
-    merging_leader(part, self, inside, length_m, nearest);
+    merging_leader(part, self, unseen, inside, length_m, nearest);
   }
   return nearest;
 }
 
 /// Who is already inside the junction and reaches the common lane before us is followed at the distance he
 /// will have; but a driver inside a junction himself has no eyes for the ego coming from the side.
-void TrafficView::merging_leader(const WayPart& part, int self, bool inside, double length_m,
+void TrafficView::merging_leader(const WayPart& part, int self, int unseen, bool inside, double length_m,
                                  Leader& nearest) const {
   const double own_end_m = part.start_m + road_.lane(part.lane).centre.length_m();
   for (const Meeting& meeting : road_.meetings(part.lane)) {
@@ -122,8 +122,8 @@ void TrafficView::merging_leader(const WayPart& part, int self, bool inside, dou
       continue;
     }
     for (const Actor& actor : actors_) {
-      if (actor.id == self || actor.way.empty() || !road_.lane(actor.lane).in_junction ||
-          (inside && actor.id == 0)) {
+      if (actor.id == self || actor.id == unseen || actor.way.empty() ||
+          !road_.lane(actor.lane).in_junction || (inside && actor.id == 0)) {
         continue;
       }
       for (const WayPart& theirs : actor.way) {

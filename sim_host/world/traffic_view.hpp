@@ -10,6 +10,8 @@
 
 namespace s4tp::world {
 
+inline constexpr int kNoCar = -1;  ///< no car's id
+
 /// A lane of somebody's way; `start_m` is the distance from his box centre to its start (negative: behind).
 struct WayPart {
   LaneId lane = kNoLane;
@@ -24,11 +26,13 @@ struct Actor {
   double speed_mps = 0.0;
   double length_m = 5.0;
   const RouteGuide* guide = nullptr;
-  bool committed = false;     ///< to the junction ahead: has accepted a gap and cannot well stop any more
-  double waited_s = 0.0;      ///< standing near a stop line so far
-  int lets_go = -1;           ///< id of somebody waiting whom he lets go before himself
-  std::vector<WayPart> also;  ///< further lanes it is in now, changing or straying; `start_m` = -s there
-  std::vector<WayPart> way;   ///< filled in by TrafficView: from its lane onwards
+  bool committed = false;      ///< to the junction ahead: has accepted a gap and cannot well stop any more
+  double waited_s = 0.0;       ///< standing near a stop line so far
+  int lets_go = kNoCar;        ///< id of somebody waiting whom he lets go before himself
+  bool queues = false;         ///< stands behind somebody who stands before the junction
+  std::vector<int> waits_for;  ///< if he stands, it is for these
+  std::vector<WayPart> also;   ///< further lanes it is in now, changing or straying; `start_m` = -s there
+  std::vector<WayPart> way;    ///< filled in by TrafficView: from its lane onwards
 };
 
 /// A conflict as seen from one of its lanes.
@@ -85,7 +89,9 @@ class TrafficView {
   /// The way a car would take from a place.
   [[nodiscard]] std::vector<WayPart> way_from(LaneId lane, double s_m, const RouteGuide* guide) const;
   /// Nearest car ahead on a way, cars that have just turned off it and those merging into it included.
-  [[nodiscard]] Leader leader(const std::vector<WayPart>& way, int self, double length_m) const;
+  /// \param unseen  somebody who does not count
+  [[nodiscard]] Leader leader(const std::vector<WayPart>& way, int self, double length_m,
+                              int unseen = kNoCar) const;
   /// Nearest car behind a place of a lane and of what leads into it; `gap_m` as with a leader.
   [[nodiscard]] Leader follower(LaneId lane, double s_m, int self, double length_m) const;
 
@@ -97,7 +103,8 @@ class TrafficView {
   [[nodiscard]] const std::vector<Occupant>& occupants(LaneId lane) const {
     return occupants_[static_cast<std::size_t>(lane)];
   }
-  void merging_leader(const WayPart& part, int self, bool inside, double length_m, Leader& nearest) const;
+  void merging_leader(const WayPart& part, int self, int unseen, bool inside, double length_m,
+                      Leader& nearest) const;
 
   const RoadIndex& road_;
   std::vector<Actor> actors_;

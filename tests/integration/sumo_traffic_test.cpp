@@ -130,6 +130,25 @@ TEST(SumoTraffic, DrivesThePlansDrivers) {
   EXPECT_GE(most, 2U);
 }
 
+// SUMO says the lane of the front bumper, we that of the box centre: it lies within that lane.
+TEST(SumoTraffic, SaysTheLaneOfTheCentre) {
+  const Scenario scenario = shipped("left_turn");
+  SumoTraffic traffic(scenario, without_ego(3));
+  int in_junction = 0;
+  while (traffic.time_s() < 40.0 - 1e-6) {
+    advance(traffic, traffic.time_s() + 0.1);
+    for (const CarState& car : traffic.cars()) {
+      ASSERT_NE(car.lane, kNoLane);
+      const NetworkLane& lane = scenario.network.lanes[static_cast<std::size_t>(car.lane)];
+      const double s_m = lane.centre.project(car.centre).s_m;
+      EXPECT_GE(s_m, -0.01) << lane.name << " at " << traffic.time_s() << " s";
+      EXPECT_LE(s_m, lane.centre.length_m() + 0.5) << lane.name << " at " << traffic.time_s() << " s";
+      in_junction += lane.in_junction ? 1 : 0;
+    }
+  }
+  EXPECT_GT(in_junction, 20);
+}
+
 // Between two steps cars move evenly: no 10 ms step is longer than 20 m/s would make it.
 TEST(SumoTraffic, MovesSmoothlyBetweenSteps) {
   SumoTraffic traffic(shipped("merge"), without_ego(3));

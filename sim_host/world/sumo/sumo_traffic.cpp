@@ -263,9 +263,28 @@ void SumoTraffic::observe(Car& car, const traci::Variables& variables) {
   state.centre = ahead_of(state, -0.5 * state.length_m);
   state.yaw_rate_radps =
       car.known_before ? wrap_angle(state.heading_rad - car.before.heading_rad) / kStep_s : 0.0;
-  const auto lane = lane_of_.find(std::get<std::string>(variables.at(traci::kLaneId)));
-  state.lane = lane == lane_of_.end() ? kNoLane : lane->second;
+  follow_lanes(car, std::get<std::string>(variables.at(traci::kLaneId)));
   car.changing_lane = std::abs(real(traci::kLateralPosition)) > kBesideCentre_m;
+}
+
+/// SUMO says where the front bumper is; a car's lane is that of its box centre, here as everywhere.
+void SumoTraffic::follow_lanes(Car& car, const std::string& bumper_lane) const {
+  const auto known = lane_of_.find(bumper_lane);
+  if (known == lane_of_.end()) {
+    car.lanes.clear();
+    car.after.lane = kNoLane;
+    return;
+  }
+  if (car.lanes.empty() || car.lanes.back() != known->second) {
+    car.lanes.push_back(known->second);
+  }
+  const auto begun = [&](LaneId lane) {
+    return scenario_.network.lanes[static_cast<std::size_t>(lane)].centre.project(car.after.centre).s_m >=
+           0.0;
+  };
+  const auto centre = std::find_if(car.lanes.rbegin(), std::prev(car.lanes.rend()), begun);
+  car.lanes.erase(car.lanes.begin(), std::prev(centre.base()));
+  car.after.lane = car.lanes.front();
 }
 
 CarState SumoTraffic::between(const Car& car) const {

@@ -65,6 +65,7 @@ class SumoTraffic final : public TrafficEngine {
     bool known_before = false;
     bool arrived = false;  ///< within the step
     bool changing_lane = false;
+    std::vector<LaneId> lanes;  ///< its box is on: from the centre's to the one SUMO says, the bumper's
   };
 
   [[noreturn]] void fail(const traci::Error& error);
@@ -73,6 +74,7 @@ class SumoTraffic final : public TrafficEngine {
   void put_ego(const CarState& place);
   void enter_ego();
   void observe(Car& car, const traci::Variables& variables);
+  void follow_lanes(Car& car, const std::string& bumper_lane) const;
   [[nodiscard]] CarState between(const Car& car) const;
 
   const Scenario& scenario_;
