@@ -28,6 +28,8 @@ struct Command {
 
 [[nodiscard]] Command add_demo(CLI::App& tool);
 [[nodiscard]] Command add_eval(CLI::App& tool);
+/// A subcommand of eval.
+[[nodiscard]] Command add_eval_report(CLI::App& eval);
 [[nodiscard]] Command add_run(CLI::App& tool);
 [[nodiscard]] Command add_record(CLI::App& tool);
 [[nodiscard]] Command add_traffic(CLI::App& tool);

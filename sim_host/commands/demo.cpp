@@ -5,10 +5,12 @@
 #include <vector>
 
 #include "sim_host/campaign/episode_record.hpp"
+#include "sim_host/campaign/records.hpp"
 #include "sim_host/campaign/results.hpp"
 #include "sim_host/campaign/table.hpp"
 #include "sim_host/commands/command.hpp"
 #include "sim_host/view/episode_picture.hpp"
+#include "sim_host/view/failure_replays.hpp"
 #include "sim_host/view/report.hpp"
 
 namespace s4tp::commands {
@@ -95,7 +97,11 @@ int demo(const CommonOptions& common, int episodes) {
   nlohmann::ordered_json document = campaign::results_json(header, cells);
   document["episodes_planned"] = campaign.episodes();
   campaign::write_json(common.out / "results.json", document);
-  view::write_report(common.out, rows);
+  const campaign::Records records = campaign::records_of(header, rows);
+  view::ReplayOptions replaying;
+  replaying.scenario_root = common.scenario_root;
+  const view::Replays replays = view::write_failure_replays(records, replaying, common.out / "replays");
+  view::write_report({records, replays, "replays", {}}, common.out);
   std::cout << "\nreport: " << (common.out / "index.html").string()
             << "\nnumbers: " << (common.out / "results.json").string() << '\n';
   bool good = keeps_promises(cells);

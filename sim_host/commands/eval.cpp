@@ -11,6 +11,7 @@
 #include "sim_host/campaign/compare.hpp"
 #include "sim_host/campaign/episode_record.hpp"
 #include "sim_host/campaign/progress.hpp"
+#include "sim_host/campaign/records.hpp"
 #include "sim_host/campaign/results.hpp"
 #include "sim_host/campaign/table.hpp"
 #include "sim_host/commands/command.hpp"
@@ -68,11 +69,7 @@ void report(const ordered_json& header, const std::vector<campaign::EpisodeRow>&
   campaign::print_paired(std::cout, cells);
 
   const auto command = [&](const campaign::Cell& cell, std::uint64_t seed) {
-    std::string argument = cell.scenario;
-    for (const ordered_json& scenario : header.at("scenarios")) {
-      if (scenario.at("name") == cell.scenario) argument = scenario.at("argument").get<std::string>();
-    }
-    return campaign::replay_command(cell, argument, header.at("parameters"), seed);
+    return campaign::replay_command(header, cell, seed);
   };
   std::ostringstream failures;
   const std::size_t count = campaign::print_failures(failures, cells, kFailuresShown, command);
@@ -253,8 +250,10 @@ Command add_eval(CLI::App& tool) {
   comparing->add_option("--planner", compare_options->planner, "whose runs of the first (default: all)");
   comparing->add_option("--against", compare_options->against, "whose of the second (default: the same)");
 
+  const Command reporting = add_eval_report(*eval);
   eval->require_subcommand(0, 1);
   return {eval, [=] {
+            if (reporting.app->parsed()) return reporting.run();
             if (merging->parsed()) return merge(*merge_options);
             if (comparing->parsed()) return compare(*compare_options);
             return run_eval(*options);

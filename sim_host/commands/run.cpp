@@ -13,6 +13,7 @@
 #include "sim_host/processes/emulated_board.hpp"
 #include "sim_host/view/episode_picture.hpp"
 #include "sim_host/view/explanation_table.hpp"
+#include "sim_host/view/replay.hpp"
 #include "sim_host/view/report.hpp"
 
 namespace s4tp::commands {
@@ -59,11 +60,21 @@ int run_one(const RunOptions& run) {
       metrics::evaluate(result.recording)};
   campaign::write_json(run.common.out / "run.json", campaign::results_json(row));
 
+  const fs::path replay = run.common.out / "replay.html";
+  view::write_replay(
+      {scenario,
+       result,
+       row,
+       campaign::replay_command(row.cell, run.scenario, run.common.parameters_file, row.metrics.seed),
+       {}},
+      replay);
+
   campaign::print_episode(std::cout, row, result.recording);
   const fs::path reasons = fs::path(picture).replace_extension(".txt");
   std::ofstream explanations(reasons);
   view::print_explanations(explanations, *result.trace, -result.recording.snapshots.front().time_s);
-  std::cout << "picture: " << picture.string() << "\nreasons: " << reasons.string() << '\n';
+  std::cout << "picture: " << picture.string() << "\nreplay: " << replay.string()
+            << "\nreasons: " << reasons.string() << '\n';
   if (!run.log.empty()) std::cout << "bus log: " << run.log.string() << '\n';
   return result.recording.ending == world::Ending::kGoal ? 0 : kNotGoodEnough;
 }

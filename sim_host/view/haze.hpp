@@ -1,0 +1,30 @@
+#pragma once
+/// The driving risk fields of the cars around, summed: where they are about to be, as they feel it.
+
+#include <string>
+#include <vector>
+
+#include "algo/sadrf/field.hpp"
+#include "sim_host/world/recording.hpp"
+
+namespace s4tp::view {
+
+/// Of true states, so whoever drives the ego has one. Every car keeps its speed and its turn.
+class Haze {
+ public:
+  /// \param origin  near the cars, network coordinates
+  Haze(const std::vector<world::CarState>& cars, world::Vec2 origin);
+
+  /// How deep to paint a place: 0 nothing .. 1, the root of the risk so that faint parts show.
+  [[nodiscard]] double at(world::Vec2 point) const;
+
+  /// The same on a grid of square cells as text: row by row from the lowest, a letter a cell, "a" nothing to
+  /// "p" deepest, and before it how often it comes when that is more than once. Empty: nothing anywhere.
+  [[nodiscard]] std::string grid(world::Vec2 low, world::Vec2 high, double cell_m) const;
+
+ private:
+  world::Vec2 origin_;
+  std::vector<Field> fields_;
+};
+
+}  // namespace s4tp::view

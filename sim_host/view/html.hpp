@@ -1,0 +1,35 @@
+#pragma once
+/// Pages that open from disk: style and scripts are in them, and a policy by which the browser itself refuses
+/// to fetch anything.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace s4tp::view {
+
+/// Style and scripts, the bytes of the files of the same name beside this one.
+extern const char* const kPageCss;
+extern const char* const kReportJs;
+extern const char* const kReplayHtml;
+extern const char* const kReplaySceneJs;
+extern const char* const kReplayJs;
+
+/// For text and for attributes in double quotes.
+[[nodiscard]] std::string escaped(const std::string& text);
+
+/// As printf.
+[[nodiscard]] std::string format(const char* pattern, ...) __attribute__((format(printf, 1, 2)));
+
+struct Page {
+  std::string title;
+  std::string body;                  ///< HTML
+  std::string data;                  ///< JSON, for the scripts; may be empty
+  std::vector<const char*> scripts;  ///< run in this order, after the body
+};
+
+/// VIEW-002 Opened from disk the page asks the network for nothing and has no error on the console.
+/// \throws std::runtime_error when the file cannot be written
+void write_page(const Page& page, const std::filesystem::path& file);
+
+}  // namespace s4tp::view

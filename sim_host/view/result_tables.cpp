@@ -1,0 +1,156 @@
+#include "sim_host/view/result_tables.hpp"
+
+#include <algorithm>
+
+#include "sim_host/campaign/compare.hpp"
+#include "sim_host/metrics/paired.hpp"
+#include "sim_host/view/html.hpp"
+
+namespace s4tp::view {
+namespace {
+
+using campaign::Cell;
+using campaign::CellResult;
+using Words = std::vector<std::string>;
+
+std::string row(const Words& cells, const char* tag = "td") {
+  std::string html = "<tr>";
+  for (const std::string& cell : cells) html += std::string("<") + tag + ">" + cell + "</" + tag + ">";
+  return html + "</tr>\n";
+}
+
+std::string table(const std::string& id, const Words& head, const std::string& body) {
+  return "<div class=\"wide\"><table" + (id.empty() ? id : " class=\"" + id + "\"") + "><thead>" +
+         row(head, "th") + "</thead><tbody>\n" + body + "</tbody></table></div>\n";
+}
+
+std::string percent(double share) {
+  return format("%.1f", 100.0 * share);
+}
+
+/// "5.0 [2.2, 11.2]"
+std::string with_interval(const metrics::Rate& rate) {
+  return percent(rate.share) + " <small>[" + percent(rate.interval.low) + ", " + percent(rate.interval.high) +
+         "]</small>";
+}
+
+template <class Key>
+Words distinct(const Cells& cells, const Key& key) {
+  Words values;
+  for (const CellResult* const cell : cells) {
+    const std::string value = key(cell->cell);
+    if (std::find(values.begin(), values.end(), value) == values.end()) values.push_back(value);
+  }
+  return values;
+}
+
+std::string driver(const Cell& cell) {
+  return escaped(cell.planner) + ", " + guard_words(cell);
+}
+
+}  // namespace
+
+std::string guard_words(const Cell& cell) {
+  return cell.guarded ? "guarded" : "bare";
+}
+
+std::string competition_table(const Cells& cells) {
+  const Words scenarios = distinct(cells, [](const Cell& cell) { return cell.scenario; });
+  Words head{"driver"};
+  for (const std::string& scenario : scenarios) head.push_back(escaped(scenario));
+  head.emplace_back("all: success %");
+  std::string body;
+  for (const std::string& who : distinct(cells, driver)) {
+    Words line{who};
+    int goals = 0;
+    int episodes = 0;
+    for (const std::string& scenario : scenarios) {
+      const auto one = std::find_if(cells.begin(), cells.end(), [&](const CellResult* cell) {
+        return driver(cell->cell) == who && cell->cell.scenario == scenario;
+      });
+      if (one == cells.end()) {
+        line.emplace_back("–");
+        continue;
+      }
+      const metrics::Summary& s = (*one)->summary;
+      goals += s.success.count;
+      episodes += s.episodes;
+      line.push_back(
+          format("<b>%.1f</b> / %.1f / %.3g", 100.0 * s.comp1_success, s.comp1_time, s.comp1_humanness));
+    }
+    line.push_back(format("<b>%.1f</b>", 100.0 * goals / std::max(episodes, 1)));
+    body += row(line);
+  }
+  return table("competition", head, body);
+}
+
+std::string outcome_table(const std::vector<const campaign::ReportedCell*>& cells) {
+  std::string body;
+  for (const campaign::ReportedCell* const cell : cells) {
+    const CellResult& result = cell->result;
+    const metrics::Summary& s = result.summary;
+    Words line{escaped(result.cell.scenario), escaped(result.cell.planner), guard_words(result.cell),
+               format("%d of %zu", s.episodes, cell->planned)};
+    if (s.episodes > 0) {
+      line.insert(
+          line.end(),
+          {"<b>" + percent(s.success.share) + "</b>",
+           percent(s.success.interval.low) + " – " + percent(s.success.interval.high),
+           with_interval(s.collision), with_interval(s.at_fault), with_interval(s.off_road),
+           with_interval(s.time_out), percent(s.dead_ecu.share),
+           s.success.count > 0 ? format("%.2f", s.seconds_to_goal) : "–", format("%.2f", s.min_ttc_s_p05),
+           format("%.2f", s.min_gap_m), format("%.2f", s.near_misses), format("%.2f", s.mean_abs_jerk_mps3),
+           format("%.2f", s.hardest_braking_mps2), percent(s.rss_violation_share), percent(s.comp1_success),
+           format("%.1f", s.comp1_time), format("%.3g", s.comp1_humanness)});
+    }
+    body += row(line);
+  }
+  return table("outcomes",
+               {"scenario",
+                "planner",
+                "guard",
+                "episodes done",
+                "goal<br>%",
+                "95 % interval<br>%",
+                "collisions<br>%",
+                "through our fault<br>%",
+                "off road<br>%",
+                "time-out<br>%",
+                "silent ECU<br>%",
+                "to goal, mean<br>s",
+                "min. TTC, p05<br>s",
+                "smallest gap<br>m",
+                "near misses<br>an episode",
+                "mean |jerk|<br>m/s³",
+                "hardest braking<br>m/s²",
+                "nearer than RSS<br>% of time",
+                "competition:<br>success %",
+                "time<br>0.1 s + m",
+                "human-<br>ness"},
+               body);
+}
+
+std::string paired_table(const Cells& cells) {
+  std::vector<campaign::Outcomes> outcomes;
+  for (const CellResult* const cell : cells) outcomes.push_back(campaign::outcomes_of(*cell));
+  std::string body;
+  for (const std::string& other : distinct(cells, [](const Cell& cell) { return cell.planner; })) {
+    if (other == "s4tp") continue;
+    for (const auto& [name, paired] : campaign::pair_up(outcomes, "s4tp", outcomes, other)) {
+      const char* const verdict = metrics::first_is_better(paired)     ? "better"
+                                  : metrics::first_is_no_worse(paired) ? "no worse"
+                                                                       : "open";
+      body += row({escaped(name), escaped(other), std::to_string(paired.pairs),
+                   std::to_string(paired.only_first_fails), std::to_string(paired.only_second_fails),
+                   format("%.4f", metrics::mcnemar_p(paired)),
+                   format("%+.2f", 100.0 * metrics::difference_upper(paired)), verdict});
+    }
+  }
+  if (body.empty()) return {};
+  return table("paired",
+               {"s4tp", "beside", "same episodes", "only s4tp fails", "only the other fails", "McNemar p",
+                "upper bound<br>of the difference, %", "s4tp is"},
+               body);
+}
+
+}  // namespace s4tp::view
