@@ -26,7 +26,6 @@ float look_ahead_at(float look_ahead_s, bool shrinks, float t_s) {
 
 Field prepare_field(const FieldParams& params, Point rear_axle, Point ahead, float speed_mps,
                     float curvature_1pm, float steering_rad) {
-  constexpr float kShortestLookAheadM = 1.0F;
   const float steering = abs(steering_rad);
   const float inner = params.widening + params.widening_inner * steering;
   const float outer = params.widening + params.widening_outer * steering;

@@ -46,6 +46,8 @@ struct Field {
 /// Beyond this many sigma the field counts as nothing when boxes are integrated: exp(-8) = 0.0003.
 inline constexpr float kFieldReach = 4.0F;
 
+inline constexpr float kShortestLookAheadM = 1.0F;
+
 /// Presets of METHOD section 3; c = width / 4.
 [[nodiscard]] FieldParams paper_preset(float vehicle_width_m);
 [[nodiscard]] FieldParams kolekar2020_preset(float vehicle_width_m);

@@ -3,6 +3,7 @@
 #include "algo/core/check.hpp"
 #include "algo/core/inline.hpp"
 #include "algo/sadrf/box_integral.hpp"
+#include "algo/sadrf/cost_map.hpp"
 #include "algo/sadrf/field.hpp"
 #include "algo/sadrf/futures.hpp"
 #include "algo/sadrf/others_motion.hpp"
@@ -27,13 +28,25 @@ void add_field(const Scene& scene, const Field& field, float weight, int row, fl
   }
 }
 
-bool on_vehicle(const Scene& scene, Point point) {
-  for (const Agent& agent : scene.agents) {
-    const Point local = to_local(agent.track.centre, point);
-    if (abs(local.x_m) <= 0.5F * agent.track.length_m && abs(local.y_m) <= 0.5F * agent.track.width_m)
-      return true;
+/// True when vehicles cover half of the cell or more: 4 x 4 sub-samples.
+bool on_vehicle(const CostBoxes& vehicles, const Pose& cell) {
+  constexpr float kReachM = 2.0F;
+  for (const CostBox& one : vehicles) {
+    const float near_m = kReachM + 0.5F * (one.box.length_m + one.box.width_m);
+    if (distance(position(one.box.centre), position(cell)) > near_m) continue;
+    return obstacle_cost(vehicles, cell, 1.0F) >= 0.5F;
   }
   return false;
+}
+
+CostBoxes vehicles_now(const Scene& scene) {
+  CostBoxes boxes;
+  for (int i = 0; i < scene.agents.size(); ++i) {
+    const Track& track = scene.agents[i].track;
+    const Box box = {track.centre, track.length_m, track.width_m};
+    if (!boxes.push({box, direction(track.centre.heading_rad), 1.0F, i})) break;
+  }
+  return boxes;
 }
 
 }  // namespace
@@ -55,8 +68,10 @@ void heat_row(const Scene& scene, const DrivableArea& area, const PredictionSet&
       add_field(scene, field, seconds * future.probability, row, sums);
     }
   }
+  const CostBoxes vehicles = vehicles_now(scene);
   for (int column = 0; column < kHeatColumns; ++column) {
     const Point centre = cell_centre(scene, row, column);
+    const Pose cell = {centre.x_m, centre.y_m, scene.ego.rear_axle.heading_rad};
     const float part = sqrt(min(sums[column] / kHeatFullScale, 1.0F));
     std::uint8_t level = static_cast<std::uint8_t>(to_int(part * float{kHeatHighest}, 0, kHeatHighest));
     if (level == 0 && area.map != nullptr) {
@@ -64,7 +79,7 @@ void heat_row(const Scene& scene, const DrivableArea& area, const PredictionSet&
       if (ground == Ground::kOffRoad) level = kHeatOffRoad;
       if (ground == Ground::kOpposite) level = kHeatOpposite;
     }
-    map.cells[row][column] = on_vehicle(scene, centre) ? kHeatVehicle : level;
+    map.cells[row][column] = on_vehicle(vehicles, cell) ? kHeatVehicle : level;
   }
 }
 

@@ -37,9 +37,9 @@ struct HeatMap {
   std::uint8_t cells[kHeatRows][kHeatColumns] = {};
 };
 
-/// CORE-064 One row, so that idle time can be left after each: vehicles over risk over ground.
-/// \pre 0 <= row < kHeatRows
-/// Work: kHeatColumns * (kMaxAgents * kMaxModes + kMaxTracks) * 10 points of a field at most.
+/// CORE-064 One row, so that idle time can be left after each: vehicles (where they cover half a cell) over
+/// risk over ground. \pre 0 <= row < kHeatRows Work: kHeatColumns * (kMaxAgents * kMaxModes + kMaxTracks) *
+/// 10 points of a field at most.
 void heat_row(const Scene& scene, const DrivableArea& area, const PredictionSet& prediction,
               const KinematicSet& others, const Parameters& parameters, int row, HeatMap& map);
 

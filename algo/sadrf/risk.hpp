@@ -6,6 +6,7 @@
 
 #include "algo/core/parameters.hpp"
 #include "algo/core/trajectory.hpp"
+#include "algo/sadrf/box_slices.hpp"
 #include "algo/sadrf/drivable.hpp"
 #include "algo/satp/prediction.hpp"
 #include "algo/scene/scene.hpp"
@@ -37,5 +38,15 @@ void exact_risk(const Scene& scene, const DrivableArea& area, const PredictionSe
 [[nodiscard]] float rank_risk(const Scene& scene, const DrivableArea& area, const PredictionSet& prediction,
                               const KinematicSet& others, const Trajectory& trajectory,
                               const Parameters& parameters);
+
+/// CORE-070 How each step's share of risk_integral (over dt, without the road part) changes with the
+/// trajectory's point there: both sides, the excess over C_t, all modes. Steps `first`, `first` + `stride`,
+/// ... are written. The road part follows the whole path and has no slope of one point. \param slopes  index
+/// i: point i + 1; by curvature instead of the road-wheel angle: times
+///                L / (1 + (L kappa)^2)
+/// Work: about 6,000 instructions a box in reach.
+void risk_slopes(const Scene& scene, const PredictionSet& prediction, const KinematicSet& others,
+                 const Trajectory& trajectory, const Parameters& parameters, int first, int stride,
+                 FieldGradient (&slopes)[kHorizonSteps]);
 
 }  // namespace s4tp

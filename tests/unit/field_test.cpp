@@ -10,6 +10,7 @@
 #include "algo/core/math.hpp"
 #include "algo/sadrf/box_integral.hpp"
 #include "algo/sadrf/others_motion.hpp"
+#include "tests/support/risk_scenes.hpp"
 
 namespace s4tp {
 namespace {
@@ -41,61 +42,15 @@ double by_the_circle(const FieldParams& params, const DriverState& driver, doubl
   return params.steepness * (s - look_ahead) * (s - look_ahead) * std::exp(-e * e / (2.0 * sigma * sigma));
 }
 
-/// Exact in the limit: the mean of field_at over fine cells of the box.
-double on_a_grid(const Field& field, const Box& box, double cell_m) {
-  const int n = static_cast<int>(std::ceil(box.length_m / cell_m));
-  const int m = static_cast<int>(std::ceil(box.width_m / cell_m));
-  double sum = 0.0;
-  for (int i = 0; i < n; ++i) {
-    for (int j = 0; j < m; ++j) {
-      const double ahead = ((i + 0.5) / n - 0.5) * box.length_m;
-      const double left = ((j + 0.5) / m - 0.5) * box.width_m;
-      sum += field_at(field, offset_point(box.centre, static_cast<float>(ahead), static_cast<float>(left)));
-    }
-  }
-  return sum * box.length_m * box.width_m / (n * m);
-}
-
-/// A driver in a turn he can hold, and the box of a car somewhere along his path.
-struct Case {
-  Field field;
-  Box box;
-};
-
-Case random_case(std::mt19937& random, float heading_spread_rad, float heading_offset_rad) {
-  std::uniform_real_distribution<float> unit(0.0F, 1.0F);
-  const float speed = 3.0F + 13.0F * unit(random);
-  const float sharpest = std::min(0.5F, std::atan(2.9F * 3.0F / (speed * speed)));
-  FieldParams params = unit(random) < 0.5F ? paper_preset(1.8F) : kolekar2020_preset(1.8F);
-  params.look_ahead_s = 1.0F + 2.5F * unit(random);
-  const DriverState driver = {{30.0F * unit(random), -20.0F * unit(random), 6.0F * unit(random) - 3.0F},
-                              speed,
-                              (2.0F * unit(random) - 1.0F) * sharpest,
-                              2.9F};
-  const Field field = prepare_field(params, driver);
-  const float s = field.look_ahead_m * unit(random);
-  const float e = 8.0F * (unit(random) - 0.5F);
-  const float kappa = field.curvature_1pm;
-  const float turned = kappa * s;
-  const float x = std::fabs(kappa) < 1e-4F ? s : std::sin(turned) / kappa;
-  const float y = std::fabs(kappa) < 1e-4F ? 0.0F : (1.0F - std::cos(turned)) / kappa;
-  const Point at = offset_point(driver.rear_axle, x - e * std::sin(turned), y + e * std::cos(turned));
-  const float heading = driver.rear_axle.heading_rad + turned + heading_offset_rad +
-                        heading_spread_rad * (2.0F * unit(random) - 1.0F);
-  return {field,
-          {{at.x_m, at.y_m, wrap_angle(heading)}, 4.0F + 1.5F * unit(random), 1.7F + 0.4F * unit(random)}};
-}
-
 /// Relative errors of the box integral on boxes that matter, sorted.
 std::vector<double> box_errors(float heading_spread_rad, float heading_offset_rad) {
   std::mt19937 random(3);
   std::vector<double> errors;
   while (errors.size() < 400) {
-    const Case one = random_case(random, heading_spread_rad, heading_offset_rad);
-    const double exact = on_a_grid(one.field, one.box, 0.08);
-    const double largest = one.field.steepness * one.field.look_ahead_m * one.field.look_ahead_m;
-    if (exact < 1e-3 * largest * one.box.length_m * one.box.width_m) continue;
-    errors.push_back(std::fabs(field_over_box(one.field, one.box) - exact) / exact);
+    const test::FieldAndBox one = test::random_field_and_box(random, heading_spread_rad, heading_offset_rad);
+    const double exact = test::exact_over_box(one.field(), one.box, 0.08);
+    if (exact < 1e-3 * one.highest()) continue;
+    errors.push_back(std::fabs(field_over_box(one.field(), one.box) - exact) / exact);
   }
   std::sort(errors.begin(), errors.end());
   return errors;
@@ -174,6 +129,40 @@ TEST(Field, AgreesWithTheCircle) {
   }
 }
 
+// A tight turn: 0.5 rad at 2.9 m is kappa = tan(0.5) / 2.9 = 0.18838, radius 5.3084 m; a quarter of a turn
+// ends at (5.3084, 5.3084) after s = 5.3084 pi / 2 = 8.3384 m. At 5 m/s and 3.5 s: 0.0064 (17.5 - 8.3384)^2 =
+// 0.5372; straight ahead of the car, 8.3384 m away, the path has long left: e = -(sqrt(8.3384^2 + 5.3084^2) -
+// 5.3084) = -4.576.
+TEST(Field, FollowsATightTurn) {
+  const DriverState driver = driving(5.0F, 0.5F);
+  EXPECT_NEAR(field_at(kPaper, driver, {5.3084F, 5.3084F}), 0.5372F, 1e-3F);
+  const float angle = std::atan2(8.3384F, 5.3084F);
+  const float s = 5.3084F * angle;
+  const float sigma = (0.05F + 1.38F * 0.5F) * s + 0.5F;
+  const float expected =
+      0.0064F * (17.5F - s) * (17.5F - s) * std::exp(-0.5F * 4.576F * 4.576F / sigma / sigma);
+  EXPECT_NEAR(field_at(kPaper, driver, {8.3384F, 0.0F}), expected, 1e-3F);
+}
+
+// The path of a car that looks further than half a circle ends there: atan(0.1 * 2.9) makes the radius 10 m,
+// so that (0, 20) is the far side, s = 10 pi = 31.416 m. At 12 m/s (42 m): 0.0064 (42 - 31.416)^2 = 0.7169
+// just before it; just behind it, where atan2 jumps from pi to -pi, nothing.
+TEST(Field, WrapsBehindTheCar) {
+  const DriverState driver = driving(12.0F, std::atan(0.29F));
+  EXPECT_NEAR(field_at(kPaper, driver, {0.01F, 20.0F}), 0.7169F, 2e-3F);
+  EXPECT_EQ(field_at(kPaper, driver, {-0.01F, 20.0F}), 0.0F);
+  const DriverState mirrored = driving(12.0F, -std::atan(0.29F));
+  EXPECT_NEAR(field_at(kPaper, mirrored, {0.01F, -20.0F}), 0.7169F, 2e-3F);
+  EXPECT_EQ(field_at(kPaper, mirrored, {-0.01F, -20.0F}), 0.0F);
+}
+
+// Standing with the wheel turned, too, the field reaches 1 m: 0.0064 (1 - 0.5)^2 = 0.0016 half-way.
+TEST(Field, StandingWithTheWheelTurned) {
+  const float kappa = std::tan(0.4F) / 2.9F;
+  const Point half_way = {std::sin(0.5F * kappa) / kappa, (1.0F - std::cos(0.5F * kappa)) / kappa};
+  EXPECT_NEAR(field_at(kPaper, driving(0.0F, 0.4F), half_way), 0.0016F, 1e-6F);
+}
+
 // Steering through straight ahead changes the field smoothly: 1e-6 rad more changes no more than a
 // thousandth.
 TEST(Field, IsSmoothThroughStraightDriving) {
@@ -219,42 +208,15 @@ TEST(BoxIntegral, OutOfReachMeansNothing) {
   std::uniform_real_distribution<float> metres(-60.0F, 60.0F);
   int out = 0;
   for (int i = 0; i < 3000; ++i) {
-    Case one = random_case(random, kPi, 0.0F);
+    test::FieldAndBox one = test::random_field_and_box(random, kPi, 0.0F);
+    const Field field = one.field();
     one.box.centre.x_m += metres(random);
     one.box.centre.y_m += metres(random);
-    if (!out_of_reach(one.field, position(one.box.centre), 0.5F * (one.box.length_m + one.box.width_m)))
-      continue;
+    if (!out_of_reach(field, position(one.box.centre), 0.5F * (one.box.length_m + one.box.width_m))) continue;
     ++out;
-    const double largest = one.field.steepness * one.field.look_ahead_m * one.field.look_ahead_m *
-                           one.box.length_m * one.box.width_m;
-    ASSERT_LE(on_a_grid(one.field, one.box, 0.25), 4e-4 * largest);
+    ASSERT_LE(test::exact_over_box(field, one.box, 0.25), 4e-4 * one.highest());
   }
   EXPECT_GT(out, 1000);
-}
-
-// METHOD: against the exact integral the error of a grid falls as its cell halves; at 0.25 m the median is
-// within 1 % and p95 within 3 %. The grid is the oracle of the tests above.
-TEST(BoxIntegral, GridErrorFallsAsCellsHalve) {
-  std::vector<double> medians;
-  double p95 = 0.0;
-  for (const double cell_m : {1.0, 0.5, 0.25}) {
-    std::mt19937 random(23);
-    std::vector<double> errors;
-    while (errors.size() < 200) {
-      const Case one = random_case(random, kPi, 0.0F);
-      const double exact = on_a_grid(one.field, one.box, 0.05);
-      const double largest = one.field.steepness * one.field.look_ahead_m * one.field.look_ahead_m;
-      if (exact < 1e-3 * largest * one.box.length_m * one.box.width_m) continue;
-      errors.push_back(std::fabs(on_a_grid(one.field, one.box, cell_m) - exact) / exact);
-    }
-    std::sort(errors.begin(), errors.end());
-    medians.push_back(errors[errors.size() / 2]);
-    p95 = errors[errors.size() * 95 / 100];
-  }
-  EXPECT_LT(medians[1], 0.6 * medians[0]);
-  EXPECT_LT(medians[2], 0.6 * medians[1]);
-  EXPECT_LE(medians[2], 0.01);
-  EXPECT_LE(p95, 0.03);
 }
 
 // A car turning at 10 m/s with 0.05 /m moves 3 m in 0.3 s and turns 0.15 rad; the sharpest curvature is 0.2

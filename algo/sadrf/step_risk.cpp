@@ -1,0 +1,220 @@
+#include "algo/sadrf/step_risk.hpp"
+
+#include "algo/core/inline.hpp"
+#include "algo/sadrf/box_integral.hpp"
+#include "algo/sadrf/others_motion.hpp"
+
+namespace s4tp {
+namespace {
+
+/// Below, a fifth of a risk off (the worst of two lines) is nothing beside a threshold of many thousands.
+constexpr float kWorthSlices = 200.0F;
+constexpr float kWorthSlope = 1.0F;
+
+float radius(float length_m, float width_m) {
+  return 0.5F * (length_m + width_m);
+}
+
+float risk_of_box(const Field& field, const Box& box, float cost, Precision precision) {
+  const float risk = cost * field_over_box(field, box);
+  if (precision == Precision::kLines || risk < kWorthSlices) return risk;
+  return cost * field_over_slices(field, box);
+}
+
+/// Our driver at step `step` + 1.
+struct Driver {
+  FieldParams params;
+  Field field;
+  float steering_rad;
+  Box box;
+};
+
+Driver driver_at(const StepInputs& inputs, int step) {
+  const auto& vehicle = inputs.parameters.vehicle;
+  const TrajectoryPoint& point = inputs.trajectory.points[step + 1];
+  Driver driver;
+  driver.params = field_params(inputs.parameters, vehicle.width_m);
+  driver.params.look_ahead_s =
+      look_ahead_at(inputs.parameters.risk.look_ahead_s, inputs.parameters.risk.look_ahead_shrinks > 0.5F,
+                    static_cast<float>(step + 1) * kStepS);
+  const Point ahead = direction(point.rear_axle.heading_rad);
+  driver.steering_rad = atan(vehicle.wheelbase_m * point.curvature_1pm);
+  driver.field = prepare_field(driver.params, position(point.rear_axle), ahead, point.speed_mps,
+                               point.curvature_1pm, driver.steering_rad);
+  const Point centre =
+      position(point.rear_axle) + (0.5F * vehicle.length_m - vehicle.rear_overhang_m) * ahead;
+  driver.box = {{centre.x_m, centre.y_m, point.rear_axle.heading_rad}, vehicle.length_m, vehicle.width_m};
+  return driver;
+}
+
+/// What part of a box's risk is its own: M is the largest of any vehicle's, so that a vehicle pays only for
+/// what it adds to those before it. 4 x 4 sub-samples, weighted by the field.
+float own_part(const Field& field, const CostBoxes& felt, int index) {
+  const CostBox& one = felt[index];
+  const float reach_m = radius(one.box.length_m, one.box.width_m);
+  bool alone = true;
+  for (int i = 0; i < index && alone; ++i) {
+    const CostBox& other = felt[i];
+    if (other.agent == one.agent) continue;
+    const float both_m = reach_m + radius(other.box.length_m, other.box.width_m);
+    const Point offset = position(other.box.centre) - position(one.box.centre);
+    alone = dot(offset, offset) > square(both_m) || separation(one.box, other.box) > 0.0F;
+  }
+  if (alone) return 1.0F;
+  constexpr int kSamples = 4;
+  float own = 0.0F;
+  float whole = 0.0F;
+  for (int i = 0; i < kSamples * kSamples; ++i) {
+    const int row = i / kSamples;
+    const float ahead = (static_cast<float>(i % kSamples) + 0.5F) / static_cast<float>(kSamples) - 0.5F;
+    const float left = (static_cast<float>(row) + 0.5F) / static_cast<float>(kSamples) - 0.5F;
+    const Point to_left = {-one.ahead.y_m, one.ahead.x_m};
+    const Point point = position(one.box.centre) + (ahead * one.box.length_m) * one.ahead +
+                        (left * one.box.width_m) * to_left;
+    const float weight = field_at(field, point);
+    if (weight <= 0.0F) continue;
+    float before = 0.0F;
+    int agent = -1;
+    for (int j = 0; j < index; ++j) {
+      if (felt[j].agent == one.agent || felt[j].agent == agent) continue;
+      agent = felt[j].agent;
+      before = max(before, cost_of(felt, agent, point));
+    }
+    const float mine = cost_of(felt, one.agent, point);
+    whole += weight;
+    own += weight * max(mine - before, 0.0F) / max(mine, 1e-6F);
+  }
+  return whole > 0.0F ? own / whole : 1.0F;
+}
+
+/// R_ego of the vehicles: our field over their boxes. Calls each(field, box, part of it that counts, risk).
+template <typename Each>
+void for_felt(const StepInputs& inputs, const Field& field, int step, CostBoxes& felt, const Each& each) {
+  felt.clear();
+  float risks[CostBoxes::kCapacity];
+  for (const Future& future : inputs.futures) {
+    const Track& track = inputs.scene.agents[future.agent].track;
+    const Pose& centre = future.mode->steps[step];
+    if (out_of_reach(field, position(centre), radius(track.length_m, track.width_m))) continue;
+    const Box box = {centre, track.length_m, track.width_m};
+    const float cost =
+        inputs.parameters.risk.cost_obstacle * future.probability * inputs.modulation[future.agent];
+    const float risk = risk_of_box(field, box, cost, inputs.precision);
+    if (risk <= 0.0F) continue;
+    risks[felt.size()] = risk;
+    if (!felt.push({box, direction(centre.heading_rad), cost, future.agent})) break;
+  }
+  for (int i = 0; i < felt.size(); ++i) each(felt[i], own_part(field, felt, i), risks[i]);
+}
+
+/// True when we are surely behind a driver or further away than he looks: found from where he is and has come
+/// to in `moved`, without a root.
+bool unseen(Point moved, float look_ahead_per_moved, Point towards_us, float margin_m) {
+  const float moved_squared = dot(moved, moved);
+  const float distance_squared = dot(towards_us, towards_us);
+  const float margin_squared = margin_m * margin_m;
+  // (a + b)^2 <= 2 (a^2 + b^2)
+  const float reach_squared = look_ahead_per_moved * look_ahead_per_moved * moved_squared + margin_squared;
+  if (distance_squared > 2.0F * reach_squared) return true;
+  constexpr float kTellsHeading = 0.09F;  // m^2: slower, and the motion does not tell the heading
+  if (moved_squared < kTellsHeading) return false;
+  // The motion of the box centre differs from the heading by 0.3 x length x kappa, a quarter of a radian or
+  // so: what lies more than 108 degrees away from it is behind.
+  const float ahead = dot(moved, towards_us);
+  if (ahead >= 0.0F) return false;
+  const float ahead_squared = ahead * ahead;
+  return ahead_squared > margin_squared * moved_squared &&
+         ahead_squared > 0.1F * distance_squared * moved_squared;
+}
+
+/// R_soc: their fields over our box. Calls each(future, their field, how it was made, cost).
+template <typename Each>
+void for_feeling(const StepInputs& inputs, const Box& ego, float look_ahead_s, int step, const Each& each) {
+  const float ego_radius_m = radius(ego.length_m, ego.width_m);
+  FieldParams params = field_params(inputs.parameters, ego.width_m);
+  params.look_ahead_s = look_ahead_s;
+  for (const Future& future : inputs.futures) {
+    const Track& track = inputs.scene.agents[future.agent].track;
+    const Pose& centre = future.mode->steps[step];
+    const float margin_m = ego_radius_m + track.length_m + 1.0F;
+    if (unseen(moved_at(*future.mode, step), look_ahead_s / kMotionWindowS,
+               position(ego.centre) - position(centre), margin_m)) {
+      continue;
+    }
+    const Motion motion = motion_at(*future.mode, step);
+    params.base_width_m = 0.25F * track.width_m;
+    const Field field = field_of_other(params, centre, motion, track.length_m);
+    if (out_of_reach(field, position(ego.centre), ego_radius_m)) continue;
+    each(future, field, inputs.parameters.risk.cost_obstacle * future.probability);
+  }
+}
+
+void add(const FieldGradient& from, float weight, FieldGradient& to) {
+  to.x += weight * from.x;
+  to.y += weight * from.y;
+  to.heading += weight * from.heading;
+  to.speed += weight * from.speed;
+  to.steering += weight * from.steering;
+}
+
+/// To move a box in a field is to move the field the other way; our box turns about our rear axle.
+FieldGradient by_the_box(const FieldGradient& by_field, Point field_origin, Point axle) {
+  const Point arm = field_origin - axle;
+  return {-by_field.x, -by_field.y, -(by_field.heading - by_field.x * arm.y_m + by_field.y * arm.x_m), 0.0F,
+          0.0F};
+}
+
+}  // namespace
+
+StepInputs step_inputs(const Scene& scene, const Futures& futures, const Trajectory& trajectory,
+                       const Parameters& parameters, Precision precision) {
+  StepInputs inputs = {scene, futures, trajectory, parameters, precision, {}};
+  for (int i = 0; i < scene.agents.size(); ++i) {
+    inputs.modulation[i] = modulation(scene.ego, scene.agents[i].track, parameters);
+  }
+  return inputs;
+}
+
+StepRisk risk_at(const StepInputs& inputs, int step, CostBoxes& felt) {
+  const Driver driver = driver_at(inputs, step);
+  StepRisk risk;
+  for_felt(inputs, driver.field, step, felt, [&](const CostBox& one, float part, float whole) {
+    risk.obstacle += part * whole;
+    risk.share[one.agent] += part * whole;
+  });
+  for_feeling(inputs, driver.box, driver.params.look_ahead_s, step,
+              [&](const Future& future, const Field& field, float cost) {
+                const float value = risk_of_box(field, driver.box, cost, inputs.precision);
+                risk.social += value;
+                risk.share[future.agent] += inputs.parameters.risk.weight_social * value;
+              });
+  return risk;
+}
+
+StepSlope slope_at(const StepInputs& inputs, int step, CostBoxes& felt) {
+  const Driver driver = driver_at(inputs, step);
+  const TrajectoryPoint& point = inputs.trajectory.points[step + 1];
+  const FieldSlopes slopes = field_slopes(driver.params, point.speed_mps, point.curvature_1pm,
+                                          driver.steering_rad, inputs.parameters.vehicle.wheelbase_m);
+  StepSlope slope;
+  for_felt(inputs, driver.field, step, felt, [&](const CostBox& one, float part, float whole) {
+    if (whole < kWorthSlope) {
+      slope.obstacle_risk += part * whole;
+      return;
+    }
+    FieldGradient gradient;
+    slope.obstacle_risk += part * one.cost * field_over_slices(driver.field, one.box, slopes, gradient);
+    add(gradient, part * one.cost, slope.obstacle);
+  });
+  for_feeling(inputs, driver.box, driver.params.look_ahead_s, step,
+              [&](const Future&, const Field& field, float cost) {
+                FieldGradient gradient;
+                const float value = cost * field_over_slices(field, driver.box, {}, gradient);
+                slope.social_risk += value;
+                if (value < kWorthSlope) return;
+                add(by_the_box(gradient, field.origin, position(point.rear_axle)), cost, slope.social);
+              });
+  return slope;
+}
+
+}  // namespace s4tp

@@ -1,0 +1,54 @@
+#pragma once
+/// The risk of one instant of a trajectory: our field on their boxes, their fields on ours.
+
+#include "algo/core/parameters.hpp"
+#include "algo/core/trajectory.hpp"
+#include "algo/sadrf/box_slices.hpp"
+#include "algo/sadrf/cost_map.hpp"
+#include "algo/sadrf/futures.hpp"
+
+namespace s4tp {
+
+/// How well a field is integrated over a box.
+enum class Precision : std::uint8_t {
+  kLines,   ///< two lines: for ranking
+  kSlices,  ///< slices where it matters
+};
+
+/// What all steps of one trajectory share.
+struct StepInputs {
+  const Scene& scene;
+  const Futures& futures;
+  const Trajectory& trajectory;
+  const Parameters& parameters;
+  Precision precision;
+  float modulation[kMaxTracks];  ///< g of each agent
+};
+
+[[nodiscard]] StepInputs step_inputs(const Scene& scene, const Futures& futures, const Trajectory& trajectory,
+                                     const Parameters& parameters, Precision precision);
+
+struct StepRisk {
+  float obstacle = 0.0F;         ///< R_ego of the vehicles
+  float social = 0.0F;           ///< R_soc, unweighted
+  float share[kMaxTracks] = {};  ///< per agent, both sides weighted as in the sum
+};
+
+/// Both sides at step `step` + 1 of the trajectory.
+/// \param felt  scratch, too large to be made anew at every step
+[[nodiscard]] StepRisk risk_at(const StepInputs& inputs, int step, CostBoxes& felt);
+
+/// Derivatives of both parts by x, y, heading, speed and road-wheel angle of the trajectory's point; R_soc
+/// knows neither speed nor steering of ours.
+struct StepSlope {
+  float obstacle_risk = 0.0F;
+  float social_risk = 0.0F;
+  FieldGradient obstacle = {};
+  FieldGradient social = {};
+};
+
+/// CORE-069 Values and slopes at step `step` + 1; what covers what counts as fixed. Boxes whose risk is below
+/// 1 have no slope. Work: about 6,000 instructions a box in reach.
+[[nodiscard]] StepSlope slope_at(const StepInputs& inputs, int step, CostBoxes& felt);
+
+}  // namespace s4tp
