@@ -25,7 +25,7 @@ TEST_P(EmptyRoad, IsDrivenToTheGoal) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Baselines, EmptyRoad, testing::Values("static_drf"),
+INSTANTIATE_TEST_SUITE_P(Baselines, EmptyRoad, testing::Values("static_drf", "idm_lane"),
                          [](const auto& planner) { return std::string(planner.param); });
 
 }  // namespace

@@ -1,0 +1,100 @@
+#pragma once
+/// A plain driver, as traffic simulations have them: keeps to the lane, follows by the intelligent driver
+/// model, accepts gaps at junctions and for the lane changes the route needs. No prediction beyond "keeps his
+/// speed", no risk, no score.
+///
+/// \code
+///   scene -> lane: own, or the one beside when the route needs it, or it gains much, and the gap is accepted
+///         -> free motion along it -> first conflict zone whose gap is refused: stop before it
+///         -> IDM on what asks for most: leader, stop, road end -> 3 s along the lane's centre line
+/// \endcode
+/// Sources: IDM: Treiber et al. 2000; lane change: the safety criterion of MOBIL, Kesting et al. 2007; values
+/// as SUMO's passenger cars have them.
+
+#include "algo/planner/planner.hpp"
+#include "algo/trajectory/along_path.hpp"
+#include "algo/trajectory/reference_line.hpp"
+
+namespace s4tp::baselines {
+
+struct IdmDriver {
+  float acceleration_mps2 = 2.6F;     ///< a
+  float braking_mps2 = 2.0F;          ///< b, comfortable
+  float headway_s = 1.0F;             ///< T
+  float standstill_gap_m = 2.5F;      ///< s0
+  float pressed_braking_mps2 = 4.5F;  ///< the same where the change must be made soon, or is under way
+  float asked_braking_mps2 = 3.0F;    ///< MOBIL's b_safe: what a change may ask of the one behind, and of us
+  float change_gain_mps2 = 1.0F;  ///< MOBIL's threshold: what a change that the route does not need must gain
+  float gap_margin_s = 1.0F;      ///< between our leaving a zone and the next one's arrival
+  float going_margin_s = 0.3F;    ///< the same, once we have set off
+  float committed_mps2 = 6.0F;    ///< who would have to brake harder for a zone goes through
+};
+
+/// a (1 - (v / v0)^4), never below -b.
+[[nodiscard]] float idm_free(const IdmDriver& driver, float speed_mps, float desired_mps);
+
+/// What a leader `gap_m` (bumper to bumper) ahead leaves room for: a (1 - (s* / s)^2),
+/// s* = s0 + v T + v (v - v_leader) / (2 sqrt(a b)). The driver takes the smaller of it and the free one.
+[[nodiscard]] float idm_behind(const IdmDriver& driver, float speed_mps, float gap_m, float leader_mps);
+
+/// Whether a lane change between the two is safe: neither we nor the one behind must brake harder than asked.
+/// \param ahead, behind  in the lane we want; agent < 0: nobody
+[[nodiscard]] bool change_accepted(const IdmDriver& driver, float speed_mps, const Leader& ahead,
+                                   const Leader& behind);
+
+/// Somebody on his way through a conflict zone of ours, in seconds from now.
+struct Crosser {
+  float arrives_s = 0.0F;  ///< <= 0: he is in it
+  float gone_s = 0.0F;
+  Priority priority = Priority::kFirstYields;  ///< seen from us: kFirstYields = we yield
+  bool can_stop = true;                        ///< before it, braking at b
+};
+
+/// Whether we may be in the zone from `in_s` to `out_s`: he has gone, comes `margin_s` later, or owes us the
+/// way.
+[[nodiscard]] bool gap_accepted(const Crosser& crosser, float in_s, float out_s, float margin_s);
+
+class IdmLanePlanner {
+ public:
+  [[nodiscard]] Status init(const Parameters& parameters);
+  [[nodiscard]] Status plan(const PlannerInput& input, Plan& plan, Explanation& explanation);
+
+  IdmDriver driver;
+
+ private:
+  /// A leader, as the place where we would touch him.
+  struct Ahead {
+    float touch_s_m;   ///< of our rear axle, at plan start
+    float speed_mps;   ///< his, kept
+    float least_mps2;  ///< harder we do not brake for him
+  };
+
+  [[nodiscard]] const EgoPath& choose_path();
+  /// Our acceleration now, were we in the lane of `path`.
+  [[nodiscard]] float prospect_mps2(const EgoPath& path, const Leader& ahead) const;
+  /// Where our rear axle must stop to have room for the lane changes still due.
+  [[nodiscard]] float change_room_s_m(const EgoPath& path) const;
+  void look_ahead(const EgoPath& path, float lead_s);
+  /// Acceleration at a point of our motion; braked for is what look_ahead() found.
+  [[nodiscard]] float wanted_mps2(float time_s, float s_m, float speed_mps) const;
+  /// Where our rear axle must stop because a gap is refused; far away: nowhere.
+  [[nodiscard]] float stop_for_zones(const EgoPath& path, Explanation& explanation);
+  [[nodiscard]] bool refuses(const ConflictZone& zone, float in_s, float out_s, float margin_s,
+                             Explanation& explanation) const;
+  void drive(Trajectory& trajectory) const;
+
+  Parameters parameters_;
+  SceneBuilder scene_builder_;
+  Scene scene_;
+  Manoeuvre changing_ = Manoeuvre::kKeep;  ///< lane change under way
+  bool going_ = false;                     ///< has set off into a junction
+
+  // One cycle's situation, along the path chosen; s is that of our rear axle.
+  TrajectoryPoint start_;
+  ReferenceLine line_;
+  ReferenceCoordinates where_;
+  BoundedVector<Ahead, 3> leaders_;
+  float stop_s_m_ = 0.0F;
+};
+
+}  // namespace s4tp::baselines
