@@ -52,9 +52,15 @@ Campaign load_campaign(const CampaignPlan& plan, const std::filesystem::path& sc
   }
   for (const std::string& planner : plan.planners) {
     const bool by_sumo = find_planner(planner).drives_in_sumo;  // in its traffic only, and nothing to guard
+    const auto is_sumo = [](const std::string& traffic) {
+      return world::engine_of(traffic) == world::Engine::kSumo;
+    };
+    if (by_sumo && std::none_of(plan.traffic.begin(), plan.traffic.end(), is_sumo)) {
+      throw std::invalid_argument(planner + " drives in SUMO's traffic only: --traffic sumo");
+    }
     for (const bool guarded : by_sumo ? std::vector<bool>{false} : plan.guards) {
       for (const std::string& traffic : plan.traffic) {
-        if (by_sumo && world::engine_of(traffic) != world::Engine::kSumo) continue;
+        if (by_sumo && !is_sumo(traffic)) continue;
         for (const std::string& flavour : plan.flavours) {
           for (const std::string& argument : plan.scenarios) {
             const auto& scenario = loaded.at({flavour, argument});
@@ -64,9 +70,6 @@ Campaign load_campaign(const CampaignPlan& plan, const std::filesystem::path& sc
         }
       }
     }
-  }
-  if (campaign.cells.empty()) {
-    throw std::invalid_argument(plan.planners.front() + " drives in SUMO's traffic only: --traffic sumo");
   }
   return campaign;
 }

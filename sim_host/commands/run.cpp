@@ -4,6 +4,7 @@
 
 #include "sim_host/campaign/any_ecu.hpp"
 #include "sim_host/campaign/bus_log.hpp"
+#include "sim_host/campaign/planner_registry.hpp"
 #include "sim_host/campaign/results.hpp"
 #include "sim_host/commands/command.hpp"
 #include "sim_host/commands/vcan_machine.hpp"
@@ -43,7 +44,7 @@ int run_one(const RunOptions& run) {
   campaign::EpisodeOptions options;
   options.seed = run.common.seed;
   options.planner = run.planner;
-  options.guarded = run.guarded();
+  options.guarded = run.guarded() && !campaign::find_planner(run.planner).drives_in_sumo;
   options.engine = world::engine_of(run.common.traffic);
   options.perception = world::perception_preset(run.perception);
   options.parameters = run.common.parameters();
@@ -56,7 +57,7 @@ int run_one(const RunOptions& run) {
       run.common.out / view::picture_name(scenario.name, run.planner, result.recording.seed);
   view::draw_episode(scenario, result, picture);
   const campaign::EpisodeRow row{
-      {run.planner, scenario.name, run.common.flavour, run.common.traffic, run.guarded(), run.perception},
+      {run.planner, scenario.name, run.common.flavour, run.common.traffic, options.guarded, run.perception},
       metrics::evaluate(result.recording)};
   campaign::write_json(run.common.out / "run.json", campaign::results_json(row));
 

@@ -11,8 +11,10 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <set>
 #include <thread>
 
+#include "sim_host/campaign/campaign.hpp"
 #include "sim_host/campaign/episode.hpp"
 #include "sim_host/world/box.hpp"
 #include "sim_host/world/sumo/coupling_floor.hpp"
@@ -294,6 +296,70 @@ TEST(SumoProcess, NeverOutlivesUs) {
   EXPECT_TRUE(ends_soon(child));
 }
 
+// SUMO-001 It outlives the thread that made it: the kernel's signal of a parent's death follows the thread
+// that forked.
+TEST(SumoProcess, OutlivesTheThreadThatMadeIt) {
+  std::unique_ptr<SumoProcess> process;
+  std::thread([&] {
+    process = std::make_unique<SumoProcess>("sleep", std::vector<std::string>{"1000"}, "");
+  }).join();
+  std::this_thread::sleep_for(100ms);
+  EXPECT_TRUE(process->lives());
+  const pid_t child = process->id();
+  process.reset();
+  EXPECT_FALSE(runs(child));
+}
+
+/// The programs called sumo whose parent is `process`.
+std::set<pid_t> sumos_of(pid_t process) {
+  std::set<pid_t> found;
+  for (const auto& entry : fs::directory_iterator("/proc")) {
+    std::ifstream stat(entry.path() / "stat");
+    pid_t id = 0;
+    std::string name;
+    std::string state;
+    pid_t parent = 0;
+    if (stat >> id >> name >> state >> parent && parent == process && name == "(sumo)") found.insert(id);
+  }
+  return found;
+}
+
+// SUMO-001 A campaign of two episodes at a time is interrupted, ended or killed while SUMOs run: none is
+// left.
+TEST(SumoProcess, NoneIsLeftOfAnInterruptedCampaign) {
+  const fs::path folder = fs::temp_directory_path() / ("s4tp_sumo_eval_" + std::to_string(getpid()));
+  for (const int signal : {SIGINT, SIGTERM, SIGKILL}) {
+    fs::remove_all(folder);
+    fs::create_directories(folder);
+    const pid_t campaign = fork();
+    if (campaign == 0) {
+      const std::string tool = fs::path(S4TP_BINARY_DIR) / "sim_host" / "s4tp_tool";
+      const std::string out = folder / "out";
+      (void)!freopen((folder / "said").c_str(), "w", stdout);
+      (void)!freopen((folder / "said").c_str(), "w", stderr);
+      execl(tool.c_str(), tool.c_str(), "eval", "--planner", "constant_speed", "--scenarios", "cruise",
+            "--traffic", "sumo", "--episodes", "1000", "--jobs", "2", "--out", out.c_str(), nullptr);
+      _exit(127);
+    }
+    std::set<pid_t> sumos;
+    const auto end = std::chrono::steady_clock::now() + 60s;
+    while (sumos.size() < 2 && runs(campaign) && std::chrono::steady_clock::now() < end) {
+      sumos = sumos_of(campaign);
+    }
+    EXPECT_EQ(sumos.size(), 2U);
+    kill(campaign, signal);
+    int status = 0;
+    waitpid(campaign, &status, 0);
+    if (signal == SIGKILL) {
+      EXPECT_TRUE(WIFSIGNALED(status));
+    } else {
+      EXPECT_EQ(WEXITSTATUS(status), 130);
+    }
+    for (const pid_t sumo : sumos) EXPECT_TRUE(ends_soon(sumo)) << "signal " << signal;
+  }
+  fs::remove_all(folder);
+}
+
 // An episode over CAN frames with SUMO's traffic reaches its goal, twice the same to the bit.
 TEST(SumoTraffic, DrivesAnEpisode) {
   campaign::EpisodeOptions options;
@@ -333,6 +399,37 @@ TEST(SumoTraffic, LetsSumoDriveTheEgo) {
     EXPECT_LT(std::hypot(shots[i].ego.centre.x - shots[i - 1].ego.centre.x,
                          shots[i].ego.centre.y - shots[i - 1].ego.centre.y),
               2.0);
+  }
+}
+
+// The planner sumo_driver is that driver, from the same start, through the same recording and figures; bare
+// and guarded he is the same, so he has one cell. Nobody drives against SUMO's will: elsewhere he is refused.
+TEST(SumoDriver, IsAPlannerOfTheCampaign) {
+  campaign::CampaignPlan plan;
+  plan.planners = {"constant_speed", "sumo_driver"};
+  plan.scenarios = {"merge", "cruise"};
+  plan.guards = {true, false};
+  plan.episodes = 2;
+  const fs::path scenarios = fs::path(S4TP_SOURCE_DIR) / "sim_host/scenarios";
+  const std::string refused = what_of([&] { (void)campaign::load_campaign(plan, scenarios); });
+  EXPECT_NE(refused.find("sumo_driver drives in SUMO's traffic only: --traffic sumo"), std::string::npos)
+      << refused;
+
+  plan.traffic = {"builtin", "sumo"};
+  campaign::Campaign all = campaign::load_campaign(plan, scenarios);
+  EXPECT_EQ(all.cells.size(), 2U * 2U * 2U + 2U);
+  std::vector<campaign::Job> jobs = campaign::jobs_of(all);
+  std::erase_if(jobs,
+                [&](const campaign::Job& job) { return all.cells[job.cell].cell.planner != "sumo_driver"; });
+  ASSERT_EQ(jobs.size(), 4U);
+  campaign::CampaignOptions options;
+  options.threads = 2;
+  for (const campaign::EpisodeRow& row : campaign::run_campaign(all, jobs, options)) {
+    EXPECT_FALSE(row.cell.guarded);
+    EXPECT_EQ(row.cell.traffic, "sumo");
+    EXPECT_EQ(row.metrics.ending, Ending::kGoal) << row.cell.scenario << " " << row.metrics.seed;
+    EXPECT_GT(row.metrics.duration_s, 5.0);
+    EXPECT_GT(row.metrics.distance_m, 50.0);
   }
 }
 

@@ -11,9 +11,12 @@
 #include <cerrno>
 #include <chrono>
 #include <cstring>
+#include <future>
+#include <semaphore>
 #include <sstream>
 #include <stdexcept>
 #include <thread>
+#include <utility>
 
 namespace s4tp::world {
 namespace {
@@ -68,27 +71,37 @@ SumoProcess::SumoProcess(const std::string& program, const std::vector<std::stri
   if (pipe2(failure, O_CLOEXEC) != 0) {
     fail("a pipe");
   }
-  const pid_t parent = getpid();
-  process_ = fork();
-  if (process_ == 0) {  // only what is safe after a fork among threads
-    prctl(PR_SET_PDEATHSIG, SIGKILL);
-    setpgid(0, 0);  // an interrupt of ours is ours to handle: we end it in order
-    sigset_t none;
-    sigemptyset(&none);
-    sigprocmask(SIG_SETMASK, &none, nullptr);
-    if (getppid() == parent && dup2(input_.descriptor(), STDIN_FILENO) >= 0 &&
-        dup2(output_.descriptor(), STDOUT_FILENO) >= 0 && dup2(output_.descriptor(), STDERR_FILENO) >= 0) {
-      execvp(argv[0], argv.data());
+  const pid_t our_process = getpid();
+  std::promise<pid_t> forked;
+  std::future<pid_t> child = forked.get_future();
+  parent_ = std::jthread([&, forked = std::move(forked)](const std::stop_token& stop) mutable {
+    const pid_t id = fork();
+    if (id == 0) {  // only what is safe after a fork among threads
+      prctl(PR_SET_PDEATHSIG, SIGKILL);
+      setpgid(0, 0);  // an interrupt of ours is ours to handle: we end it in order
+      sigset_t none;
+      sigemptyset(&none);
+      sigprocmask(SIG_SETMASK, &none, nullptr);
+      if (getppid() == our_process && dup2(input_.descriptor(), STDIN_FILENO) >= 0 &&
+          dup2(output_.descriptor(), STDOUT_FILENO) >= 0 && dup2(output_.descriptor(), STDERR_FILENO) >= 0) {
+        execvp(argv[0], argv.data());
+      }
+      const int why = errno;
+      (void)!write(failure[1], &why, sizeof why);
+      _exit(127);
     }
-    const int why = errno;
-    (void)!write(failure[1], &why, sizeof why);
-    _exit(127);
-  }
+    std::binary_semaphore over{0};
+    const std::stop_callback when_over(stop, [&] { over.release(); });
+    forked.set_value(id < 0 ? -errno : id);  // what was captured by reference is gone from here on
+    over.acquire();
+  });
+  process_ = child.get();
   close(failure[1]);
   int why = 0;
   const bool failed = process_ < 0 || read(failure[0], &why, sizeof why) > 0;
   close(failure[0]);
   if (process_ < 0) {
+    errno = -process_;
     fail("starting " + program);
   }
   if (failed) {

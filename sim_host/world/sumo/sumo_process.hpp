@@ -4,6 +4,7 @@
 #include <sys/types.h>
 
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace s4tp::world {
@@ -23,7 +24,8 @@ class MemoryFile {
   int descriptor_;
 };
 
-/// SUMO-001 The child ends with this object, and with the thread that made it: also when we are killed.
+/// SUMO-001 The child ends with this object, and with our process: also when we are killed. Threads may come
+/// and go meanwhile.
 class SumoProcess {
  public:
   /// Starts PROGRAM (found along PATH) with `input` as its standard input.
@@ -46,6 +48,7 @@ class SumoProcess {
   MemoryFile output_;
   pid_t process_ = -1;
   bool ended_ = false;
+  std::jthread parent_;  ///< the kernel takes the thread that forked for the parent: here one that stays
 };
 
 }  // namespace s4tp::world
