@@ -147,6 +147,7 @@ int run_eval(EvalOptions& options) {
     std::cout << fresh.size() << " episodes driven in " << campaign::rough_time(wall_s) << ": "
               << static_cast<int>(driven_s / wall_s) << " times real time\n";
   }
+  std::cout << "as a page, with replays of failures: ./s4tp eval report " << out.string() << '\n';
   return kDone;
 }
 

@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <numeric>
 
-#include "algo/sadrf/field.hpp"
 #include "sim_host/metrics/metrics.hpp"
+#include "sim_host/view/haze.hpp"
 #include "sim_host/view/svg.hpp"
 
 namespace s4tp::view {
@@ -58,25 +58,13 @@ std::string heat_colour(double value) {
   return colour;
 }
 
-/// The other drivers' fields at the moment shown: where they are about to be, as they feel it.
-void draw_fields(Svg& svg, const CycleTrace& cycle, Vec2 origin, Vec2 low, Vec2 high) {
-  std::vector<DriverState> drivers;
-  for (const Track& track : cycle.tracks) {
-    const float wheelbase_m = 0.6F * track.length_m;
-    const float curvature =
-        track.speed_mps > 1.0F ? std::clamp(track.yaw_rate_radps / track.speed_mps, -0.2F, 0.2F) : 0.0F;
-    drivers.push_back({shift_ahead(track.centre, -0.3F * track.length_m), track.speed_mps,
-                       std::atan(wheelbase_m * curvature), wheelbase_m});
-  }
-  const FieldParams params = paper_preset(1.8F);
+/// The other drivers' fields at the moment shown.
+void draw_fields(Svg& svg, const world::Snapshot& now, Vec2 origin, Vec2 low, Vec2 high) {
+  const Haze haze(now.others, origin);
   for (double x = std::floor(low.x); x < high.x; x += kCellM) {
     for (double y = std::floor(low.y); y < high.y; y += kCellM) {
-      const Point centre{static_cast<float>(x + kCellM / 2 - origin.x),
-                         static_cast<float>(y + kCellM / 2 - origin.y)};
-      float risk = 0.0F;
-      for (const DriverState& driver : drivers) risk += field_at(params, driver, centre);
-      const double shown = std::min(1.0, std::sqrt(static_cast<double>(risk) / 12.0));
-      if (shown > 0.08) svg.cell({x, y}, kCellM, heat_colour(shown), 0.15 + 0.55 * shown);
+      const double shown = haze.at({x + kCellM / 2, y + kCellM / 2});
+      if (shown > 0.0) svg.cell({x, y}, kCellM, heat_colour(shown), 0.15 + 0.55 * shown);
     }
   }
 }
@@ -146,7 +134,7 @@ void draw_episode(const world::Scenario& scenario, const EpisodeResult& result,
   const Vec2 high{now->ego.centre.x + kReachM, now->ego.centre.y + 0.75 * kReachM};
   Svg svg(low, high, kPixelsPerMetre, kChartHeightPx);
   draw_road(svg, scenario.network);
-  if (cycle != nullptr) draw_fields(svg, *cycle, result.origin, low, high);
+  draw_fields(svg, *now, result.origin, low, high);
   if (cycle != nullptr) draw_thoughts(svg, *cycle, result.origin);
   draw_cars(svg, recording, *now);
 

@@ -1,5 +1,7 @@
 #include "sim_host/view/html.hpp"
 
+#include <zlib.h>
+
 #include <cstdarg>
 #include <cstdio>
 #include <fstream>
@@ -39,6 +41,26 @@ std::string format(const char* pattern, ...) {
   return text;
 }
 
+std::string packed(const std::string& text) {
+  uLongf size = compressBound(text.size());
+  std::vector<Bytef> bytes(size);
+  if (compress2(bytes.data(), &size, reinterpret_cast<const Bytef*>(text.data()), text.size(),
+                Z_BEST_COMPRESSION) != Z_OK) {
+    throw std::runtime_error("a page's data cannot be compressed");
+  }
+  static constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string result;
+  for (uLongf i = 0; i < size; i += 3) {
+    const auto byte = [&](uLongf at) { return at < size ? static_cast<unsigned>(bytes[at]) : 0U; };
+    const unsigned three = (byte(i) << 16U) | (byte(i + 1) << 8U) | byte(i + 2);
+    for (int digit = 0; digit < 4; ++digit) {
+      const bool there = i + static_cast<uLongf>(digit) <= size;
+      result += there ? kDigits[(three >> (18 - 6 * digit)) & 63U] : '=';
+    }
+  }
+  return result;
+}
+
 void write_page(const Page& page, const std::filesystem::path& file) {
   std::ofstream out(file);
   out << "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
@@ -51,11 +73,7 @@ void write_page(const Page& page, const std::filesystem::path& file) {
       << kPageCss << "</style>\n</head>\n<body>\n"
       << page.body;
   if (!page.data.empty()) {
-    std::string data = page.data;  // "</" would end the script
-    for (std::size_t at = data.find("</"); at != std::string::npos; at = data.find("</", at + 3)) {
-      data.replace(at, 2, "<\\/");
-    }
-    out << "<script type=\"application/json\" id=\"data\">" << data << "</script>\n";
+    out << "<script type=\"text/plain\" id=\"data\">" << packed(page.data) << "</script>\n";
   }
   for (const char* const script : page.scripts) out << "<script>\n" << script << "</script>\n";
   out << "</body>\n</html>\n";

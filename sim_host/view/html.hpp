@@ -21,10 +21,13 @@ extern const char* const kReplayJs;
 /// As printf.
 [[nodiscard]] std::string format(const char* pattern, ...) __attribute__((format(printf, 1, 2)));
 
+/// Deflated (zlib's format), then base64: what a browser's DecompressionStream takes.
+[[nodiscard]] std::string packed(const std::string& text);
+
 struct Page {
   std::string title;
   std::string body;                  ///< HTML
-  std::string data;                  ///< JSON, for the scripts; may be empty
+  std::string data;                  ///< for the scripts, which find it packed() in #data; may be empty
   std::vector<const char*> scripts;  ///< run in this order, after the body
 };
 

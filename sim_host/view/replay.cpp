@@ -23,7 +23,7 @@ using world::Vec2;
 constexpr double kUnitM = 0.05;
 constexpr double kRoadReachM = 100.0;  // around the ego's way
 constexpr double kHazeCellM = 1.0;
-constexpr int kHazeColumns = 108;
+constexpr int kHazeColumns = 116;
 constexpr int kHazeRows = 72;
 constexpr int kStepsShown = 2;     // every so many of a horizon
 constexpr double kSameCarM = 6.0;  // a track further from every car is none of them
@@ -149,6 +149,17 @@ std::vector<long> peaks(const float (&series)[kHorizonSteps]) {
   return values;
 }
 
+/// What the planner was told of the others, where that is not how they are.
+ordered_json seen(const std::vector<Track>& tracks, Vec2 origin, const Units& units) {
+  ordered_json boxes = ordered_json::array();
+  for (const Track& track : tracks) {
+    const auto at = units.of({track.centre.x_m + origin.x, track.centre.y_m + origin.y});
+    boxes.push_back({at[0], at[1], thousandths(track.centre.heading_rad), thousandths(track.length_m),
+                     thousandths(track.width_m)});
+  }
+  return boxes;
+}
+
 ordered_json cycle_json(const CycleTrace& cycle, const Snapshot& now, Vec2 origin, const Units& units) {
   const auto moved = [&](const Pose& pose) { return Vec2{pose.x_m + origin.x, pose.y_m + origin.y}; };
   const Explanation& e = cycle.record.explanation;
@@ -248,6 +259,7 @@ ordered_json replay_data(const Replayed& episode) {
                                         });
       ordered_json one{{"t", thousandths(start_s)}};
       one.update(cycle_json(cycle, *now, origin, units));
+      if (episode.row.cell.perception != "ideal") one["seen"] = seen(cycle.tracks, origin, units);
       const std::string words = in_words(cycle);
       if (words != said) one["words"] = words;  // else those before still hold
       said = words;

@@ -1,8 +1,9 @@
 // Plays a replay: time, keys, and what stands beside the picture. #t=12.3 in the address shows that second; #t=12.3&play plays on.
 'use strict';
 
-(() => {
-  const data = JSON.parse(document.getElementById('data').textContent);
+(async () => {
+  const bytes = Uint8Array.from(atob(document.getElementById('data').textContent), (digit) => digit.charCodeAt(0));
+  const data = await new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream('deflate'))).json();
   const element = (id) => document.getElementById(id);
   const scene = makeScene(element('scene'), data);
   const first = data.frames[0].t, last = data.frames[data.frames.length - 1].t;
@@ -46,7 +47,7 @@
   const kLeft = 8;
   const drawStrips = () => {
     const { draw, width, height } = canvasOf('strip');
-    const x = (t) => kLeft + ((width - 2 * kLeft) * (t - first)) / Math.max(1, last - first);
+    const x = (t) => kLeft + ((width - 2 * kLeft) * Math.min(1, (t - first) / Math.max(1, last - first)));
     const each = (height - 16) / strips.length;
     draw.fillStyle = style('--soft');
     draw.textAlign = 'center';
@@ -79,12 +80,14 @@
     const colours = [style('--ego'), style('--soft'), `rgb(${style('--haze')})`];
     const x = (i) => 4 + ((width - 8) * (i + 1)) / 15;
     curve(draw, [[4, height - 16], [width - 4, height - 16]], style('--line'), 1);
+    let left = 4;
     cycle.risk.forEach((series, part) => {
       curve(draw, series.map((value, i) => [x(i), height - 16 - ((height - 50) * value) / most]), colours[part], 2,
         [[], [2, 3], [7, 3]][part]);
-      curve(draw, [[4 + (part * width) / 3, 20], [22 + (part * width) / 3, 20]], colours[part], 2, [[], [2, 3], [7, 3]][part]);
+      curve(draw, [[left, 20], [left + 18, 20]], colours[part], 2, [[], [2, 3], [7, 3]][part]);
       draw.fillStyle = style('--ink');
-      draw.fillText(names[part], 26 + (part * width) / 3, 24);
+      draw.fillText(names[part], left + 22, 24);
+      left += 36 + draw.measureText(names[part]).width;
     });
     draw.fillStyle = style('--soft');
     draw.fillText('now', 4, height - 3);
@@ -129,6 +132,7 @@
     const now = scene.show(time);
     element('time').value = time;
     element('clock').textContent = `${(time / 1000).toFixed(2)} s of ${(last / 1000).toFixed(2)} s`;
+    document.documentElement.dataset.end = (data.end_ms / 1000).toFixed(2);
     document.documentElement.dataset.time = (time / 1000).toFixed(2);
     drawStrips();
     tell(now);
@@ -152,6 +156,7 @@
     show(Math.round(time / kStep + by) * kStep);
   };
 
+  element('seen').hidden = !data.cycles.some((cycle) => cycle.seen);
   element('time').min = first;
   element('time').max = last;
   element('time').addEventListener('input', (event) => { play(false); show(Number(event.target.value)); });

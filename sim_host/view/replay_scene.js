@@ -4,8 +4,8 @@
 function makeScene(canvas, data) {
   const draw = canvas.getContext('2d');
   const unit = data.unit_m;
-  const camera = { reach_m: 45 };  // half of what is seen from left to right
-  const layers = { plan: true, futures: true, haze: true, way: true, labels: true };
+  const camera = { reach_m: 54 };  // half of what is seen from left to right
+  const layers = { plan: true, futures: true, haze: true, way: true, labels: true, seen: true };
   const style = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
   // From each point's distance to the one before, in units.
@@ -77,7 +77,7 @@ function makeScene(canvas, data) {
       hazeOf = frame;
     }
     // Its rows run upwards, as y does here.
-    draw.imageSmoothingEnabled = true;
+    draw.imageSmoothingQuality = 'high';
     draw.drawImage(hazeImage, frame.haze_at[0] * unit, frame.haze_at[1] * unit, columns * size, hazeImage.height * size);
   };
 
@@ -169,6 +169,19 @@ function makeScene(canvas, data) {
       if (cycle && one.id === cycle.held_up_by) ring = { colour: style('--plan'), dash: [1, 0.6] };
       box(one, style('--other'), ring);
     }
+    if (layers.seen && cycle && cycle.seen) {
+      draw.strokeStyle = style('--ink');
+      draw.lineWidth = 0.18;
+      draw.setLineDash([0.6, 0.4]);
+      for (const [x, y, heading, length, wide] of cycle.seen) {
+        draw.save();
+        draw.translate(x * unit, y * unit);
+        draw.rotate(heading / 1000);
+        draw.strokeRect(-length / 2000, -wide / 2000, length / 1000, wide / 1000);
+        draw.restore();
+      }
+      draw.setLineDash([]);
+    }
     box(now.ego, style('--ego'));
     for (const contact of data.contacts) {
       if (t < contact.t) continue;
@@ -192,15 +205,30 @@ function makeScene(canvas, data) {
     };
     draw.textAlign = 'center';
     draw.textBaseline = 'middle';
+    const toPixels = (one) => [width / 2 + (one.x - now.ego.x) * scale, height / 2 - (one.y - now.ego.y) * scale];
     if (layers.labels) {
       for (const one of now.others) {
-        const x = width / 2 + (one.x - now.ego.x) * scale, y = height / 2 - (one.y - now.ego.y) * scale;
+        const [x, y] = toPixels(one);
         draw.font = '600 11px system-ui, sans-serif';
+        draw.textAlign = 'center';
         label(String(one.id), x, y, style('--card'));
         draw.font = '11px system-ui, sans-serif';
-        label(`${one.speed.toFixed(1)} m/s`, x, y - 0.5 * one.length * scale * Math.abs(Math.sin(one.heading)) - 1.9 * scale - 8,
-          style('--soft'), true);
+        const upright = Math.abs(Math.sin(one.heading)) > 0.6;  // then beside it, else above
+        if (upright) draw.textAlign = 'left';
+        label(`${one.speed.toFixed(1)} m/s`, x + (upright ? 2.2 * scale : 0), y - (upright ? 0 : 2 * scale + 6), style('--soft'), true);
       }
+    }
+    // Who matters and is out of sight: where, and how far.
+    draw.font = '600 12px system-ui, sans-serif';
+    draw.textAlign = 'center';
+    for (const one of now.others.filter(({ id }) => cycle && (id === cycle.riskiest || id === cycle.held_up_by))) {
+      const [x, y] = toPixels(one);
+      if (x > 0 && x < width && y > 0 && y < height) continue;
+      const dx = x - width / 2, dy = y - height / 2;
+      const f = Math.min((width / 2 - 60) / Math.max(Math.abs(dx), 1), (height / 2 - 24) / Math.max(Math.abs(dy), 1));
+      const arrow = Math.abs(dx) > Math.abs(dy) ? (dx > 0 ? '→' : '←') : dy > 0 ? '↓' : '↑';
+      label(`${arrow} car ${one.id}, ${(Math.hypot(dx, dy) / scale).toFixed(0)} m`, width / 2 + f * dx, height / 2 + f * dy,
+        style('--other'), true);
     }
     const bar = 10 * scale;  // 10 m
     draw.strokeStyle = style('--ink');
@@ -210,6 +238,7 @@ function makeScene(canvas, data) {
     draw.lineTo(14 + bar, height - 14);
     draw.stroke();
     draw.font = '12px system-ui, sans-serif';
+    draw.textAlign = 'center';
     label('10 m', 14 + bar / 2, height - 24, style('--ink'), true);
     return now;
   };

@@ -5,24 +5,9 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "sim_host/view/html.hpp"
+
 namespace s4tp::view {
-namespace {
-
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    if (c == '<') {
-      result += "&lt;";
-    } else if (c == '&') {
-      result += "&amp;";
-    } else {
-      result += c;
-    }
-  }
-  return result;
-}
-
-}  // namespace
 
 Svg::Svg(world::Vec2 low, world::Vec2 high, double pixels_per_m, double below_px)
     : low_(low),

@@ -88,5 +88,15 @@ TEST(Replay, NamesAreText) {
             "a-b-c_s4tp_bare_smarts_builtin_ideal_7.html");
 }
 
+// RFC 4648, section 10, over zlib: three bytes become four digits, and what is short is filled with "=".
+TEST(Replay, DataIsBase64) {
+  for (const char* const text : {"", "a", "ab", "abc", "abcd"}) {
+    const std::string data = packed(text);
+    EXPECT_EQ(data.size() % 4, 0U);
+    EXPECT_EQ(data.rfind("eN", 0), 0U);  // 0x78 0xDA: deflate, best compression
+  }
+  EXPECT_LT(packed(std::string(9000, 'x')).size(), 100U);
+}
+
 }  // namespace
 }  // namespace s4tp::view
