@@ -1,5 +1,7 @@
 #include "algo/planner/planner.hpp"
 
+#include <new>
+
 #include "algo/core/inline.hpp"
 #include "algo/core/self_test.hpp"
 #include "algo/planner/scoring.hpp"
@@ -7,7 +9,6 @@
 #include "algo/safety/rss.hpp"
 #include "algo/safety/terminal.hpp"
 #include "algo/trajectory/bicycle.hpp"
-#include "algo/trajectory/optimizer.hpp"
 
 namespace s4tp {
 namespace {
@@ -147,10 +148,11 @@ void Planner::forget_scene() {
 
 void Planner::predict(Explanation& explanation) {
   const StageScope scope(probe, Stage::kPredict);
-  predictor_.encode(scene_, parameters_, start_ms_);
-  predictor_.decode(nullptr, unconditioned_);
-  predictor_.keep_going(keep_going_);
-  count(explanation, Stage::kPredict, predictor_.work());
+  new (&arena_.predictor) Predictor;
+  arena_.predictor.encode(scene_, parameters_, start_ms_);
+  arena_.predictor.decode(nullptr, unconditioned_);
+  arena_.predictor.keep_going(keep_going_);
+  count(explanation, Stage::kPredict, arena_.predictor.work());
 }
 
 void Planner::rank(bool careful, Explanation& explanation) {
@@ -263,7 +265,7 @@ Status Planner::choose(Explanation& explanation) {
   }
   if (best < 0) return Status::kNoSafePlan;
   if (best != held && !evaluate(best, explanation)) return Status::kNoSafePlan;
-  refine(candidates_[best].path, explanation);
+  refine(candidates_[best], explanation);
 
   const StageScope scope(probe, Stage::kExplain);
   explanation.chosen = candidates_[best];
@@ -284,9 +286,9 @@ bool Planner::evaluate(int index, Explanation& explanation) {
   roll_out(lines_[candidate.path], candidate, start_, running_, start_ms_, parameters_, chosen_);
   {
     const StageScope scope(probe, Stage::kPredict);
-    const int before = predictor_.work();
-    predictor_.decode(&chosen_, conditioned_);
-    count(explanation, Stage::kPredict, predictor_.work() - before);
+    const int before = arena_.predictor.work();
+    arena_.predictor.decode(&chosen_, conditioned_);
+    count(explanation, Stage::kPredict, arena_.predictor.work() - before);
   }
   {
     const StageScope scope(probe, Stage::kCheck);
@@ -303,22 +305,27 @@ bool Planner::evaluate(int index, Explanation& explanation) {
   return true;
 }
 
-void Planner::refine(int path, Explanation& explanation) {
+void Planner::refine(const Candidate& candidate, Explanation& explanation) {
+  const int passes = to_int(parameters_.refinement.passes, 0, allowance.optimizer_iterations);
   refined_ = chosen_;
+  IlqrResult result;
   {
     const StageScope scope(probe, Stage::kOptimize);
-    const OptimizerResult result =
-        optimize(scene_, conditioned_, parameters_, allowance.optimizer_iterations, refined_);
-    count(explanation, Stage::kOptimize, result.iterations);
+    const Surroundings surroundings{scene_, unconditioned_, conditioned_, keep_going_};
+    new (&arena_.optimizer) Optimizer;
+    result = arena_.optimizer.refine(lines_[candidate.path], candidate.start_s_m, surroundings, parameters_,
+                                     passes, refined_);
+    count(explanation, Stage::kOptimize, result.passes);
   }
+  if (!result.improved) return;
   const StageScope scope(probe, Stage::kCheck);
   count(explanation, Stage::kCheck, 1);
   // A refinement that does not pass is dropped: what it started from has passed.
-  const bool passes = guarded ? check_trajectory(scene_, path, refined_, unconditioned_, conditioned_,
-                                                 keep_going_, parameters_)
-                                        .result == CheckResult::kPassed
-                              : feasible(refined_, parameters_);
-  if (passes) chosen_ = refined_;
+  const bool passes_check = guarded ? check_trajectory(scene_, candidate.path, refined_, unconditioned_,
+                                                       conditioned_, keep_going_, parameters_)
+                                              .result == CheckResult::kPassed
+                                    : feasible(refined_, parameters_);
+  if (passes_check) chosen_ = refined_;
 }
 
 }  // namespace s4tp

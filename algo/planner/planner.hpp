@@ -14,6 +14,7 @@
 #include "algo/sadrf/risk.hpp"
 #include "algo/satp/predictor.hpp"
 #include "algo/scene/scene.hpp"
+#include "algo/trajectory/optimizer.hpp"
 
 namespace s4tp {
 
@@ -71,13 +72,12 @@ class Planner {
   [[nodiscard]] Rejection judge(int path, const PredictionSet& conditioned, CheckReport& report) const;
   /// What stands for the check in an unguarded planner's score; 0 in a guarded one's.
   [[nodiscard]] float crash_cost(const PredictionSet& prediction) const;
-  void refine(int path, Explanation& explanation);
+  void refine(const Candidate& candidate, Explanation& explanation);
 
   bool initialized_ = false;
   Parameters parameters_;
   std::uint32_t parameters_crc_ = 0;
   SceneBuilder scene_builder_;
-  Predictor predictor_;
 
   // One cycle's data, in the order it flows.
   std::uint32_t start_ms_ = 0;
@@ -97,6 +97,15 @@ class Planner {
   RiskProfile risk_;
   Trajectory chosen_;
   Trajectory refined_;
+
+  /// Scratch of stages that never need it at once: the predictor's ways have served when the optimizer
+  /// begins.
+  union Arena {
+    Arena() : predictor() {}
+    Predictor predictor;
+    Optimizer optimizer;
+  };
+  Arena arena_;
 };
 
 static_assert(sizeof(Planner) <= kPlannerBudgetBytes, "the planner object has outgrown its budget");

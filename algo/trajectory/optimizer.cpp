@@ -1,10 +1,135 @@
 #include "algo/trajectory/optimizer.hpp"
 
-namespace s4tp {
+#include "algo/core/inline.hpp"
+#include "algo/trajectory/bicycle.hpp"
 
-OptimizerResult optimize(const Scene& /*scene*/, const PredictionSet& /*prediction*/,
-                         const Parameters& /*parameters*/, int /*allowance*/, Trajectory& /*trajectory*/) {
-  return {};
+namespace s4tp {
+namespace {
+
+constexpr float kOrdinaryJerkMps3 = 12.0F;  // allowed everywhere; more only where the candidate has it
+constexpr float kBoundShare = 0.98F;        // of a limit: the check must pass the result
+constexpr float kEndImportance = 5.0F;      // beyond the horizon lies what the candidate was chosen for
+constexpr float kInLaneM = 1.0F;            // further from its centre we are on the way to or from it
+constexpr float kComfortGapM = 1.0F;        // nearer than this somebody costs something
+constexpr float kStandingM = 0.02F;         // a stop may move this far
+constexpr float kAtRestMps = 0.01F;         // the smooth clamp's last creep is standstill
+
+void set_weights(const Parameters& parameters, RefinementWeights& weights) {
+  // The score averages squares over the horizon; here it is 1/2 of the sum.
+  constexpr float kPerStep = 2.0F / static_cast<float>(kHorizonSteps);
+  weights.jerk = kPerStep * parameters.scoring.jerk;
+  weights.lateral_jerk = kPerStep * parameters.scoring.jerk;
+  weights.lateral = kPerStep * parameters.scoring.lateral_acceleration;
+  weights.lane = kPerStep * parameters.scoring.lane_offset;
+  weights.curvature_rate = kPerStep * parameters.refinement.curvature_rate;
+  weights.along = kPerStep * parameters.refinement.along;
+  weights.across = kPerStep * parameters.refinement.across;
+  weights.heading = kPerStep * parameters.refinement.heading;
+  weights.speed = kPerStep * parameters.refinement.speed;
+  weights.over_cap = kPerStep * parameters.refinement.over_cap;
+  weights.clearance = kPerStep * parameters.refinement.clearance;
+}
+
+/// Limits, but never narrower than what the trajectory itself asks for.
+void set_bounds(const Parameters& parameters, const Trajectory& trajectory, RefinementProblem& problem) {
+  const auto& vehicle = parameters.vehicle;
+  problem.across_bound_m = kRefinedWithinM;
+  problem.acceleration_low_mps2 = -kBoundShare * vehicle.braking_max_mps2;
+  problem.acceleration_high_mps2 = kBoundShare * vehicle.acceleration_max_mps2;
+  problem.curvature_bound_1pm = kBoundShare * curvature_for(vehicle.steering_max_rad, vehicle.wheelbase_m);
+  problem.lateral_bound_mps2 = kBoundShare * parameters.comfort.lateral_max_mps2;
+  for (int i = 1; i < kTrajectoryPoints; ++i) {
+    const TrajectoryPoint& point = trajectory.points[i];
+    problem.acceleration_low_mps2 = min(problem.acceleration_low_mps2, point.acceleration_mps2);
+    problem.acceleration_high_mps2 = max(problem.acceleration_high_mps2, point.acceleration_mps2);
+    problem.curvature_bound_1pm = max(problem.curvature_bound_1pm, abs(point.curvature_1pm));
+    problem.lateral_bound_mps2 =
+        max(problem.lateral_bound_mps2, square(point.speed_mps) * abs(point.curvature_1pm));
+  }
+  problem.comfort_gap_m = kComfortGapM;
+  problem.centre_m = rear_axle_to_centre_m(parameters);
+  problem.half_length_m = 0.5F * vehicle.length_m;
+  problem.half_width_m = 0.5F * vehicle.width_m;
+}
+
+/// Positions relative to `origin`, headings going on from the one before.
+MotionState state_of(const TrajectoryPoint& point, Point origin, float heading_before_rad) {
+  MotionState state;
+  state.x_m = point.rear_axle.x_m - origin.x_m;
+  state.y_m = point.rear_axle.y_m - origin.y_m;
+  state.heading_rad = heading_before_rad + wrap_angle(point.rear_axle.heading_rad - heading_before_rad);
+  state.speed_mps = point.speed_mps;
+  state.acceleration_mps2 = point.acceleration_mps2;
+  state.curvature_1pm = point.curvature_1pm;
+  return state;
+}
+
+void set_reference(const Parameters& parameters, const MotionState& before, const MotionState& reference,
+                   MotionInput& input, RefinementStep& step) {
+  const auto& vehicle = parameters.vehicle;
+  input.jerk_mps3 = (reference.acceleration_mps2 - before.acceleration_mps2) / kStepS;
+  input.curvature_rate_1pms = (reference.curvature_1pm - before.curvature_1pm) / kStepS;
+  const SinCos heading = sin_cos(reference.heading_rad);
+  step.reference = reference;
+  step.along_x = heading.cos;
+  step.along_y = heading.sin;
+  step.along_bound_m = min(kRefinedWithinM, kRefinedWithinS * reference.speed_mps + kStandingM);
+  // d(atan(L kappa))/dt = L kappa' / (1 + L^2 kappa^2)
+  const float bend = vehicle.wheelbase_m * before.curvature_1pm;
+  const float steering_1pms = vehicle.steering_rate_max_radps * (1.0F + square(bend)) / vehicle.wheelbase_m;
+  step.input_bound.jerk_mps3 = max(kOrdinaryJerkMps3, abs(input.jerk_mps3));
+  step.input_bound.curvature_rate_1pms = max(steering_1pms, abs(input.curvature_rate_1pms));
+}
+
+void write_back(const Motion& motion, Point origin, Trajectory& trajectory) {
+  for (int i = 1; i < kTrajectoryPoints; ++i) {
+    const MotionState& state = motion.states[i];
+    TrajectoryPoint& point = trajectory.points[i];
+    const bool rests = state.speed_mps < kAtRestMps;
+    if (rests && trajectory.points[i - 1].speed_mps <= 0.0F) {
+      point.rear_axle = trajectory.points[i - 1].rear_axle;
+    } else {
+      point.rear_axle = {state.x_m + origin.x_m, state.y_m + origin.y_m, wrap_angle(state.heading_rad)};
+    }
+    point.curvature_1pm = state.curvature_1pm;
+    point.speed_mps = rests ? 0.0F : state.speed_mps;
+    point.acceleration_mps2 = rests ? 0.0F : state.acceleration_mps2;
+  }
+}
+
+}  // namespace
+
+void build_refinement(const ReferenceLine& line, float start_s_m, const Surroundings& surroundings,
+                      const Parameters& parameters, const Trajectory& trajectory, RefinementProblem& problem,
+                      Motion& motion) {
+  const TrajectoryPoint& start = trajectory.points[0];
+  const Point origin = position(start.rear_axle);
+  set_weights(parameters, problem.weights);
+  set_bounds(parameters, trajectory, problem);
+  motion.states[0] = state_of(start, origin, start.rear_axle.heading_rad);
+  ReferenceCoordinates where = locate_on(line, origin, start_s_m);
+  for (int i = 0; i < kHorizonSteps; ++i) {
+    const TrajectoryPoint& point = trajectory.points[i + 1];
+    RefinementStep& step = problem.steps[i];
+    motion.states[i + 1] = state_of(point, origin, motion.states[i].heading_rad);
+    set_reference(parameters, motion.states[i], motion.states[i + 1], motion.inputs[i], step);
+    where = locate_on(line, position(point.rear_axle), where.s_m + kStepS * point.speed_mps);
+    step.lane_offset_m = abs(where.d_m) < kInLaneM ? where.d_m : 0.0F;
+    step.speed_cap_mps = max(reference_at(line, where.s_m).speed_cap_mps, point.speed_mps);
+    step.curvature_rate_weight =
+        problem.weights.curvature_rate + problem.weights.lateral_jerk * square(square(point.speed_mps));
+  }
+  problem.end_importance = kEndImportance;
+  find_half_planes(surroundings, trajectory, origin, kComfortGapM + kRefinedWithinM, parameters, problem);
+}
+
+IlqrResult Optimizer::refine(const ReferenceLine& line, float start_s_m, const Surroundings& surroundings,
+                             const Parameters& parameters, int allowance, Trajectory& trajectory) {
+  if (allowance <= 0) return {};
+  build_refinement(line, start_s_m, surroundings, parameters, trajectory, problem_, motion_);
+  const IlqrResult result = ilqr_.solve(problem_, allowance, motion_);
+  if (result.improved) write_back(motion_, position(trajectory.points[0].rear_axle), trajectory);
+  return result;
 }
 
 }  // namespace s4tp

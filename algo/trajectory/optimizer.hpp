@@ -1,24 +1,39 @@
 #pragma once
-/// Refinement of the chosen candidate (METHOD 4.5). The method behind it now is the identity: the best scored
-/// candidate itself. Its interface is final: never worse than its start (CAND-011), within 1.0 m and 0.5 s of
-/// it.
+/// Refinement of the chosen candidate (METHOD 4.5): smoother, within the vehicle's limits, clear of the
+/// predicted boxes, and near enough to the candidate for its prediction to hold.
 
 #include "algo/core/parameters.hpp"
 #include "algo/core/trajectory.hpp"
-#include "algo/satp/prediction.hpp"
-#include "algo/scene/scene.hpp"
+#include "algo/trajectory/clearance.hpp"
+#include "algo/trajectory/ilqr.hpp"
+#include "algo/trajectory/reference_line.hpp"
 
 namespace s4tp {
 
-struct OptimizerResult {
-  int iterations = 0;
-  float cost_before = 0.0F;
-  float cost_after = 0.0F;
-};
+inline constexpr float kRefinedWithinM = 1.0F;  ///< of the candidate, along and across
+inline constexpr float kRefinedWithinS = 0.5F;  ///< of it in time: a stop stays where it is
 
-/// \param trajectory  in: the chosen candidate; out: the refined one, same start
-/// \param allowance   most iterations
-[[nodiscard]] OptimizerResult optimize(const Scene& scene, const PredictionSet& prediction,
-                                       const Parameters& parameters, int allowance, Trajectory& trajectory);
+/// Writes what refining `trajectory` means, and the trajectory itself as a motion of the model.
+/// \param line  the reference line of its path. \param start_s_m  where on it the trajectory starts
+void build_refinement(const ReferenceLine& line, float start_s_m, const Surroundings& surroundings,
+                      const Parameters& parameters, const Trajectory& trajectory, RefinementProblem& problem,
+                      Motion& motion);
+
+class Optimizer {
+ public:
+  /// CAND-011 Never worse than its start: the result costs no more than `trajectory` did, or is
+  /// `trajectory` itself, to the bit. CAND-013 Standing still stays standing still, to the bit.
+  /// CAND-014 Within kRefinedWithinM and kRefinedWithinS of it, and where it kept its distance from a
+  /// predicted box, so does the result. \param trajectory  in: the chosen candidate; out: the refined one,
+  /// same start \param allowance   most passes
+  [[nodiscard]] IlqrResult refine(const ReferenceLine& line, float start_s_m,
+                                  const Surroundings& surroundings, const Parameters& parameters,
+                                  int allowance, Trajectory& trajectory);
+
+ private:
+  RefinementProblem problem_;
+  Motion motion_;
+  Ilqr ilqr_;
+};
 
 }  // namespace s4tp

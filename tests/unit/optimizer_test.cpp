@@ -1,25 +1,101 @@
-// The optimizer's place: what it gives is never worse than what it got.
+// Refinement of one candidate: what it is for, and what it must leave alone.
 
 #include "algo/trajectory/optimizer.hpp"
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
+#include <memory>
 
-#include "algo/scene/scene.hpp"
+#include "tests/support/refinement_scenes.hpp"
 
 namespace s4tp {
 namespace {
 
-// CAND-011 The identity: the trajectory comes back to the bit, after no iteration, at no cost.
-TEST(Optimizer, GivesBackTheCandidate) {
-  Trajectory trajectory;
-  for (int i = 0; i < kTrajectoryPoints; ++i) trajectory.points[i].rear_axle.x_m = static_cast<float>(i);
-  const Trajectory before = trajectory;
-  const OptimizerResult result = optimize(Scene{}, PredictionSet{}, Parameters{}, 16, trajectory);
-  EXPECT_EQ(std::memcmp(&before, &trajectory, sizeof(trajectory)), 0);
-  EXPECT_EQ(result.iterations, 0);
-  EXPECT_LE(result.cost_after, result.cost_before);
+using test::RefinementScene;
+
+/// 13 m/s on a straight road, braking with `acceleration_mps2`; jerk as candidates have it.
+std::unique_ptr<RefinementScene> braking(float acceleration_mps2) {
+  auto scene = std::make_unique<RefinementScene>();
+  scene->map = test::straight_road(2, 300.0F);
+  const LanePath path = test::path_of(scene->map, {0});
+  (void)test::add_way(scene->scene, scene->map, path);
+  const TrajectoryPoint start = test::state_on(scene->map, path, 50.0F, 13.0F);
+  test::put_ego(scene->scene, start);
+  build_reference(scene->map, path, 50.0F, start.speed_mps, scene->parameters, scene->line);
+  scene->candidate.acceleration_mps2 = acceleration_mps2;
+  shape_lateral(scene->line, start, {50.0F, 0.0F}, 0.0F, 20.0F, scene->candidate);
+  roll_out(scene->line, scene->candidate, start, Plan{}, 0, scene->parameters, scene->trajectory);
+  return scene;
+}
+
+IlqrResult refine(RefinementScene& scene, int passes) {
+  return std::make_unique<Optimizer>()->refine(scene.line, scene.candidate.start_s_m, scene.surroundings(),
+                                               scene.parameters, passes, scene.trajectory);
+}
+
+float mean_squared_jerk(const Trajectory& trajectory) {
+  float sum = 0.0F;
+  for (int i = 1; i < kTrajectoryPoints; ++i) {
+    sum += square((trajectory.points[i].acceleration_mps2 - trajectory.points[i - 1].acceleration_mps2) /
+                  kStepS);
+  }
+  return sum / static_cast<float>(kHorizonSteps);
+}
+
+// CAND-011 Without an allowance the candidate comes back to the bit, after no pass.
+TEST(Optimizer, GivesBackTheCandidateWhenThereIsNoAllowance) {
+  const auto scene = braking(-3.0F);
+  const Trajectory before = scene->trajectory;
+  EXPECT_EQ(refine(*scene, 0).passes, 0);
+  EXPECT_EQ(std::memcmp(&before, &scene->trajectory, sizeof(before)), 0);
+}
+
+// Braking that sets in with 12 m/s^3 (mean square over the horizon 10) becomes half as jerky or less, while
+// the end stays within 0.5 m and 0.3 m/s.
+TEST(Optimizer, SmoothsTheOnsetOfBraking) {
+  const auto scene = braking(-3.0F);
+  const Trajectory before = scene->trajectory;
+  const IlqrResult result = refine(*scene, 16);
+  EXPECT_TRUE(result.improved);
+  EXPECT_LT(result.cost_after, 0.7F * result.cost_before);
+  EXPECT_GT(mean_squared_jerk(before), 8.0F);
+  EXPECT_LT(mean_squared_jerk(scene->trajectory), 0.67F * mean_squared_jerk(before));
+  const TrajectoryPoint& end = scene->trajectory.points[kHorizonSteps];
+  EXPECT_NEAR(end.rear_axle.x_m, before.points[kHorizonSteps].rear_axle.x_m, 0.5F);
+  EXPECT_NEAR(end.speed_mps, before.points[kHorizonSteps].speed_mps, 0.3F);
+}
+
+// A car drives beside us, 0.45 m from side to side: the plan makes room, as far as its candidate lets it, and
+// from 0.5 s on is never nearer than before.
+TEST(Optimizer, MakesRoomForWhoIsNear) {
+  const auto scene = braking(0.0F);
+  const LanePath path = test::path_of(scene->map, {0});
+  const Agent& agent = test::add_vehicle(scene->scene, scene->map, path, 53.0F, 13.0F, 2.25F);
+  (void)scene->keep_going.agents.push(test::steady_future(scene->map, agent));
+  AgentPrediction predicted;
+  (void)predicted.modes.push(test::steady_future(scene->map, agent));
+  (void)scene->prediction.agents.push(predicted);
+  EXPECT_TRUE(refine(*scene, 16).improved);
+  for (int i = 5; i < kTrajectoryPoints; ++i) EXPECT_LE(scene->trajectory.points[i].rear_axle.y_m, 0.0F) << i;
+  EXPECT_LT(scene->trajectory.points[20].rear_axle.y_m, -0.03F);
+  EXPECT_GT(scene->trajectory.points[20].rear_axle.y_m, -1.0F);
+}
+
+// A candidate that would touch the car ahead's predicted box but for 0.35 m: however jerky the braking that
+// keeps it, the refined plan keeps the check's 0.3 m as well.
+TEST(Optimizer, KeepsItsDistance) {
+  const auto scene = braking(-6.0F);
+  const LanePath path = test::path_of(scene->map, {0});
+  const float front_m = scene->trajectory.points[kHorizonSteps].rear_axle.x_m + 4.0F;
+  const Agent& agent = test::add_vehicle(scene->scene, scene->map, path, front_m + 0.35F + 2.5F, 0.0F);
+  (void)scene->keep_going.agents.push(test::steady_future(scene->map, agent));
+  AgentPrediction predicted;
+  (void)predicted.modes.push(test::steady_future(scene->map, agent));
+  (void)scene->prediction.agents.push(predicted);
+  EXPECT_TRUE(refine(*scene, 16).improved);
+  EXPECT_LE(scene->trajectory.points[kHorizonSteps].rear_axle.x_m + 4.0F, front_m + 0.05F + 0.005F);
 }
 
 }  // namespace
