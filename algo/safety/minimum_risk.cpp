@@ -149,7 +149,9 @@ bool along_lane(const Scene& scene, const TrajectoryPoint& start, const Paramete
     if (feasible(trajectory, parameters)) return true;
     length_m = kStretch * length_m;
   }
-  return false;
+  candidate.steered = true;
+  roll_out(line, candidate, start, none, 0, parameters, trajectory);
+  return feasible(trajectory, parameters);
 }
 
 void along_plan(const Scene& scene, const TrajectoryPoint& start, const Plan& running, std::uint32_t start_ms,

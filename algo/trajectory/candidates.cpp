@@ -147,7 +147,7 @@ bool shape_longitudinal(const Trial& trial, const ReferenceLine& line, const Cou
   return false;
 }
 
-/// Finds a lateral length with which the candidate can be driven. \return false when there is none
+/// Finds a lateral length with which the candidate can be driven, or else steers. \return false: neither
 bool make_feasible(const ReferenceLine& line, const TrajectoryPoint& start, const Plan& running,
                    std::uint32_t start_ms, const Parameters& parameters, Course& course, Candidate& candidate,
                    Trajectory& trajectory) {
@@ -155,11 +155,13 @@ bool make_feasible(const ReferenceLine& line, const TrajectoryPoint& start, cons
     shape_lateral(line, start, course.where, 0.0F, course.lateral_length_m, candidate);
     roll_out(line, candidate, start, running, start_ms, parameters, trajectory);
     if (feasible(trajectory, parameters)) return true;
-    if (candidate.intent == Intent::kPrevious) return false;
+    if (candidate.intent == Intent::kPrevious) break;
     if (i + 1 < course.attempts) course.lateral_length_m *= kStretch;
   }
-  course.attempts = 1;
-  return false;
+  if (candidate.intent != Intent::kPrevious) course.attempts = 1;
+  candidate.steered = true;
+  roll_out(line, candidate, start, running, start_ms, parameters, trajectory);
+  return feasible(trajectory, parameters);
 }
 
 }  // namespace

@@ -32,6 +32,7 @@ struct Candidate {
   float target_speed_mps = 0.0F;   ///< kFollow: the leader's, held
   float lateral[6] = {};          ///< d = sum lateral[i] u^i, u = (s - start_s) / length in [0, 1], then d(1)
   float lateral_length_m = 1.0F;  ///< > 0
+  bool steered = false;           ///< no quintic fits: steered back to the line (steering.hpp)
   float start_s_m = 0.0F;         ///< at plan start
 };
 

@@ -1,19 +1,26 @@
 #include "algo/trajectory/reference_line.hpp"
 
 #include "algo/core/inline.hpp"
+#include "algo/trajectory/bicycle.hpp"
 
 namespace s4tp {
 namespace {
 
-constexpr float kBehind = 4.0F;              // samples behind the start, for smoothing and its projection
-constexpr float kSpacingPerSpeed = 0.0625F;  // s: 72 samples are then 4.2 s of way
+constexpr float kBehind = 16.0F;             // samples behind the start: a corner is smoothed as a whole
+constexpr float kSpacingPerSpeed = 0.0625F;  // s: 68 samples ahead are then 4.2 s of way
 constexpr float kGentle = 0.8F;      // share of comfortable braking used to arrive at a curve or limit
 constexpr float kTinyM = 0.01F;      // no division by less
+constexpr float kFlat = 1e-3F;       // the same, radian of steering per metre
 constexpr float kStraight = 1e-4F;   // sine of a turn between samples that counts as none
 constexpr float kSlowestMps = 1.0F;  // a cap never asks for standstill: stops are intents of their own
+constexpr float kSteeringShare =
+    0.85F;                          // of what can be steered, angle and rate: some is left to follow with
+constexpr int kMostPasses = 12;     // to widen a bend: from 3.4 m radius to 5.6 m over a right angle
+constexpr int kEdgeSamples = 3;     // at the ends, which smoothing leaves as they are
+constexpr int kWidenedSamples = 5;  // each way around what is too tight
 
-/// Triangle of five: weights 1 2 3 2 1.
-void smooth(ReferenceLine& line) {
+/// Triangle of five: weights 1 2 3 2 1. \param chosen  samples to smooth; null: all
+void smooth(const bool* chosen, ReferenceLine& line) {
   Point before2 = position(line.samples[0].pose);
   Point before1 = position(line.samples[1].pose);
   for (int i = 2; i + 2 < kReferenceSamples; ++i) {
@@ -21,11 +28,45 @@ void smooth(ReferenceLine& line) {
     const Point here = position(pose);
     const Point after1 = position(line.samples[i + 1].pose);
     const Point after2 = position(line.samples[i + 2].pose);
-    const Point sum = (before2 + after2) + 2.0F * (before1 + after1) + 3.0F * here;
-    pose.x_m = sum.x_m / 9.0F;
-    pose.y_m = sum.y_m / 9.0F;
+    if (chosen == nullptr || chosen[i]) {
+      const Point sum = (before2 + after2) + 2.0F * (before1 + after1) + 3.0F * here;
+      pose.x_m = sum.x_m / 9.0F;
+      pose.y_m = sum.y_m / 9.0F;
+    }
     before2 = before1;
     before1 = here;
+  }
+}
+
+/// Marks the samples around every bend of more than `limit_1pm`. \return whether there is any
+bool find_too_tight(const ReferenceLine& line, float limit_1pm, bool* chosen) {
+  bool any = false;
+  for (int i = 0; i < kReferenceSamples; ++i) chosen[i] = false;
+  for (int i = kEdgeSamples; i + kEdgeSamples < kReferenceSamples; ++i) {
+    const Point here = position(line.samples[i].pose);
+    const Point in = here - position(line.samples[i - 1].pose);
+    const Point out = position(line.samples[i + 1].pose) - here;
+    // The circle through three points; in and out are nearly equally long: |in + out| is twice their mean.
+    const float turn_m2 = abs(cross(in, out));
+    const Point both = in + out;
+    const float span_m2 = dot(both, both);
+    if (8.0F * turn_m2 <= limit_1pm * span_m2 * sqrt(span_m2)) continue;
+    any = true;
+    for (int k = i - kWidenedSamples; k <= i + kWidenedSamples; ++k) {
+      if (k >= 0 && k < kReferenceSamples) chosen[k] = true;
+    }
+  }
+  return any;
+}
+
+/// A lane may bend more than we can steer: our way cuts or widens such a corner.
+void widen_tight_bends(const Parameters& parameters, ReferenceLine& line) {
+  const float limit_1pm =
+      curvature_for(kSteeringShare * parameters.vehicle.steering_max_rad, parameters.vehicle.wheelbase_m);
+  bool chosen[kReferenceSamples];
+  for (int pass = 0; pass < kMostPasses; ++pass) {
+    if (!find_too_tight(line, limit_1pm, chosen)) return;
+    smooth(chosen, line);
   }
 }
 
@@ -55,6 +96,14 @@ void differentiate(ReferenceLine& line) {
   line.samples[kReferenceSamples - 1].curvature_1pm = 0.0F;
 }
 
+/// Speed at which the wheels can be turned as fast as the bend sets in.
+float steerable_mps(const ReferenceLine& line, int i, const Parameters& parameters) {
+  const float slope_1pm2 =
+      abs(line.samples[i + 1].curvature_1pm - line.samples[i].curvature_1pm) / line.spacing_m;
+  const float rate_radps = kSteeringShare * parameters.vehicle.steering_rate_max_radps;
+  return rate_radps / max(slope_1pm2 * parameters.vehicle.wheelbase_m, kFlat);  // d atan(x) <= dx
+}
+
 /// Caps by curves, then backwards: v^2 = v_next^2 + 2 b ds, so that each slower part is reached in time.
 void cap_speeds(const Parameters& parameters, ReferenceLine& line) {
   const float gain_m2ps2 = 2.0F * kGentle * parameters.comfort.braking_mps2 * line.spacing_m;
@@ -65,6 +114,7 @@ void cap_speeds(const Parameters& parameters, ReferenceLine& line) {
     if (bend_1pm * square(cap_mps) > parameters.comfort.lateral_mps2) {
       cap_mps = sqrt(parameters.comfort.lateral_mps2 / bend_1pm);
     }
+    if (i + 1 < kReferenceSamples) cap_mps = min(cap_mps, steerable_mps(line, i, parameters));
     cap_mps = max(cap_mps, kSlowestMps);
     if (cap_mps > next_mps) cap_mps = min(cap_mps, sqrt(square(next_mps) + gain_m2ps2));
     next_mps = cap_mps;
@@ -84,7 +134,8 @@ void build_reference(const LaneMap& map, const LanePath& path, float from_s_m, f
     line.samples[i].pose = point.pose;
     line.samples[i].speed_cap_mps = point.speed_limit_mps;
   }
-  smooth(line);
+  smooth(nullptr, line);
+  widen_tight_bends(parameters, line);
   differentiate(line);
   cap_speeds(parameters, line);
 }

@@ -6,6 +6,7 @@
 ///   polyline      ____/\__    kinks at every vertex: no steering could follow
 ///   reference     ____/~~\__  the same, averaged over +-2 samples (a triangle): an arc of radius R moves
 ///                             inwards by 0.67 m^2 / R, 6 cm at 10.7 m, and its curvature sets in over 5 m
+///   too tight     ____|       where a lane bends more than we can steer, the corner is averaged further
 /// \endcode
 
 #include "algo/core/config.hpp"
@@ -14,14 +15,14 @@
 
 namespace s4tp {
 
-inline constexpr int kReferenceSamples = 72;
+inline constexpr int kReferenceSamples = 84;
 
 /// Smoothed centre line over kReferenceSamples * spacing_m; beyond both ends it goes on straight.
 struct ReferenceLine {
   struct Sample {
     Pose pose;
     float curvature_1pm = 0.0F;
-    float speed_cap_mps = 0.0F;  ///< speed limit and curves, ahead too: braked for in time, comfortably
+    float speed_cap_mps = 0.0F;  ///< limit, curves and their onset, ahead too: braked for in time
   };
   float start_s_m = 0.0F;  ///< arc length of samples[0] along the path
   float spacing_m = 1.0F;

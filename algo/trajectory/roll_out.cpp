@@ -2,6 +2,7 @@
 
 #include "algo/core/inline.hpp"
 #include "algo/trajectory/speed_profile.hpp"
+#include "algo/trajectory/steering.hpp"
 
 namespace s4tp {
 namespace {
@@ -76,18 +77,20 @@ void march(const ReferenceLine& line, const Candidate& candidate, int first, con
   const TrajectoryPoint& from = trajectory.points[first];
   LongitudinalState state{candidate.start_s_m, from.speed_mps, from.acceleration_mps2};
   TrajectoryPoint scratch;
-  float s_per_m = place(line, candidate, state.s_m, scratch);
+  float s_per_m = candidate.steered ? 1.0F : place(line, candidate, state.s_m, scratch);
   for (int i = first + 1; i < kTrajectoryPoints; ++i) {
     const float time_s = static_cast<float>(i - 1 - first) * kStepS;
     const float wanted = wanted_acceleration(line, candidate, state, time_s, parameters);
     const float way_m = advance(wanted, parameters, state);
     TrajectoryPoint& point = trajectory.points[i];
     point = trajectory.points[i - 1];  // at rest pose and curvature stay, bit for bit
-    if (way_m > 0.0F) {
+    point.speed_mps = state.speed_mps;
+    if (way_m > 0.0F && candidate.steered) {
+      steer_step(line, way_m, parameters, state.s_m, point);
+    } else if (way_m > 0.0F) {
       state.s_m = state.s_m + way_m * s_per_m;
       s_per_m = place(line, candidate, state.s_m, point);
     }
-    point.speed_mps = state.speed_mps;
     point.acceleration_mps2 = state.acceleration_mps2;
   }
 }

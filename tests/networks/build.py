@@ -163,8 +163,8 @@ NETWORKS = [skewed, all_way_stop, right_before_left, zipper, roundabout, tee, fo
             late_changes, far_away, strange_names, no_inner_lanes, unregulated, stop_signs, signals]
 
 
-def build(network):
-    nodes, edges, connections, options = network()
+def build_network(path, nodes, edges, connections, options):
+    """Writes the network netconvert makes of the parts."""
     with tempfile.TemporaryDirectory() as folder:
         folder = pathlib.Path(folder)
         text = "<nodes>" + "".join(f'<node id={quoteattr(k)} x="{v[0]:.3f}" y="{v[1]:.3f}" type="{v[2]}"/>'
@@ -178,7 +178,7 @@ def build(network):
                 text += f' shape="{extra["shape"]}"'
             text += ">" + ('<lane index="0" allow="emergency authority" width="2.0"/>' if extra.get("shoulder") else "") + "</edge>"
         (folder / "e.xml").write_text(text + "</edges>")
-        command = ["netconvert", "-n", folder / "n.xml", "-e", folder / "e.xml", "-o", HERE / (network.__name__ + ".net.xml"),
+        command = ["netconvert", "-n", folder / "n.xml", "-e", folder / "e.xml", "-o", path,
                    "--no-turnarounds", "true", "--offset.disable-normalization", "true", "--xml-validation", "never"]
         if connections:
             (folder / "x.xml").write_text("<connections>" + "".join(
@@ -186,8 +186,9 @@ def build(network):
             command += ["-x", folder / "x.xml"]
         for key, value in options.items():
             command += [key, value]
-        subprocess.run([str(c) for c in command], check=True, stdout=subprocess.DEVNULL)
-    path = HERE / (network.__name__ + ".net.xml")
+        done = subprocess.run([str(c) for c in command], capture_output=True, text=True)
+        if done.returncode != 0:
+            sys.exit(f"{path}: {done.stderr}")
     text = re.sub(r"<!-- generated on.*?-->\n", "", path.read_text(), flags=re.S)  # date and paths of one machine
     path.write_text(re.sub(r"\n\n+", "\n", text))
 
@@ -210,5 +211,5 @@ def write_scenario(name):
 if __name__ == "__main__":
     for each in NETWORKS:
         if len(sys.argv) < 2 or each.__name__ in sys.argv[1:]:
-            build(each)
+            build_network(HERE / (each.__name__ + ".net.xml"), *each())
             write_scenario(each.__name__)

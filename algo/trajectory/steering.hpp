@@ -1,0 +1,16 @@
+#pragma once
+/// Steering back to a line from wherever and however we stand: one step of a bicycle whose driver turns the
+/// wheel towards the line as fast and as far as it goes. It can be driven from any state, so it stands in
+/// where no smooth lateral motion (roll_out.hpp) fits: half turned in a tight corner, wheels locked over.
+
+#include "algo/core/trajectory.hpp"
+#include "algo/trajectory/reference_line.hpp"
+
+namespace s4tp {
+
+/// Moves `point` by `way_m` > 0 within one step of kStepS: pose and curvature; speed as it is given in
+/// `point`. \param s_m  arc length of `point` on the line; receives the new one
+void steer_step(const ReferenceLine& line, float way_m, const Parameters& parameters, float& s_m,
+                TrajectoryPoint& point);
+
+}  // namespace s4tp
