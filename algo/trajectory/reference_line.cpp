@@ -13,11 +13,11 @@ constexpr float kTinyM = 0.01F;      // no division by less
 constexpr float kFlat = 1e-3F;       // the same, radian of steering per metre
 constexpr float kStraight = 1e-4F;   // sine of a turn between samples that counts as none
 constexpr float kSlowestMps = 1.0F;  // a cap never asks for standstill: stops are intents of their own
-constexpr float kSteeringShare =
-    0.85F;                          // of what can be steered, angle and rate: some is left to follow with
-constexpr int kMostPasses = 12;     // to widen a bend: from 3.4 m radius to 5.6 m over a right angle
-constexpr int kEdgeSamples = 3;     // at the ends, which smoothing leaves as they are
-constexpr int kWidenedSamples = 5;  // each way around what is too tight
+constexpr float kRateShare = 0.85F;  // of the steering rate: some is left to follow with
+constexpr int kMostPasses = 16;      // to widen a bend
+constexpr int kEdgeSamples = 4;      // at the ends, which widening leaves as they are
+constexpr int kWidenedSamples = 8;   // each way around what is too tight
+constexpr float kSwingOut = 0.5F;    // of what a pass cuts is given back outside
 
 /// Triangle of five: weights 1 2 3 2 1. \param chosen  samples to smooth; null: all
 void smooth(const bool* chosen, ReferenceLine& line) {
@@ -59,14 +59,29 @@ bool find_too_tight(const ReferenceLine& line, float limit_1pm, bool* chosen) {
   return any;
 }
 
-/// A lane may bend more than we can steer: our way cuts or widens such a corner.
+/// Gives back half of what smoothing twice more would cut: in at the apex, out before and behind it, as one
+/// drives a narrow corner. Without it the line shrinks to the inside.
+void swing_out(const bool* chosen, ReferenceLine& line) {
+  constexpr float kTwice[5] = {19.0F, 16.0F, 10.0F, 4.0F, 1.0F};  // the triangle of five with itself, by 81
+  Point old[kReferenceSamples];
+  for (int i = 0; i < kReferenceSamples; ++i) old[i] = position(line.samples[i].pose);
+  for (int i = kEdgeSamples; i + kEdgeSamples < kReferenceSamples; ++i) {
+    if (!chosen[i]) continue;
+    Point sum = kTwice[0] * old[i];
+    for (int k = 1; k < 5; ++k) sum = sum + kTwice[k] * (old[i - k] + old[i + k]);
+    line.samples[i].pose.x_m = old[i].x_m + kSwingOut * (old[i].x_m - sum.x_m / 81.0F);
+    line.samples[i].pose.y_m = old[i].y_m + kSwingOut * (old[i].y_m - sum.y_m / 81.0F);
+  }
+}
+
+/// A lane may bend more than we can steer: our way through such a corner is wider, by up to 0.7 m.
 void widen_tight_bends(const Parameters& parameters, ReferenceLine& line) {
-  const float limit_1pm =
-      curvature_for(kSteeringShare * parameters.vehicle.steering_max_rad, parameters.vehicle.wheelbase_m);
+  const float limit_1pm = curvature_for(parameters.vehicle.steering_max_rad, parameters.vehicle.wheelbase_m);
   bool chosen[kReferenceSamples];
   for (int pass = 0; pass < kMostPasses; ++pass) {
     if (!find_too_tight(line, limit_1pm, chosen)) return;
     smooth(chosen, line);
+    swing_out(chosen, line);
   }
 }
 
@@ -100,7 +115,7 @@ void differentiate(ReferenceLine& line) {
 float steerable_mps(const ReferenceLine& line, int i, const Parameters& parameters) {
   const float slope_1pm2 =
       abs(line.samples[i + 1].curvature_1pm - line.samples[i].curvature_1pm) / line.spacing_m;
-  const float rate_radps = kSteeringShare * parameters.vehicle.steering_rate_max_radps;
+  const float rate_radps = kRateShare * parameters.vehicle.steering_rate_max_radps;
   return rate_radps / max(slope_1pm2 * parameters.vehicle.wheelbase_m, kFlat);  // d atan(x) <= dx
 }
 
