@@ -1,10 +1,17 @@
 #include "sim_host/world/sumo/sumo_routes.hpp"
 
-#include <pugixml.hpp>
+#include <algorithm>
 #include <sstream>
+
+#include "sim_host/world/social_value.hpp"
 
 namespace s4tp::world {
 namespace {
+
+// A driver of orientation 0 is SUMO's default driver; the others differ from him as they differ from ours.
+const SocialTraits kOrdinary = social_traits(0.0);
+constexpr double kTimegapMinor_s = 1.0;  // SUMO's default
+constexpr double kWait_s = 10.0;         // at a line, of a patient driver: p95 in docs/traffic_tables.md
 
 /// An element with everything in it written so that reading gives the same number.
 class Element {
@@ -58,9 +65,12 @@ std::string route_definition(const std::string& id, const std::vector<std::strin
   return Element("route").with("id", id).with("edges", list).closed();
 }
 
-Element driver_definition(const std::string& id, const Driver& driver) {
+Element driver_definition(const std::string& id, const Departure& departure) {
+  const Driver& driver = departure.driver;
   Element type("vType");
   type.with("id", id)
+      .with("length", departure.length_m)
+      .with("width", departure.width_m)
       .with("accel", driver.acceleration_mps2)
       .with("decel", driver.deceleration_mps2)
       .with("emergencyDecel", driver.emergency_mps2)
@@ -70,8 +80,15 @@ Element driver_definition(const std::string& id, const Driver& driver) {
       .with("speedFactor", driver.speed_factor)
       .with("speedDev", 0)
       .with("maxSpeed", driver.max_speed_mps);
+  type.with("jmTimegapMinor", std::max(0.0, kTimegapMinor_s + driver.gap_margin_s - kOrdinary.gap_margin_s))
+      .with("impatience",
+            std::clamp(kWait_s / driver.patience_s - kWait_s / kOrdinary.patience_s, -1.0, 1.0));
   if (driver.lane_keeping) {
     type.with("lcStrategic", -1).with("lcSpeedGain", 0).with("lcKeepRight", 0).with("lcCooperative", 0);
+  } else {
+    type.with("lcSpeedGain", kOrdinary.change_threshold_mps2 / driver.change_threshold_mps2)
+        .with("lcAssertive", driver.asked_braking_mps2 / kOrdinary.asked_braking_mps2)
+        .with("lcCooperative", 1.0 - driver.rivalry);
   }
   return type;
 }
@@ -93,7 +110,7 @@ std::string flow_definitions(const Network& network, const FlowPlan& plan) {
   for (std::size_t i = 0; i < plan.departures.size(); ++i) {
     const Departure& departure = plan.departures[i];
     const std::string id = "car" + std::to_string(i);
-    text += driver_definition(id, departure.driver).closed();
+    text += driver_definition(id, departure).closed();
     Element vehicle("vehicle");
     vehicle.with("id", id)
         .with("type", id)

@@ -1,0 +1,95 @@
+#include "sim_host/world/sumo/sumo_routes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <pugixml.hpp>
+#include <string>
+
+#include "sim_host/world/social_value.hpp"
+
+namespace s4tp::world {
+namespace {
+
+/// One lane of 300 m.
+Network road() {
+  Network network;
+  NetworkLane lane;
+  lane.name = "road_0";
+  lane.edge = "road";
+  lane.centre = Polyline({{0.0, 0.0}, {300.0, 0.0}});
+  network.lanes.push_back(lane);
+  return network;
+}
+
+/// The vType SUMO gets for a driver drawn from a model.
+pugi::xml_document type_of(const DriverModel& model, double length_m = 5.0) {
+  const Network network = road();
+  Random random(1);
+  FlowPlan plan;
+  plan.ways.push_back({RouteGuide(network, {"road"}, kNoLane, 0.0), "road", {{"road"}, -1, -1}});
+  Departure departure;
+  departure.lane = 0;
+  departure.driver = draw_driver(model, random);
+  departure.length_m = length_m;
+  departure.width_m = 2.5;
+  plan.departures.push_back(departure);
+  pugi::xml_document document;
+  EXPECT_TRUE(document.load_string(routes_file(flow_definitions(network, plan)).c_str()));
+  return document;
+}
+
+double number(const pugi::xml_document& document, const char* name) {
+  const pugi::xml_attribute attribute = document.child("routes").child("vType").attribute(name);
+  EXPECT_TRUE(attribute) << name;
+  return attribute.as_double(-99.0);
+}
+
+DriverModel with_svo(double svo_rad) {
+  DriverModel model;
+  model.svo_rad = svo_rad;
+  return model;
+}
+
+// SUMO-002 A driver of orientation 0 is SUMO's default driver: its documented defaults of the junction and
+// lane change models.
+TEST(SumoRoutes, OrdinaryDriverIsSumosDefault) {
+  const pugi::xml_document type = type_of(with_svo(0.0));
+  EXPECT_DOUBLE_EQ(number(type, "jmTimegapMinor"), 1.0);
+  EXPECT_DOUBLE_EQ(number(type, "impatience"), 0.0);
+  EXPECT_DOUBLE_EQ(number(type, "lcSpeedGain"), 1.0);
+  EXPECT_DOUBLE_EQ(number(type, "lcAssertive"), 1.0);
+  EXPECT_DOUBLE_EQ(number(type, "lcCooperative"), 1.0);
+  EXPECT_DOUBLE_EQ(number(type, "tau"), 1.0);
+}
+
+// Margins 0.8 and 4.0 s against 2.8: -1 (0 at least) and 2.2 s. Patience 15 and 90 s against 60: 10/15 -
+// 10/60 = 0.5 and 10/90 - 10/60. Thresholds 0.05 and 0.3 against 0.1; braking 4 and 2 against 3; rivalry 1
+// and 0.
+TEST(SumoRoutes, SocialDriversDifferAsOursDo) {
+  const pugi::xml_document competitive = type_of(with_svo(-0.2));
+  EXPECT_DOUBLE_EQ(number(competitive, "jmTimegapMinor"), 0.0);
+  EXPECT_NEAR(number(competitive, "impatience"), 0.5, 1e-12);
+  EXPECT_NEAR(number(competitive, "lcSpeedGain"), 2.0, 1e-12);
+  EXPECT_NEAR(number(competitive, "lcAssertive"), 4.0 / 3.0, 1e-12);
+  EXPECT_NEAR(number(competitive, "lcCooperative"), 0.0, 1e-12);
+  const pugi::xml_document prosocial = type_of(with_svo(0.8));
+  EXPECT_NEAR(number(prosocial, "jmTimegapMinor"), 2.2, 1e-12);
+  EXPECT_NEAR(number(prosocial, "impatience"), 10.0 / 90.0 - 10.0 / 60.0, 1e-12);
+  EXPECT_NEAR(number(prosocial, "lcSpeedGain"), 1.0 / 3.0, 1e-12);
+  EXPECT_NEAR(number(prosocial, "lcAssertive"), 2.0 / 3.0, 1e-12);
+  EXPECT_NEAR(number(prosocial, "lcCooperative"), 1.0, 1e-12);
+}
+
+// A car has the size it has in the built-in traffic, and who keeps his lane has no wish to leave it.
+TEST(SumoRoutes, SizeAndLaneKeeping) {
+  DriverModel keeping;
+  keeping.lane_keeping = true;
+  const pugi::xml_document type = type_of(keeping, 12.0);
+  EXPECT_DOUBLE_EQ(number(type, "length"), 12.0);
+  EXPECT_DOUBLE_EQ(number(type, "width"), 2.5);
+  EXPECT_DOUBLE_EQ(number(type, "lcStrategic"), -1.0);
+  EXPECT_DOUBLE_EQ(number(type, "lcSpeedGain"), 0.0);
+}
+
+}  // namespace
+}  // namespace s4tp::world
