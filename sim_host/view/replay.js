@@ -11,7 +11,17 @@
   let time = first, playing = false, before = 0;
   const style = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
-  // Words hold until others are said.
+  // Words hold until others are said; a click on them shows the moment they begin.
+  const story = data.cycles.filter((cycle) => cycle.words).map((cycle) => {
+    const button = document.createElement('button');
+    for (const text of [`${(cycle.t / 1000).toFixed(1)} s`, cycle.words]) {
+      button.appendChild(document.createElement('span')).textContent = text;
+    }
+    button.addEventListener('click', () => { play(false); show(cycle.t); });
+    element('story').appendChild(document.createElement('li')).appendChild(button);
+    return { t: cycle.t, button };
+  });
+  element('told').hidden = story.length < 2;
   for (let i = 1; i < data.cycles.length; ++i) data.cycles[i].words ??= data.cycles[i - 1].words;
   const peak = (cycle, parts) => (cycle.risk ? Math.max(0, ...parts.flatMap((part) => cycle.risk[part])) : 0);
   const big = (value) => (Math.abs(value) >= 1000 ? `${(value / 1000).toFixed(1)}k` : value.toFixed(0));
@@ -113,6 +123,10 @@
       [frame.gap_cm < 0 ? 'alone' : `${(frame.gap_cm / 100).toFixed(1)} m`, 'gap'], [mode ? mode[1] : '–', 'ECU'],
     ].map(([value, name]) => `<div><b>${value}</b>${name}</div>`).join('');
     drawProfile(cycle);
+    const current = story.filter(({ t }) => t <= time).pop();
+    for (const one of story) one.button.classList.toggle('now', one === current);
+    const list = element('story'), top = current ? current.button.offsetTop : 0;
+    if (top < list.scrollTop || top > list.scrollTop + list.clientHeight - 40) list.scrollTop = top - 40;
     const explained = cycle && cycle.cost;
     element('reasons').hidden = !explained;
     if (!explained) return;
