@@ -5,6 +5,7 @@
 
 #include "algo/core/bounded.hpp"
 #include "algo/core/status.hpp"
+#include "algo/safety/rss.hpp"
 #include "algo/safety/trajectory_check.hpp"
 #include "algo/trajectory/candidates.hpp"
 
@@ -19,6 +20,14 @@ struct CostBreakdown {
   float lane = 0.0F;  ///< offset, distance from the route's lane, lane change
   float risk = 0.0F;
   [[nodiscard]] float total() const;
+};
+
+/// The motion that would have gone furthest, had the check not rejected it.
+struct HeldUp {
+  CheckReport report;        ///< why it was; kPassed: nothing was rejected for what others do
+  std::uint8_t track = 255;  ///< track id of who is in its way; 255: nobody
+  Manoeuvre manoeuvre = Manoeuvre::kKeep;
+  float way_m = 0.0F;  ///< it would have driven within the horizon
 };
 
 /// The stages of a cycle, in the order the data flows.
@@ -41,15 +50,21 @@ struct Explanation {
   std::uint8_t left_out = 0;
   Candidate chosen;
   Candidate runner_up;
+  Manoeuvre manoeuvre = Manoeuvre::kKeep;  ///< of `chosen`
+  Manoeuvre runner_up_manoeuvre = Manoeuvre::kKeep;
   CostBreakdown chosen_cost;
   CostBreakdown runner_up_cost;
   Rejection rejections[kMaxCandidates] = {};
   std::uint8_t decisions = 0;           ///< how many were predicted with our plan
   std::uint8_t dominating_track = 255;  ///< track id of the vehicle whose risk is largest; 255: nobody
   std::uint8_t dominating_step = 0;
-  CheckReport held_up;               ///< why the rejected candidate that goes furthest was rejected
-  std::uint8_t held_up_track = 255;  ///< track id of who is in its way; 255: nobody
-  bool rss_clipped = false;
+  HeldUp held_up;                        ///< in our lane
+  HeldUp beside;                         ///< in the lanes beside
+  std::uint8_t leader_track = 255;       ///< track id of who drives ahead on the way chosen; 255: nobody
+  float leader_gap_m = 0.0F;             ///< bumper to bumper
+  RssEnvelope rss{};                     ///< what the proper response allows (rss.hpp)
+  std::uint8_t rss_track = 255;          ///< track id of its `agent`
+  bool rss_clipped = false;              ///< the plan wanted more
   std::uint16_t work[kStageCount] = {};  ///< units used per stage
   std::uint32_t parameters_crc = 0;
 };

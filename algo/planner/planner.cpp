@@ -8,6 +8,7 @@
 #include "algo/safety/minimum_risk.hpp"
 #include "algo/safety/rss.hpp"
 #include "algo/safety/terminal.hpp"
+#include "algo/trajectory/along_path.hpp"
 #include "algo/trajectory/bicycle.hpp"
 
 namespace s4tp {
@@ -129,6 +130,8 @@ Status Planner::plan(const PlannerInput& input, Plan& plan, Explanation& explana
   } else if (guarded) {
     const RssEnvelope envelope = rss_envelope(scene_, parameters_);
     explanation.rss_clipped = clip_to_envelope(envelope, parameters_, chosen_);
+    explanation.rss = envelope;
+    explanation.rss_track = track_id(envelope.agent);
   }
 
   plan.kind = status == Status::kOk ? PlanKind::kDrive : PlanKind::kMinimumRisk;
@@ -173,7 +176,6 @@ void Planner::rank(bool careful, Explanation& explanation) {
   decisions_.clear();
   keeps_plan_ = false;
   CheckReport report;
-  float held_up_m = 0.0F;
   for (int i = 0; i < candidates_.size(); ++i) {
     const Candidate& candidate = candidates_[i];
     const bool leaves_lane = scene_.ego_paths[candidate.path].manoeuvre != Manoeuvre::kKeep;
@@ -185,7 +187,7 @@ void Planner::rank(bool careful, Explanation& explanation) {
     roll_out(lines_[candidate.path], candidate, start_, running_, start_ms_, parameters_, chosen_);
     explanation.rejections[i] = judge(candidate.path, conditioned_, report);
     if (explanation.rejections[i] != Rejection::kNone) {
-      note_held_up(report, held_up_m, explanation);
+      note_held_up(candidate.path, report, explanation);
       continue;
     }
     costs_[i] = score_motion(scene_, keep_going_, candidate.path, chosen_, previous, careful, parameters_);
@@ -207,14 +209,19 @@ void Planner::rank(bool careful, Explanation& explanation) {
   decisions_.shortlist(allowance.decisions, keeps_plan_, plan_key_);
 }
 
-void Planner::note_held_up(const CheckReport& report, float& furthest_m, Explanation& explanation) const {
+void Planner::note_held_up(int path, const CheckReport& report, Explanation& explanation) const {
+  // What the car itself cannot do holds nobody up.
+  if (report.result != CheckResult::kCollision && report.result != CheckResult::kTerminal) return;
+  const Manoeuvre manoeuvre = scene_.ego_paths[path].manoeuvre;
+  HeldUp& held_up = manoeuvre == Manoeuvre::kKeep ? explanation.held_up : explanation.beside;
   float way_m = 0.0F;
   for (const TrajectoryPoint& point : chosen_.points) way_m = way_m + kStepS * point.speed_mps;
-  if (way_m <= furthest_m) return;
-  furthest_m = way_m;
-  explanation.held_up = report;
-  explanation.held_up_track =
-      report.agent < scene_.agents.size() ? scene_.agents[report.agent].track.id : kNobody;
+  if (held_up.report.result != CheckResult::kPassed && way_m <= held_up.way_m) return;
+  held_up = {report, track_id(report.agent), manoeuvre, way_m};
+}
+
+std::uint8_t Planner::track_id(int agent) const {
+  return agent >= 0 && agent < scene_.agents.size() ? scene_.agents[agent].track.id : kNobody;
 }
 
 Rejection Planner::judge(int path, const PredictionSet& conditioned, CheckReport& report) const {
@@ -273,11 +280,16 @@ Status Planner::choose(Explanation& explanation) {
   if (second >= 0) {
     explanation.runner_up = candidates_[second];
     explanation.runner_up_cost = costs_[second];
+    explanation.runner_up_manoeuvre = scene_.ego_paths[candidates_[second].path].manoeuvre;
   }
-  if (risk_.dominating_agent != kNobody && risk_.dominating_agent < scene_.agents.size()) {
-    explanation.dominating_track = scene_.agents[risk_.dominating_agent].track.id;
-    explanation.dominating_step = risk_.dominating_step;
-  }
+  explanation.dominating_track = track_id(risk_.dominating_agent);
+  explanation.dominating_step =
+      explanation.dominating_track == kNobody ? std::uint8_t{0} : risk_.dominating_step;
+  const EgoPath& path = scene_.ego_paths[candidates_[best].path];
+  explanation.manoeuvre = path.manoeuvre;
+  const Leader leader = find_leader(scene_, path, path.frenet.s_m, parameters_);
+  explanation.leader_track = track_id(leader.agent);
+  explanation.leader_gap_m = leader.gap_m;
   return Status::kOk;
 }
 

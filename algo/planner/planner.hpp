@@ -68,7 +68,8 @@ class Planner {
   [[nodiscard]] Status choose(Explanation& explanation);
   /// Rolls candidate `index` out into chosen_, predicts for it, checks it and computes its exact risk.
   [[nodiscard]] bool evaluate(int index, Explanation& explanation);
-  void note_held_up(const CheckReport& report, float& furthest_m, Explanation& explanation) const;
+  void note_held_up(int path, const CheckReport& report, Explanation& explanation) const;
+  [[nodiscard]] std::uint8_t track_id(int agent) const;
   [[nodiscard]] Rejection judge(int path, const PredictionSet& conditioned, CheckReport& report) const;
   /// What stands for the check in an unguarded planner's score; 0 in a guarded one's.
   [[nodiscard]] float crash_cost(const PredictionSet& prediction) const;

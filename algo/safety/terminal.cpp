@@ -98,7 +98,10 @@ TerminalVerdict judge_zone(const Scene& scene, const ConflictZone& zone, const A
   const float out_s = time_at(along, exit_s_m);
   for (int i = 0; i < scene.agents.size(); ++i) {
     if (!leaves_zone_to_us(scene, i, zone, in_s, out_s, committed, parameters)) {
-      return blame(TerminalCause::kZone, i);
+      TerminalVerdict verdict = blame(TerminalCause::kZone, i);
+      verdict.arrives_s = earliest_arrival_s(scene, i, zone, parameters);
+      verdict.needed_s = out_s;
+      return verdict;
     }
   }
   return {};

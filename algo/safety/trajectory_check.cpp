@@ -111,7 +111,9 @@ CheckReport check_trajectory(const Scene& scene, int ego_path, const Trajectory&
               clear_of(scene, ego_path, trajectory, unconditioned, parameters, report) &&
               clear_of(scene, ego_path, trajectory, conditioned, parameters, report))) {
     const TerminalVerdict verdict = judge_terminal(scene, ego_path, trajectory, parameters);
-    if (!verdict.safe()) report = {CheckResult::kTerminal, verdict.agent, 0, verdict.cause};
+    if (!verdict.safe()) {
+      report = {CheckResult::kTerminal, verdict.agent, 0, verdict.cause, verdict.arrives_s, verdict.needed_s};
+    }
   }
   return report;
 }

@@ -24,6 +24,8 @@ struct CheckReport {
   std::uint8_t agent = 255;  ///< whom it would hit, or who makes its end unsafe; 255: nobody
   std::uint8_t step = 0;     ///< when it would hit him
   TerminalCause terminal = TerminalCause::kNone;
+  float arrives_s = 0.0F;  ///< with TerminalCause::kZone: TerminalVerdict's
+  float needed_s = 0.0F;
 };
 
 /// Finite, feasible, no collision with the modes without plan, the conditioned modes, and "keeps doing what

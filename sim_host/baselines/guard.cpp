@@ -42,9 +42,9 @@ Status Guard::apply(const PlannerInput& input, Status status, Plan& plan, Explan
     const CheckReport report = check(plan.trajectory, input.start_ms);
     if (report.result != CheckResult::kPassed) {
       status = Status::kNoSafePlan;
-      explanation.held_up = report;
+      explanation.held_up.report = report;
       if (report.agent < scene_.agents.size())
-        explanation.held_up_track = scene_.agents[report.agent].track.id;
+        explanation.held_up.track = scene_.agents[report.agent].track.id;
     }
   }
   explanation.status = status;

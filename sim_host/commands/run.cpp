@@ -14,6 +14,7 @@
 #include "sim_host/processes/emulated_board.hpp"
 #include "sim_host/view/episode_picture.hpp"
 #include "sim_host/view/explanation_table.hpp"
+#include "sim_host/view/plan_words.hpp"
 #include "sim_host/view/replay.hpp"
 #include "sim_host/view/report.hpp"
 
@@ -37,6 +38,7 @@ struct RunOptions {
   int patience_s = 1;
   bool machine = false;
   fs::path log;
+  bool explain = false;
 };
 
 int run_one(const RunOptions& run) {
@@ -73,7 +75,9 @@ int run_one(const RunOptions& run) {
   campaign::print_episode(std::cout, row, result.recording);
   const fs::path reasons = fs::path(picture).replace_extension(".txt");
   std::ofstream explanations(reasons);
-  view::print_explanations(explanations, *result.trace, -result.recording.snapshots.front().time_s);
+  const double pre_roll_s = -result.recording.snapshots.front().time_s;
+  view::print_explanations(explanations, *result.trace, pre_roll_s);
+  if (run.explain) view::print_passages(std::cout, *result.trace, pre_roll_s);
   std::cout << "picture: " << picture.string() << "\nreplay: " << replay.string()
             << "\nreasons: " << reasons.string() << '\n';
   if (!run.log.empty()) std::cout << "bus log: " << run.log.string() << '\n';
@@ -146,18 +150,21 @@ Command add_run(CLI::App& tool) {
   run->add_option("--perception", options->perception,
                   "ideal (default), or real: noise, latency, dropouts, occlusion")
       ->check(CLI::IsMember(world::perception_names()));
+  CLI::Option* const explain = run->add_flag("--explain", options->explain,
+                                             "say in words, and in numbers, why the car does what it does");
   run->add_option("--log", options->log, "write every frame on the bus here, in candump's format");
   CLI::Option* const bus =
       run->add_option("--bus", options->bus,
                       "ECU and world as two processes on can0, vcan0, slcan:tcp:HOST:PORT, "
                       "slcan:pty:PATH, slcan:tty:PATH@BAUD (no picture then)");
+  bus->excludes(explain);
   run->add_flag("--realtime", options->realtime, "on a bus: 10 ms of host time a tick")->needs(bus);
   run->add_flag("--no-ecu", options->no_ecu, "on a bus: an ECU is there already")->needs(bus);
   CLI::Option* const target =
       run->add_option("--target", options->target,
                       "the ECU's image on an emulated board: m7, m55 (no picture then)")
           ->check(CLI::IsMember(processes::board_targets()))
-          ->excludes(bus, planner, guard);
+          ->excludes(bus, planner, guard, explain);
   run->add_option("--image", options->image,
                   "of that board (default: build/TARGET/firmware/targets/ecu_lockstep)")
       ->needs(target);

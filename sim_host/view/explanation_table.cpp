@@ -59,8 +59,8 @@ void print_explanations(std::ostream& out, const campaign::Trace& trace, double 
                   e.rss_clipped ? "yes" : "", static_cast<double>(c.progress), static_cast<double>(c.speed),
                   static_cast<double>(c.jerk), static_cast<double>(c.lateral), static_cast<double>(c.lane),
                   static_cast<double>(c.risk), static_cast<double>(c.total()),
-                  static_cast<double>(e.runner_up_cost.total()), e.dominating_track, held_up_name(e.held_up),
-                  e.held_up_track);
+                  static_cast<double>(e.runner_up_cost.total()), e.dominating_track,
+                  held_up_name(e.held_up.report), e.held_up.track);
     out << line;
   }
 }

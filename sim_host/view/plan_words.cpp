@@ -1,77 +1,367 @@
 #include "sim_host/view/plan_words.hpp"
 
+#include <algorithm>
 #include <cmath>
 
+#include "algo/core/inline.hpp"
 #include "sim_host/view/html.hpp"
 
 namespace s4tp::view {
 namespace {
 
-constexpr float kStandingMps = 0.3F;
-constexpr float kSameSpeedMps = 0.8F;
+constexpr int kNobody = 255;
+constexpr float kRestMps = 0.3F;
+constexpr float kNoticeableMps = 0.7F;  // within the horizon
+constexpr float kNoticeableM = 2.0F;    // as much further the rejected motion must have gone
+constexpr float kFollowingS = 2.5F;     // farther ahead nobody is followed
+constexpr float kBendMps2 = 1.5F;
+constexpr float kSoonS = 60.0F;          // later arrivals have no number
+constexpr std::size_t kBriefCycles = 3;  // shorter passages are passed over
 
-std::string motion(const Trajectory& plan) {
-  const float now_mps = plan.points[0].speed_mps;
-  const float end_mps = plan.points[kHorizonSteps].speed_mps;
-  const double end_kmh = 3.6 * static_cast<double>(end_mps);
-  if (now_mps < kStandingMps && end_mps < kStandingMps) return "Standing";
-  if (end_mps < kStandingMps) return "Stopping";
-  if (now_mps < kStandingMps) return "Starting off";
-  if (std::abs(end_mps - now_mps) < kSameSpeedMps) return format("Keeping about %.0f km/h", end_kmh);
-  return format("%s to %.0f km/h", end_mps > now_mps ? "Speeding up" : "Slowing down", end_kmh);
+const TrajectoryPoint& start_of(const campaign::CycleTrace& cycle) {
+  return cycle.record.plan.trajectory.points[0];
 }
 
-/// Why not further or faster; empty: nothing stands against it.
-std::string hindrance(const CheckReport& report) {
-  switch (report.result) {
-    case CheckResult::kPassed:
-      return {};
-    case CheckResult::kNotFinite:
-      return "the way further could not be computed";
-    case CheckResult::kInfeasible:
-      return "more than the car can do";
-    case CheckResult::kCollision:
-      return "going further would touch another car";
-    case CheckResult::kTerminal:
-      break;
+const TrajectoryPoint& end_of(const campaign::CycleTrace& cycle) {
+  return cycle.record.plan.trajectory.points[kHorizonSteps];
+}
+
+float way_m(const Trajectory& trajectory) {
+  float way = 0.0F;
+  for (const TrajectoryPoint& point : trajectory.points) way += kStepS * point.speed_mps;
+  return way;
+}
+
+const Track* find_track(const campaign::CycleTrace& cycle, int id) {
+  for (const Track& track : cycle.tracks) {
+    if (track.id == id) return &track;
   }
+  return nullptr;
+}
+
+const char* kind_of(const Track& track) {
+  if (track.length_m >= 9.0F) return "truck";
+  if (track.length_m >= 6.0F) return "van";
+  return track.width_m < 1.2F ? "motorcycle" : "car";
+}
+
+/// "the car from the left", seen from where the plan starts.
+std::string name_of(const campaign::CycleTrace& cycle, int id) {
+  const Track* const track = find_track(cycle, id);
+  if (track == nullptr) return "somebody";
+  const Pose& ours = start_of(cycle).rear_axle;
+  const Point local = to_local(ours, position(track->centre));
+  const float turned = wrap_angle(track->centre.heading_rad - ours.heading_rad);
+  const std::string kind =
+      std::string(track->speed_mps < kRestMps ? "the standing " : "the ") + kind_of(*track);
+  const char* const side = local.y_m > 0.0F ? "left" : "right";
+  if (std::abs(turned) > 0.75F * kPi) return "the oncoming " + std::string(kind_of(*track));
+  if (std::abs(turned) > 0.25F * kPi) return kind + " from the " + (turned < 0.0F ? "left" : "right");
+  const bool beside_lane = std::abs(local.y_m) > 1.8F;
+  const float front_m = local.x_m + 0.5F * track->length_m;
+  const float rear_m = local.x_m - 0.5F * track->length_m;
+  if (front_m > -1.0F && rear_m < 4.0F && beside_lane) return kind + " beside us on the " + side;
+  const char* const where = local.x_m > 0.0F ? " ahead" : " behind";
+  return kind + where + (beside_lane ? std::string(" on the ") + side : std::string());
+}
+
+Because because_of(const CheckReport& report) {
+  if (report.result == CheckResult::kCollision) return Because::kTooNear;
   switch (report.terminal) {
-    case TerminalCause::kNoPath:
-      return "no way is known ahead";
-    case TerminalCause::kRoadEnd:
-      return "the road ends ahead";
-    case TerminalCause::kLaneEnd:
-      return "the lane has to be left first";
-    case TerminalCause::kStopsInZone:
-      return "there is no room to leave the crossing again";
-    case TerminalCause::kZone:
-      return "somebody may be in the crossing with us";
-    case TerminalCause::kLeader:
-      return "the car ahead may brake";
-    case TerminalCause::kFollower:
-      return "the car behind in the other lane would have to brake hard";
     case TerminalCause::kNone:
-      break;
+      return Because::kNothing;
+    case TerminalCause::kNoPath:
+    case TerminalCause::kRoadEnd:
+      return Because::kRoadEnd;
+    case TerminalCause::kLaneEnd:
+      return Because::kLaneEnd;
+    case TerminalCause::kStopsInZone:
+      return Because::kNoRoom;
+    case TerminalCause::kZone:
+      return Because::kGivingWay;
+    case TerminalCause::kLeader:
+      return Because::kLeader;
+    case TerminalCause::kFollower:
+      return Because::kBehind;
   }
-  return {};
+  return Because::kNothing;
+}
+
+Doing doing_of(const campaign::CycleTrace& cycle) {
+  const float before = start_of(cycle).speed_mps;
+  const float after = end_of(cycle).speed_mps;
+  if (cycle.record.plan.kind == PlanKind::kMinimumRisk) return Doing::kStopping;
+  if (before < kRestMps) return after < kNoticeableMps ? Doing::kWaiting : Doing::kSettingOff;
+  if (cycle.record.explanation.manoeuvre == Manoeuvre::kLeft) return Doing::kLeft;
+  if (cycle.record.explanation.manoeuvre == Manoeuvre::kRight) return Doing::kRight;
+  if (after < kRestMps) return Doing::kHalting;
+  if (after < before - kNoticeableMps) return Doing::kSlower;
+  return after > before + kNoticeableMps ? Doing::kFaster : Doing::kDriving;
+}
+
+/// The sharpest turning of the plan.
+float lateral_mps2(const Trajectory& trajectory) {
+  float most = 0.0F;
+  for (const TrajectoryPoint& point : trajectory.points)
+    most = std::max(most, square(point.speed_mps) * std::abs(point.curvature_1pm));
+  return most;
+}
+
+bool risk_decided(const Explanation& e) {
+  return e.dominating_track != kNobody && e.runner_up_cost.progress < e.chosen_cost.progress - 1.0F &&
+         e.runner_up_cost.risk > e.chosen_cost.risk + 1.0F;
+}
+
+Reason about(Doing doing, Because because, int track = kNobody) {
+  return {doing, because, track == kNobody ? -1 : track};
+}
+
+/// What a drive under way is about.
+Reason driving_reason(const campaign::CycleTrace& cycle, Doing doing) {
+  const Explanation& e = cycle.record.explanation;
+  const bool slow = doing == Doing::kWaiting || doing == Doing::kHalting || doing == Doing::kSlower ||
+                    doing == Doing::kDriving;
+  if (e.rss_clipped) return about(doing, Because::kDistance, e.rss_track);
+  if (!slow) return about(doing, Because::kNothing);
+  const bool held = e.held_up.report.result != CheckResult::kPassed &&
+                    e.held_up.way_m > way_m(cycle.record.plan.trajectory) + kNoticeableM;
+  const bool near =
+      e.leader_track != kNobody && e.leader_gap_m < 8.0F + kFollowingS * start_of(cycle).speed_mps;
+  if (held) {
+    const Because because = because_of(e.held_up.report);
+    // Whom we follow and would run into is the same story.
+    const bool same = because == Because::kTooNear && near && e.held_up.track == e.leader_track;
+    return about(doing, same ? Because::kLeader : because, e.held_up.track);
+  }
+  if (near && (doing != Doing::kDriving || e.chosen.intent == Intent::kFollow))
+    return about(doing, Because::kLeader, e.leader_track);
+  if (risk_decided(e)) return about(doing, Because::kRisk, e.dominating_track);
+  if (doing == Doing::kSlower && lateral_mps2(cycle.record.plan.trajectory) > kBendMps2)
+    return about(doing, Because::kBend);
+  return about(doing, Because::kNothing);
+}
+
+const char* doing_words(Doing doing) {
+  switch (doing) {
+    case Doing::kWaiting:
+      return "Waiting";
+    case Doing::kSettingOff:
+      return "Setting off";
+    case Doing::kDriving:
+      return "Driving on";
+    case Doing::kFaster:
+      return "Speeding up";
+    case Doing::kSlower:
+      return "Slowing down";
+    case Doing::kHalting:
+      return "Coming to a halt";
+    case Doing::kLeft:
+      return "Changing to the left lane";
+    case Doing::kRight:
+      return "Changing to the right lane";
+    case Doing::kStopping:
+      return "Stopping to be safe";
+  }
+  return "?";
+}
+
+std::string giving_way(const std::string& who, const CheckReport& report) {
+  if (report.arrives_s <= 0.0F) return who + " is in our way";
+  if (report.arrives_s > kSoonS) return who + " has to pass first";
+  return format("%s can be there in %.1f s, we would need %.1f s", who.c_str(), report.arrives_s,
+                report.needed_s);
+}
+
+/// The half sentence behind the colon; empty when there is nothing to say.
+std::string because_words(const campaign::CycleTrace& cycle, const Reason& reason,
+                          const CheckReport& report) {
+  const Explanation& e = cycle.record.explanation;
+  const std::string who = name_of(cycle, reason.track < 0 ? kNobody : reason.track);
+  switch (reason.because) {
+    case Because::kNothing:
+      return "";
+    case Because::kLeader:
+      return reason.track == e.leader_track
+                 ? format("%s is %.0f m away", who.c_str(), std::max(e.leader_gap_m, 0.0F))
+                 : who + " leaves no more room";
+    case Because::kGivingWay:
+      return giving_way(who, report);
+    case Because::kNoRoom:
+      return "beyond the junction there is no room, and it must not be blocked";
+    case Because::kRoadEnd:
+      return "our way ends ahead";
+    case Because::kLaneEnd:
+      return "this lane does not lead to the goal, and the place to leave it is near";
+    case Because::kTooNear:
+      return format("%s would come too near in %.1f s", who.c_str(), 0.1 * (report.step + 1));
+    case Because::kBehind:
+      return who + " would have to brake hard for us";
+    case Because::kDistance:
+      return who + " is too near, and gets more distance";
+    case Because::kRisk:
+      return "going on faster would feel risky because of " + who;
+    case Because::kBend:
+      return "a bend";
+    case Because::kNoLane:
+      return "no lane can be seen under us";
+    case Because::kNoSafeWay:
+      return "no way on is safe enough";
+    case Because::kBadInput:
+      return "what the sensors say cannot be right";
+  }
+  return "";
+}
+
+const char* manoeuvre_name(Manoeuvre manoeuvre) {
+  static constexpr const char* kNames[] = {"keep", "left", "right"};
+  return kNames[static_cast<int>(manoeuvre)];
+}
+
+std::string candidate_text(const Candidate& candidate, Manoeuvre manoeuvre) {
+  static constexpr const char* kIntents[] = {"accelerate", "stop", "follow", "previous plan"};
+  return format("%s, %s, %.1f m/s2", manoeuvre_name(manoeuvre), kIntents[static_cast<int>(candidate.intent)],
+                static_cast<double>(candidate.acceleration_mps2));
+}
+
+std::string cost_text(const CostBreakdown& cost) {
+  return format("cost %.1f = progress %.1f + speed %.1f + jerk %.2f + lateral %.2f + lane %.1f + risk %.1f",
+                cost.total(), cost.progress, cost.speed, cost.jerk, cost.lateral, cost.lane, cost.risk);
+}
+
+std::string held_up_text(const campaign::CycleTrace& cycle, const HeldUp& held_up, const char* where) {
+  static constexpr const char* kCauses[] = {
+      "", "no path", "road's end", "lane's end", "would stand in the zone", "zone", "leader", "follower"};
+  const CheckReport& report = held_up.report;
+  if (report.result == CheckResult::kPassed) return "";
+  const bool hits = report.result == CheckResult::kCollision;
+  std::string line = format("\n  held up %s: %s, %.1f m wanted", where,
+                            hits ? format("overlap at +%.1f s", 0.1 * (report.step + 1)).c_str()
+                                 : kCauses[static_cast<int>(report.terminal)],
+                            held_up.way_m);
+  if (held_up.track != kNobody)
+    line += format(", track %d (%s)", held_up.track, name_of(cycle, held_up.track).c_str());
+  if (report.terminal == TerminalCause::kZone)
+    line += format(", there in %.1f s, we leave in %.1f s", report.arrives_s, report.needed_s);
+  return line;
+}
+
+double since_entry_s(const campaign::CycleTrace& cycle, double pre_roll_s) {
+  return cycle.record.plan.start_ms / 1000.0 - pre_roll_s;
+}
+
+int rejected(const Explanation& e, Rejection why) {
+  return static_cast<int>(
+      std::count(e.rejections, e.rejections + std::min<int>(e.candidate_count, kMaxCandidates), why));
 }
 
 }  // namespace
 
+Reason reason_of(const campaign::CycleTrace& cycle) {
+  const Doing doing = doing_of(cycle);
+  switch (cycle.record.explanation.status) {
+    case Status::kOk:
+      return driving_reason(cycle, doing);
+    case Status::kNoLane:
+      return about(doing, Because::kNoLane);
+    case Status::kNoSafePlan:
+      return about(doing, Because::kNoSafeWay, cycle.record.explanation.held_up.track);
+    default:
+      return about(doing, Because::kBadInput);
+  }
+}
+
 std::string in_words(const campaign::CycleTrace& cycle) {
-  const Explanation& explanation = cycle.record.explanation;
-  const std::string doing = motion(cycle.record.plan.trajectory);
-  if (cycle.record.plan.kind == PlanKind::kMinimumRisk) {
-    return doing + ", at the least risk: " +
-           (explanation.status == Status::kNoLane ? "no lane is known here." : "no plan passed every check.");
+  const Explanation& e = cycle.record.explanation;
+  const Reason reason = reason_of(cycle);
+  std::string words = doing_words(reason.doing);
+  const std::string because = because_words(cycle, reason, e.held_up.report);
+  if (!because.empty()) words += ": " + because;
+  // The check's word on the way that was wanted most.
+  if (reason.because == Because::kNoSafeWay && e.held_up.report.result != CheckResult::kPassed) {
+    Reason wanted = reason;
+    wanted.because = because_of(e.held_up.report);
+    words += "; " + because_words(cycle, wanted, e.held_up.report);
   }
-  std::string text = doing;
-  if (explanation.candidate_count > 0 && explanation.chosen.intent == Intent::kFollow) {
-    text += ", behind the car ahead";
+  words += ".";
+  // Behind somebody slower a passenger wonders why he is not passed.
+  const bool follows = reason.because == Because::kLeader && reason.doing == Doing::kDriving;
+  if (follows && e.beside.report.result != CheckResult::kPassed && e.beside.track != kNobody &&
+      e.beside.way_m > way_m(cycle.record.plan.trajectory) + kNoticeableM) {
+    words += std::string(" No change to the ") + manoeuvre_name(e.beside.manoeuvre) + ": " +
+             because_words(cycle, about(reason.doing, because_of(e.beside.report), e.beside.track),
+                           e.beside.report) +
+             ".";
   }
-  const std::string why = hindrance(explanation.held_up);
-  if (!why.empty()) text += ": " + why;
-  return text + (explanation.rss_clipped ? ". Braked to keep the safe distance." : ".");
+  return words;
+}
+
+std::string in_numbers(const campaign::CycleTrace& cycle) {
+  const Explanation& e = cycle.record.explanation;
+  std::string lines = format("  %s, %.1f m/s", status_name(e.status), start_of(cycle).speed_mps);
+  if (e.status == Status::kOk) {
+    lines += "\n  chosen:    " + candidate_text(e.chosen, e.manoeuvre) + "; " + cost_text(e.chosen_cost);
+    if (e.decisions > 1)
+      lines += "\n  runner-up: " + candidate_text(e.runner_up, e.runner_up_manoeuvre) + "; " +
+               cost_text(e.runner_up_cost);
+  }
+  lines += format(
+      "\n  rejected of %d: %d infeasible, %d overlapping, %d with an unsafe end, %d left out (and %d not "
+      "made)",
+      e.candidate_count, rejected(e, Rejection::kInfeasible), rejected(e, Rejection::kCollision),
+      rejected(e, Rejection::kTerminal), rejected(e, Rejection::kLeftOut), e.left_out);
+  lines += held_up_text(cycle, e.held_up, "in our lane") + held_up_text(cycle, e.beside, "beside");
+  if (e.dominating_track != kNobody)
+    lines += format("\n  risk:      track %d (%s) at +%.1f s", e.dominating_track,
+                    name_of(cycle, e.dominating_track).c_str(), 0.1 * (e.dominating_step + 1));
+  if (e.rss.active)
+    lines += format(
+        "\n  RSS:       at most %.1f m/s2, %.1f m/s to the left, %.1f to the right, by track %d (%s)%s",
+        e.rss.acceleration_max_mps2, e.rss.lateral_left_max_mps, e.rss.lateral_right_max_mps, e.rss_track,
+        name_of(cycle, e.rss_track).c_str(), e.rss_clipped ? "; the plan was cut to it" : "");
+  static constexpr const char* kStages[] = {"scene",      "candidates", "predict", "rank",
+                                            "exact risk", "optimize",   "check",   "explain"};
+  lines += "\n  work:     ";
+  for (int i = 0; i < kStageCount; ++i) lines += format(" %s %d", kStages[i], e.work[i]);
+  return lines;
+}
+
+std::vector<Passage> passages(const campaign::Trace& trace, double pre_roll_s) {
+  struct Run {
+    Reason reason;
+    std::size_t first;
+    std::size_t cycles;
+  };
+  std::vector<Run> runs;  // one a change
+  for (std::size_t i = 0; i < trace.cycles.size(); ++i) {
+    if (since_entry_s(trace.cycles[i], pre_roll_s) < 0.0) continue;  // nobody drives yet
+    const Reason reason = reason_of(trace.cycles[i]);
+    if (runs.empty() || runs.back().reason != reason) runs.push_back({reason, i, 0});
+    ++runs.back().cycles;
+  }
+  std::vector<Run> joined;
+  for (const Run& run : runs) {
+    const bool brief = run.cycles < kBriefCycles && run.reason.doing != Doing::kStopping;
+    if (!joined.empty() && (brief || joined.back().reason == run.reason)) {
+      joined.back().cycles += run.cycles;
+    } else {
+      joined.push_back(run);
+    }
+  }
+  std::vector<Passage> result;
+  for (const Run& run : joined) {
+    const campaign::CycleTrace& cycle = trace.cycles[run.first];
+    const double from_s = since_entry_s(cycle, pre_roll_s);
+    result.push_back(
+        {from_s, from_s + 0.1 * static_cast<double>(run.cycles), in_words(cycle), in_numbers(cycle)});
+  }
+  return result;
+}
+
+void print_passages(std::ostream& out, const campaign::Trace& trace, double pre_roll_s) {
+  for (const Passage& passage : passages(trace, pre_roll_s)) {
+    out << format("%6.1f .. %5.1f s  ", passage.from_s, passage.to_s) << passage.words << '\n'
+        << passage.numbers << "\n\n";
+  }
 }
 
 }  // namespace s4tp::view

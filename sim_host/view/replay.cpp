@@ -196,7 +196,7 @@ ordered_json cycle_json(const CycleTrace& cycle, const Snapshot& now, Vec2 origi
   json["cost"] = costs(e.chosen_cost);
   json["runner_up"] = costs(e.runner_up_cost);
   json["riskiest"] = named(e.dominating_track);
-  json["held_up_by"] = named(e.held_up_track);
+  json["held_up_by"] = named(e.held_up.track);
   return json;
 }
 

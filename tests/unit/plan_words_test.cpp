@@ -1,0 +1,234 @@
+// What a plan's explanation reads like, for explanations made by hand.
+
+#include "sim_host/view/plan_words.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <sstream>
+
+namespace s4tp::view {
+namespace {
+
+/// A plan from `start_mps` to `end_mps` along x.
+campaign::CycleTrace plan(float start_mps, float end_mps, double at_s = 0.0) {
+  campaign::CycleTrace cycle;
+  cycle.record.plan.kind = PlanKind::kDrive;
+  cycle.record.plan.start_ms = static_cast<std::uint32_t>(std::lround(1000.0 * at_s));
+  for (int i = 0; i < kTrajectoryPoints; ++i) {
+    cycle.record.plan.trajectory.points[i].speed_mps =
+        start_mps + (end_mps - start_mps) * static_cast<float>(i) / kHorizonSteps;
+  }
+  return cycle;
+}
+
+void add_track(campaign::CycleTrace& cycle, std::uint8_t id, Pose centre, float length_m = 5.0F) {
+  Track track;
+  track.id = id;
+  track.centre = centre;
+  track.speed_mps = 8.0F;
+  track.length_m = length_m;
+  track.width_m = 1.8F;
+  cycle.tracks.push_back(track);
+}
+
+void hold_up(campaign::CycleTrace& cycle, TerminalCause cause, std::uint8_t track, float arrives_s = 0.0F,
+             float needed_s = 0.0F) {
+  HeldUp& held_up = cycle.record.explanation.held_up;
+  held_up.report = {CheckResult::kTerminal, 0, 0, cause, arrives_s, needed_s};
+  held_up.track = track;
+  held_up.way_m = 40.0F;
+}
+
+constexpr float kFromLeft = -1.57F;  // it drives to our right
+
+// Nothing in the way: what the car does is said, and no reason made up.
+TEST(PlanWords, FreeRoadNeedsNoReason) {
+  EXPECT_EQ(in_words(plan(10.0F, 10.0F)), "Driving on.");
+  EXPECT_EQ(in_words(plan(8.0F, 12.0F)), "Speeding up.");
+  EXPECT_EQ(in_words(plan(12.0F, 8.0F)), "Slowing down.");
+  EXPECT_EQ(in_words(plan(5.0F, 0.0F)), "Coming to a halt.");
+  EXPECT_EQ(in_words(plan(0.0F, 3.0F)), "Setting off.");
+  EXPECT_EQ(in_words(plan(0.0F, 0.0F)), "Waiting.");
+}
+
+// Giving way: who, when he can be there, and how long we would need.
+TEST(PlanWords, WaitingForACrossingCar) {
+  campaign::CycleTrace cycle = plan(0.0F, 0.0F);
+  add_track(cycle, 7, {15.0F, 20.0F, kFromLeft});
+  hold_up(cycle, TerminalCause::kZone, 7, 3.2F, 4.1F);
+  EXPECT_EQ(in_words(cycle), "Waiting: the car from the left can be there in 3.2 s, we would need 4.1 s.");
+  hold_up(cycle, TerminalCause::kZone, 7, 0.0F, 4.1F);
+  EXPECT_EQ(in_words(cycle), "Waiting: the car from the left is in our way.");
+}
+
+// Vehicles are named by where they are from our seat and by their size; who is not seen is somebody.
+TEST(PlanWords, NamesVehiclesByPlaceAndSize) {
+  const struct {
+    Pose centre;
+    float length_m;
+    const char* name;
+  } kCases[] = {
+      {{20.0F, 0.5F, 0.0F}, 5.0F, "the car ahead"},
+      {{-20.0F, 0.5F, 0.0F}, 12.0F, "the truck behind"},
+      {{20.0F, 3.2F, 0.1F}, 5.0F, "the car ahead on the left"},
+      {{1.0F, -3.2F, 0.0F}, 6.5F, "the van beside us on the right"},
+      {{40.0F, 3.5F, 3.1F}, 5.0F, "the oncoming car"},
+      {{15.0F, -20.0F, 1.57F}, 5.0F, "the car from the right"},
+  };
+  for (const auto& given : kCases) {
+    campaign::CycleTrace cycle = plan(5.0F, 2.0F);
+    add_track(cycle, 7, given.centre, given.length_m);
+    hold_up(cycle, TerminalCause::kZone, 7);
+    EXPECT_EQ(in_words(cycle), std::string("Slowing down: ") + given.name + " is in our way.");
+    hold_up(cycle, TerminalCause::kZone, 8);
+    EXPECT_EQ(in_words(cycle), "Slowing down: somebody is in our way.");
+  }
+}
+
+// Each cause has its words.
+TEST(PlanWords, EveryCauseHasWords) {
+  const struct {
+    TerminalCause cause;
+    const char* words;
+  } kCases[] = {
+      {TerminalCause::kRoadEnd, "Slowing down: our way ends ahead."},
+      {TerminalCause::kLaneEnd,
+       "Slowing down: this lane does not lead to the goal, and the place to leave it is near."},
+      {TerminalCause::kStopsInZone,
+       "Slowing down: beyond the junction there is no room, and it must not be blocked."},
+      {TerminalCause::kLeader, "Slowing down: the car ahead leaves no more room."},
+      {TerminalCause::kFollower, "Slowing down: the car ahead would have to brake hard for us."},
+  };
+  for (const auto& given : kCases) {
+    campaign::CycleTrace cycle = plan(8.0F, 5.0F);
+    add_track(cycle, 7, {20.0F, 0.0F, 0.0F});
+    hold_up(cycle, given.cause, 7);
+    EXPECT_EQ(in_words(cycle), given.words);
+  }
+  campaign::CycleTrace cycle = plan(8.0F, 5.0F);
+  add_track(cycle, 7, {15.0F, 20.0F, kFromLeft});
+  cycle.record.explanation.held_up = {{CheckResult::kCollision, 0, 17}, 7, Manoeuvre::kKeep, 40.0F};
+  EXPECT_EQ(in_words(cycle), "Slowing down: the car from the left would come too near in 1.8 s.");
+}
+
+// A motion that would have gone hardly further than the plan holds nobody up: 30 steps at 10 m/s are 31 m, 32
+// m were wanted.
+TEST(PlanWords, HardlyFurtherIsNoReason) {
+  campaign::CycleTrace cycle = plan(10.0F, 10.0F);
+  hold_up(cycle, TerminalCause::kRoadEnd, 255);
+  cycle.record.explanation.held_up.way_m = 32.0F;
+  EXPECT_EQ(in_words(cycle), "Driving on.");
+}
+
+// Following somebody slower: how far he is, and why he is not passed.
+TEST(PlanWords, FollowingAndNotPassing) {
+  campaign::CycleTrace cycle = plan(8.0F, 8.0F);
+  add_track(cycle, 7, {20.0F, 0.0F, 0.0F});
+  add_track(cycle, 9, {-12.0F, 3.2F, 0.0F});
+  Explanation& e = cycle.record.explanation;
+  e.chosen.intent = Intent::kFollow;
+  e.leader_track = 7;
+  e.leader_gap_m = 13.4F;
+  EXPECT_EQ(in_words(cycle), "Driving on: the car ahead is 13 m away.");
+  e.beside = {{CheckResult::kTerminal, 1, 0, TerminalCause::kFollower}, 9, Manoeuvre::kLeft, 40.0F};
+  EXPECT_EQ(in_words(cycle),
+            "Driving on: the car ahead is 13 m away. No change to the left: the car behind on the left would "
+            "have to "
+            "brake hard for us.");
+}
+
+// The proper response, a bend, a risk avoided.
+TEST(PlanWords, OtherReasonsToSlowDown) {
+  campaign::CycleTrace close = plan(8.0F, 5.0F);
+  add_track(close, 7, {12.0F, 0.0F, 0.0F});
+  close.record.explanation.rss_clipped = true;
+  close.record.explanation.rss_track = 7;
+  EXPECT_EQ(in_words(close), "Slowing down: the car ahead is too near, and gets more distance.");
+
+  campaign::CycleTrace bend = plan(8.0F, 6.0F);
+  bend.record.plan.trajectory.points[20].curvature_1pm = 0.05F;  // at 6.7 m/s: 2.2 m/s^2
+  EXPECT_EQ(in_words(bend), "Slowing down: a bend.");
+
+  campaign::CycleTrace risky = plan(8.0F, 6.0F);
+  add_track(risky, 7, {20.0F, 3.2F, 0.0F});
+  Explanation& e = risky.record.explanation;
+  e.dominating_track = 7;
+  e.chosen_cost.progress = -20.0F;
+  e.runner_up_cost.progress = -25.0F;
+  e.runner_up_cost.risk = 9.0F;
+  EXPECT_EQ(in_words(risky),
+            "Slowing down: going on faster would feel risky because of the car ahead on the left.");
+}
+
+// Lane changes are named, minimum-risk manoeuvres say what was wrong.
+TEST(PlanWords, LaneChangesAndStops) {
+  campaign::CycleTrace change = plan(10.0F, 10.0F);
+  change.record.explanation.manoeuvre = Manoeuvre::kLeft;
+  EXPECT_EQ(in_words(change), "Changing to the left lane.");
+
+  campaign::CycleTrace stop = plan(10.0F, 0.0F);
+  stop.record.plan.kind = PlanKind::kMinimumRisk;
+  stop.record.explanation.status = Status::kNoLane;
+  EXPECT_EQ(in_words(stop), "Stopping to be safe: no lane can be seen under us.");
+  stop.record.explanation.status = Status::kInvalidInput;
+  EXPECT_EQ(in_words(stop), "Stopping to be safe: what the sensors say cannot be right.");
+  stop.record.explanation.status = Status::kNoSafePlan;
+  add_track(stop, 7, {15.0F, 20.0F, kFromLeft});
+  hold_up(stop, TerminalCause::kZone, 7, 1.0F, 3.0F);
+  EXPECT_EQ(in_words(stop),
+            "Stopping to be safe: no way on is safe enough; the car from the left can be there in 1.0 s, we "
+            "would need "
+            "3.0 s.");
+}
+
+// The numbers name what an engineer asks first: costs, rejections, whose risk and when, RSS, work.
+TEST(PlanWords, NumbersForAnEngineer) {
+  campaign::CycleTrace cycle = plan(8.0F, 5.0F);
+  add_track(cycle, 7, {20.0F, 0.0F, 0.0F});
+  Explanation& e = cycle.record.explanation;
+  e.candidate_count = 4;
+  e.decisions = 2;
+  e.rejections[0] = e.rejections[1] = Rejection::kTerminal;
+  e.rejections[2] = Rejection::kCollision;
+  e.chosen_cost.progress = -20.0F;
+  e.chosen_cost.risk = 2.5F;
+  e.runner_up_cost.progress = -15.0F;
+  e.runner_up_manoeuvre = Manoeuvre::kRight;
+  e.dominating_track = 7;
+  e.dominating_step = 11;
+  e.rss.active = true;
+  e.rss.acceleration_max_mps2 = -1.5F;
+  e.rss_track = 7;
+  e.work[static_cast<int>(Stage::kPredict)] = 150;
+  const std::string numbers = in_numbers(cycle);
+  for (const char* part : {"cost -17.5 = progress -20.0", "risk 2.5", "runner-up: right", "cost -15.0",
+                           "of 4: 0 infeasible, 1 overlapping, 2 with an unsafe end",
+                           "track 7 (the car ahead) at +1.2 s", "at most -1.5 m/s2", "predict 150"}) {
+    EXPECT_NE(numbers.find(part), std::string::npos) << part << "\n" << numbers;
+  }
+}
+
+// Ten plans: before the episode's start nothing, then 0.5 s of driving with one plan of waiting in between,
+// which is too brief, then 0.4 s of waiting.
+TEST(PlanWords, PassagesJoinPlansWithTheSameReason) {
+  campaign::Trace trace;
+  trace.cycles.push_back(plan(0.0F, 0.0F, 1.9));
+  for (int i = 0; i < 9; ++i) {
+    const bool waits = i == 2 || i >= 5;
+    trace.cycles.push_back(plan(waits ? 0.0F : 10.0F, waits ? 0.0F : 10.0F, 2.0 + 0.1 * i));
+  }
+  const std::vector<Passage> found = passages(trace, 2.0);
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_EQ(found[0].words, "Driving on.");
+  EXPECT_NEAR(found[0].from_s, 0.0, 1e-6);
+  EXPECT_NEAR(found[0].to_s, 0.5, 1e-6);
+  EXPECT_EQ(found[1].words, "Waiting.");
+  EXPECT_NEAR(found[1].to_s, 0.9, 1e-6);
+  std::ostringstream printed;
+  print_passages(printed, trace, 2.0);
+  EXPECT_NE(printed.str().find("0.5 ..   0.9 s  Waiting."), std::string::npos) << printed.str();
+}
+
+}  // namespace
+}  // namespace s4tp::view
