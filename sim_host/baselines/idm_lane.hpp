@@ -1,15 +1,16 @@
 #pragma once
 /// A plain driver, as traffic simulations have them: keeps to the lane, follows by the intelligent driver
-/// model, accepts gaps at junctions and for the lane changes the route needs. No prediction beyond "keeps his
-/// speed", no risk, no score.
+/// model, accepts gaps at junctions and for lane changes: those the route needs, and to pass somebody slow.
+/// No prediction beyond "keeps his speed", no risk, no score.
 ///
 /// \code
 ///   scene -> lane: own, or the one beside when the route needs it, or it gains much, and the gap is accepted
 ///         -> free motion along it -> first conflict zone whose gap is refused: stop before it
 ///         -> IDM on what asks for most: leader, stop, road end -> 3 s along the lane's centre line
 /// \endcode
-/// Sources: IDM: Treiber et al. 2000; lane change: the safety criterion of MOBIL, Kesting et al. 2007; values
-/// as SUMO's passenger cars have them.
+/// Sources: IDM: Treiber et al. 2000; lane change: MOBIL's two criteria, Kesting et al. 2007. Acceleration,
+/// headway and gap are those of SUMO's passenger cars. Its braking, 4.5 m/s^2, is the pressed one here: who
+/// brakes for every stop as late as that is stopped by any guard that wants comfort.
 
 #include "algo/planner/planner.hpp"
 #include "algo/trajectory/along_path.hpp"

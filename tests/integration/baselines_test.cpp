@@ -25,7 +25,8 @@ TEST_P(EmptyRoad, IsDrivenToTheGoal) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Baselines, EmptyRoad, testing::Values("static_drf", "idm_lane"),
+INSTANTIATE_TEST_SUITE_P(Baselines, EmptyRoad,
+                         testing::Values("static_drf", "idm_lane", "predictive_decision"),
                          [](const auto& planner) { return std::string(planner.param); });
 
 }  // namespace

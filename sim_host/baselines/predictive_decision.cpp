@@ -1,0 +1,190 @@
+#include "sim_host/baselines/predictive_decision.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "algo/core/math.hpp"
+#include "algo/sadrf/futures.hpp"
+#include "algo/safety/minimum_risk.hpp"
+#include "algo/safety/trajectory_check.hpp"
+#include "algo/trajectory/along_path.hpp"
+#include "algo/trajectory/bicycle.hpp"
+#include "algo/trajectory/candidates.hpp"
+#include "sim_host/campaign/planner_registry.hpp"
+#include "sim_host/metrics/time_to_collision.hpp"
+
+namespace s4tp::baselines {
+namespace {
+
+const campaign::RegisterPlanner kRegistered{
+    {"predictive_decision", "the same predictor, no risk field: a sum of seven features decides",
+     campaign::ecu_with<PredictiveDecisionPlanner<false>>,
+     campaign::ecu_with<Guarded<PredictiveDecisionPlanner<true>>>}};
+
+constexpr float kHorizonS = kHorizonSteps * kStepS;
+constexpr float kLaneChangeM = 20.0F;
+constexpr float kMissedM = 100.0F;
+constexpr float kJerkMps3 = 10.0F;
+constexpr float kGapM = 1.0F;
+constexpr float kFarM = 8.0F;  // gaps beyond this count as nothing
+constexpr float kTtcS = 3.0F;
+constexpr int kTtcStride = 5;
+
+/// What the present and the next step say of a car's motion.
+world::CarState car_at(const Pose& now, const Pose& next, float length_m, float width_m) {
+  world::CarState car;
+  car.centre = {now.x_m, now.y_m};
+  car.heading_rad = now.heading_rad;
+  car.speed_mps = distance(position(now), position(next)) / kStepS;
+  car.yaw_rate_radps = wrap_angle(next.heading_rad - now.heading_rad) / kStepS;
+  car.length_m = length_m;
+  car.width_m = width_m;
+  return car;
+}
+
+/// Way left to the goal at the end, less what a car as fast as allowed would have left, of its way.
+float goal_share(const Scene& scene, const EgoPath& path, const Trajectory& trajectory,
+                 const Parameters& parameters) {
+  const TrajectoryPoint& start = trajectory.points[0];
+  const TrajectoryPoint& end = trajectory.points[kHorizonSteps];
+  const float start_s_m =
+      project(*scene.map, path.path, position(start.rear_axle), path.frenet.s_m, 15.0F).s_m;
+  float way_m = 0.0F;
+  for (int i = 1; i < kTrajectoryPoints; ++i)
+    way_m += 0.5F * kStepS * (trajectory.points[i - 1].speed_mps + trajectory.points[i].speed_mps);
+  const float end_s_m = project(*scene.map, path.path, position(end.rear_axle), start_s_m + way_m, 15.0F).s_m;
+  const float limit_mps = path_point(*scene.map, path.path, start_s_m).speed_limit_mps;
+  const float longest_m = std::max(limit_mps, 1.0F) * kHorizonS;
+  float lacking_m = std::max(0.0F, longest_m - (end_s_m - start_s_m));
+  if (path.changes_needed != 0) {
+    lacking_m += kLaneChangeM * static_cast<float>(std::abs(path.changes_needed));
+    const float front_s_m = end_s_m + rear_axle_to_front_m(parameters);
+    if (front_s_m > path.route_end_s_m - kLaneChangeM) lacking_m += kMissedM;
+  }
+  return lacking_m / longest_m;
+}
+
+}  // namespace
+
+float weighted(const PdCost& f, const PdCost& w) {
+  return w.goal * f.goal + w.speed * f.speed + w.jerk * f.jerk + w.lateral * f.lateral +
+         w.distance * f.distance + w.ttc * f.ttc + w.collision * f.collision;
+}
+
+PdCost pd_features(const Scene& scene, int path_index, const ReferenceLine& line,
+                   const Trajectory& trajectory, const PredictionSet& predicted, const KinematicSet& others,
+                   const Parameters& parameters) {
+  const EgoPath& path = scene.ego_paths[path_index];
+  PdCost features;
+  features.goal = goal_share(scene, path, trajectory, parameters);
+
+  float s_m = locate_on(line, position(trajectory.points[0].rear_axle), path.frenet.s_m).s_m;
+  for (int i = 1; i < kTrajectoryPoints; ++i) {
+    const TrajectoryPoint& before = trajectory.points[i - 1];
+    const TrajectoryPoint& point = trajectory.points[i];
+    s_m += 0.5F * kStepS * (before.speed_mps + point.speed_mps);
+    const float allowed_mps = std::max(reference_at(line, s_m).speed_cap_mps, 1.0F);
+    features.speed += std::abs(point.speed_mps - allowed_mps) / allowed_mps;
+    features.jerk += std::abs(point.acceleration_mps2 - before.acceleration_mps2) / (kStepS * kJerkMps3);
+    features.lateral += point.speed_mps * point.speed_mps * std::abs(point.curvature_1pm) /
+                        parameters.comfort.lateral_max_mps2;
+  }
+  features.speed /= kHorizonSteps;
+  features.jerk /= kHorizonSteps;
+  features.lateral /= kHorizonSteps;
+
+  if (s_m + rear_axle_to_front_m(parameters) > dead_end_s_m(scene, path)) features.collision = 1.0F;
+
+  float near[kHorizonSteps] = {};
+  const Futures futures = all_modes(scene, predicted, others);
+  for (int first = 0; first < futures.size();) {
+    float ttc = 0.0F;
+    float hit = 0.0F;
+    float beside[kHorizonSteps] = {};
+    const int agent = futures[first].agent;
+    const Track& track = scene.agents[agent].track;
+    for (; first < futures.size() && futures[first].agent == agent; ++first) {
+      const Future& future = futures[first];
+      const Mode& mode = *future.mode;
+      if (first_collision(trajectory, mode, track, kHorizonSteps, 0.0F, parameters) >= 0)
+        hit += future.probability;
+      float least_s = kTtcS;
+      for (int i = 0; i < kHorizonSteps; ++i) {
+        const Box own = ego_box(trajectory.points[i + 1].rear_axle, parameters);
+        const float reach_m = kFarM + 0.5F * (track.length_m + parameters.vehicle.length_m);
+        const float apart_m = distance(position(own.centre), position(mode.steps[i]));
+        if (apart_m < reach_m) {
+          const float gap_m = std::max(0.0F, separation(own, {mode.steps[i], track.length_m, track.width_m}));
+          beside[i] += future.probability * std::exp(-gap_m / kGapM);
+        }
+        if (i % kTtcStride != kTtcStride - 1) continue;
+        const Pose before = ego_box(trajectory.points[i].rear_axle, parameters).centre;
+        const world::CarState us = car_at(before, own.centre, own.length_m, own.width_m);
+        const world::CarState him = car_at(mode.steps[i - 1], mode.steps[i], track.length_m, track.width_m);
+        least_s = std::min(least_s, static_cast<float>(metrics::time_to_collision_s(us, him, kTtcS)));
+      }
+      ttc += future.probability * (1.0F - least_s / kTtcS);
+    }
+    features.ttc = std::max(features.ttc, ttc);
+    features.collision = std::max(features.collision, hit);
+    for (int i = 0; i < kHorizonSteps; ++i) near[i] = std::max(near[i], beside[i]);
+  }
+  for (const float share : near) features.distance += share / kHorizonSteps;
+  return features;
+}
+
+Status PredictiveDecision::init(const Parameters& parameters) {
+  int first_bad = 0;
+  parameters_ = parameters;
+  scene_builder_.reset();
+  return validate(parameters, first_bad);
+}
+
+Status PredictiveDecision::plan(const PlannerInput& input, Plan& plan, Explanation& explanation) {
+  explanation = Explanation{};
+  const Plan running = input.running != nullptr ? *input.running : Plan{};
+  const TrajectoryPoint start = plan_start(input.ego, input.now_ms, running, input.start_ms, parameters_);
+  Status status = scene_builder_.build(input.now_ms, input.ego, input.tracks, input.tracks_ms, input.map,
+                                       parameters_, scene_);
+  plan.start_ms = input.start_ms;
+  plan.kind = PlanKind::kDrive;
+  PredictionSet chosen;
+  if (status == Status::kOk) {
+    predictor_.encode(scene_, parameters_, input.start_ms);
+    predictor_.decode(nullptr, unconditioned_);
+    predictor_.keep_going(keep_going_);
+    int left_out = 0;
+    generate_candidates(scene_, start, running, input.start_ms, parameters_, lines_, candidates_, left_out);
+    float least = 1e9F;
+    PredictionSet conditioned;
+    Trajectory trajectory;
+    status = Status::kNoSafePlan;
+    for (const Candidate& candidate : candidates_) {
+      roll_out(lines_[candidate.path], candidate, start, running, input.start_ms, parameters_, trajectory);
+      predictor_.decode(&trajectory, conditioned);
+      if (guarded_) {
+        const CheckReport report = check_trajectory(scene_, candidate.path, trajectory, unconditioned_,
+                                                    conditioned, keep_going_, parameters_);
+        if (report.result != CheckResult::kPassed) continue;
+      }
+      const float cost = weighted(pd_features(scene_, candidate.path, lines_[candidate.path], trajectory,
+                                              conditioned, keep_going_, parameters_),
+                                  kPdWeights);
+      if (cost >= least) continue;
+      least = cost;
+      status = Status::kOk;
+      explanation.chosen = candidate;
+      plan.trajectory = trajectory;
+      chosen = conditioned;
+    }
+  }
+  if (status != Status::kOk) {
+    plan.kind = PlanKind::kMinimumRisk;
+    minimum_risk(scene_, start, running, input.start_ms, parameters_, plan.trajectory);
+  }
+  explanation.status = status;
+  if (probe != nullptr) probe->cycle_done(scene_, chosen, RiskProfile{});
+  return status;
+}
+
+}  // namespace s4tp::baselines
