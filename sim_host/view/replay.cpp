@@ -160,6 +160,11 @@ ordered_json seen(const std::vector<Track>& tracks, Vec2 origin, const Units& un
   return boxes;
 }
 
+/// Not every planner does.
+bool explains(const CycleTrace& cycle) {
+  return cycle.record.explanation.candidate_count > 0;
+}
+
 ordered_json cycle_json(const CycleTrace& cycle, const Snapshot& now, Vec2 origin, const Units& units) {
   const auto moved = [&](const Pose& pose) { return Vec2{pose.x_m + origin.x, pose.y_m + origin.y}; };
   const Explanation& e = cycle.record.explanation;
@@ -179,7 +184,7 @@ ordered_json cycle_json(const CycleTrace& cycle, const Snapshot& now, Vec2 origi
     }
   }
   json["modes"] = modes;
-  if (e.candidate_count == 0) return json;  // a planner that does not explain itself
+  if (!explains(cycle)) return json;
 
   const auto rejected = [&](Rejection why) {
     const Rejection* const end = e.rejections + std::min<int>(e.candidate_count, kMaxCandidates);
@@ -196,6 +201,7 @@ ordered_json cycle_json(const CycleTrace& cycle, const Snapshot& now, Vec2 origi
   json["cost"] = costs(e.chosen_cost);
   json["runner_up"] = costs(e.runner_up_cost);
   json["riskiest"] = named(e.dominating_track);
+  json["numbers"] = in_numbers(cycle);
   json["held_up_by"] = named(e.held_up.track);
   return json;
 }
@@ -248,9 +254,13 @@ ordered_json replay_data(const Replayed& episode) {
   data["frames"] = std::move(frames);
 
   ordered_json cycles = ordered_json::array();
-  std::string said;
   if (episode.result.trace) {
-    for (const CycleTrace& cycle : episode.result.trace->cycles) {
+    const std::vector<CycleTrace>& traced = episode.result.trace->cycles;
+    const bool explained = std::any_of(traced.begin(), traced.end(), explains);
+    const std::vector<Passage> story =
+        explained ? passages(*episode.result.trace, pre_roll_s) : std::vector<Passage>{};
+    std::size_t told = 0;
+    for (const CycleTrace& cycle : traced) {
       const double start_s = static_cast<double>(cycle.record.plan.start_ms) / 1000.0 - pre_roll_s;
       if (start_s < kFirstShownS) continue;
       const auto now = std::min_element(recording.snapshots.begin(), recording.snapshots.end(),
@@ -260,9 +270,9 @@ ordered_json replay_data(const Replayed& episode) {
       ordered_json one{{"t", thousandths(start_s)}};
       one.update(cycle_json(cycle, *now, origin, units));
       if (episode.row.cell.perception != "ideal") one["seen"] = seen(cycle.tracks, origin, units);
-      const std::string words = in_words(cycle);
-      if (words != said) one["words"] = words;  // else those before still hold
-      said = words;
+      if (told < story.size() && thousandths(story[told].from_s) <= thousandths(start_s)) {
+        one["words"] = story[told++].words;  // they hold until others are said
+      }
       cycles.push_back(std::move(one));
     }
     ordered_json& modes = data["ecu_modes"] = ordered_json::array();

@@ -115,7 +115,8 @@
     const mode = (data.ecu_modes || []).filter(([t]) => t <= time).pop();
     const contact = data.contacts.find((one) => one.t <= time);
     element('words').textContent = contact ? `Collision: ${contact.cause} car ${contact.car}.`
-      : (cycle && cycle.words) || 'Nothing is known of what this driver thinks.';
+      : (cycle && cycle.words) || (cycle && cycle.kind === 2 ? 'Stopping at the least risk: the guard let no plan pass.'
+        : 'This driver gives no reasons.');
     element('words').className = contact ? 'bad' : '';
     element('figures').innerHTML = [
       [`${(frame.ego[3] / 100).toFixed(1)} m/s`, 'speed'], [`${(frame.ego[4] / 100).toFixed(1)} m/s²`, 'acceleration'],
@@ -137,6 +138,7 @@
       kTerms.map((name, i) => row([name, number(cycle.cost[i]), other ? number(cycle.runner_up[i]) : '–'])).join('') +
       row(['sum', number(sum(cycle.cost)), other ? number(sum(cycle.runner_up)) : '–'], 'th');
     const who = (id) => (id >= 0 ? `car ${id}` : 'nobody');
+    element('numbers').textContent = cycle.numbers.replace(/^ {2}/gm, '');
     element('counts').textContent = `${count} candidates; rejected: ${infeasible} beyond the car's limits, ${hits} would touch ` +
       `somebody, ${unsafe} have no safe end. Most risk from ${who(cycle.riskiest)}; held up by ${who(cycle.held_up_by)}.`;
   };
