@@ -152,8 +152,9 @@ void Planner::forget_scene() {
 void Planner::predict(Explanation& explanation) {
   const StageScope scope(probe, Stage::kPredict);
   new (&arena_.predictor) Predictor;
+  refining_ = false;
   arena_.predictor.encode(scene_, parameters_, start_ms_);
-  arena_.predictor.decode(nullptr, unconditioned_);
+  arena_.predictor.decode(nullptr, allowance.prediction, unconditioned_);
   arena_.predictor.keep_going(keep_going_);
   count(explanation, Stage::kPredict, arena_.predictor.work());
 }
@@ -162,17 +163,15 @@ void Planner::rank(bool careful, Explanation& explanation) {
   int left_out = 0;
   {
     const StageScope scope(probe, Stage::kCandidates);
-    generate_candidates(scene_, start_, running_, start_ms_, parameters_, lines_, candidates_, left_out);
-    if (candidates_.size() > allowance.candidates) {
-      left_out = left_out + candidates_.size() - allowance.candidates;
-      candidates_.truncate(allowance.candidates);
-    }
+    generate_candidates(scene_, start_, running_, start_ms_, parameters_, allowance.candidates, lines_,
+                        candidates_, left_out);
     explanation.left_out = static_cast<std::uint8_t>(to_int(static_cast<float>(left_out), 0, 255));
     explanation.candidate_count = static_cast<std::uint8_t>(candidates_.size());
     count(explanation, Stage::kCandidates, candidates_.size());
   }
 
   const StageScope scope(probe, Stage::kRank);
+  const int shortlisted = allowance.decisions > 1 ? allowance.decisions : 1;
   decisions_.clear();
   keeps_plan_ = false;
   CheckReport report;
@@ -199,14 +198,14 @@ void Planner::rank(bool careful, Explanation& explanation) {
     }
     // Risk only adds to the score: who is beaten without it needs none computed. The plan's own decision
     // stays anyway.
-    const int places = keeps_plan_ && key == plan_key_ ? kMaxCandidates : allowance.decisions;
+    const int places = keeps_plan_ && key == plan_key_ ? kMaxCandidates : shortlisted;
     if (!decisions_.open_to(key, costs_[i].total(), places)) continue;
     costs_[i].risk = parameters_.scoring.risk *
                          rank_risk(scene_, drivable_, unconditioned_, keep_going_, chosen_, parameters_) +
                      crash_cost(unconditioned_);
     decisions_.offer(key, i, costs_[i].total());
   }
-  decisions_.shortlist(allowance.decisions, keeps_plan_, plan_key_);
+  decisions_.shortlist(shortlisted, keeps_plan_, plan_key_);
 }
 
 void Planner::note_held_up(int path, const CheckReport& report, Explanation& explanation) const {
@@ -296,10 +295,12 @@ Status Planner::choose(Explanation& explanation) {
 bool Planner::evaluate(int index, Explanation& explanation) {
   const Candidate& candidate = candidates_[index];
   roll_out(lines_[candidate.path], candidate, start_, running_, start_ms_, parameters_, chosen_);
+  risk_ = RiskProfile{};
+  if (allowance.decisions <= 0) return true;  // it has passed with the predictions without plan
   {
     const StageScope scope(probe, Stage::kPredict);
     const int before = arena_.predictor.work();
-    arena_.predictor.decode(&chosen_, conditioned_);
+    arena_.predictor.decode(&chosen_, allowance.prediction, conditioned_);
     count(explanation, Stage::kPredict, arena_.predictor.work() - before);
   }
   {
@@ -309,12 +310,18 @@ bool Planner::evaluate(int index, Explanation& explanation) {
     count(explanation, Stage::kCheck, 1);
     if (explanation.rejections[index] != Rejection::kNone) return false;
   }
+  // Without an allowance left the ranking's risk stands.
+  if (explanation.work[static_cast<int>(Stage::kExactRisk)] >= allowance.exact_risks) return true;
   const StageScope scope(probe, Stage::kExactRisk);
   exact_risk(scene_, drivable_, conditioned_, keep_going_, chosen_, parameters_, risk_);
   costs_[index].risk =
       parameters_.scoring.risk * risk_integral(risk_, parameters_) + crash_cost(conditioned_);
   count(explanation, Stage::kExactRisk, 1);
   return true;
+}
+
+const RefinementProblem* Planner::last_refinement() const {
+  return refining_ ? &arena_.optimizer.problem() : nullptr;
 }
 
 void Planner::refine(const Candidate& candidate, Explanation& explanation) {
@@ -325,6 +332,7 @@ void Planner::refine(const Candidate& candidate, Explanation& explanation) {
     const StageScope scope(probe, Stage::kOptimize);
     const Surroundings surroundings{scene_, unconditioned_, conditioned_, keep_going_};
     new (&arena_.optimizer) Optimizer;
+    refining_ = passes > 0;
     result = arena_.optimizer.refine(lines_[candidate.path], candidate.start_s_m, surroundings, parameters_,
                                      passes, refined_);
     count(explanation, Stage::kOptimize, result.passes);

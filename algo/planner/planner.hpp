@@ -30,12 +30,17 @@ struct PlannerInput {
   std::uint8_t degraded = 0;      ///< 0: all sources well; else drive carefully (lower speed, no lane change)
 };
 
-/// What each stage may spend, in its own work units. The same cut on every target.
+/// What each stage may spend, in its own work units: the same cut on every target. CORE-009 Whatever is left
+/// of it, down to none, the plan is one that can be driven and has passed the check, or the minimum-risk
+/// manoeuvre.
 struct WorkAllowance {
-  int candidates = kMaxCandidates;  ///< candidates ranked
-  int decisions = kMaxDecisions;    ///< conditioned predictions
-  int exact_risks = kMaxExactRisk;  ///< exact risk profiles
-  int optimizer_iterations = 16;
+  int candidates =
+      kMaxCandidates;  ///< candidates tried; of none there is no plan but the minimum-risk manoeuvre
+  int prediction =
+      kMaxPredictionWork;         ///< agent-mode-steps of one prediction; whom it leaves out just keeps going
+  int decisions = kMaxDecisions;  ///< conditioned predictions; without one the best ranked is chosen
+  int exact_risks = kMaxExactRisk;  ///< exact risk profiles; beyond, the ranking's risk stands
+  int optimizer_iterations = 16;    ///< passes of the optimizer
 };
 
 class Planner {
@@ -48,6 +53,9 @@ class Planner {
   /// and kNoSafePlan the minimum-risk manoeuvre. \return kOk, kNoLane, kNoSafePlan, kInvalidInput (plan =
   /// minimum-risk), kNotInitialized (plan untouched)
   [[nodiscard]] Status plan(const PlannerInput& input, Plan& plan, Explanation& explanation);
+
+  /// What the optimizer was asked in the last cycle, for benchmarks; null when it was not asked.
+  [[nodiscard]] const RefinementProblem* last_refinement() const;
 
   WorkAllowance allowance;
   Probe* probe = nullptr;  ///< optional; not owned
@@ -107,6 +115,7 @@ class Planner {
     Optimizer optimizer;
   };
   Arena arena_;
+  bool refining_ = false;  ///< the arena holds the optimizer
 };
 
 static_assert(sizeof(Planner) <= kPlannerBudgetBytes, "the planner object has outgrown its budget");

@@ -84,13 +84,16 @@ void Predictor::encode(const Scene& scene, const Parameters& parameters, std::ui
   }
 }
 
-void Predictor::decode(const Trajectory* plan, PredictionSet& prediction) const {
+void Predictor::decode(const Trajectory* plan, int allowance, PredictionSet& prediction) const {
   S4TP_ASSERT(scene_ != nullptr);
   prediction.conditioned = plan != nullptr;
   prediction.agents.clear();
   const EgoMotion ego(*scene_, *parameters_, lead_s_, plan);
+  const int work_before = work_;
   for (int i = 0; i < scene_->watched; ++i) {
     const Agent& agent = scene_->agents[i];
+    const int most = 2 * kPathsPerAgent * kHorizonSteps;
+    if (work_ - work_before + most > allowance) break;
     AgentPrediction futures;
     futures.agent = static_cast<std::uint8_t>(i);
     const int paths = agent.paths.size();

@@ -11,6 +11,9 @@
 
 namespace s4tp {
 
+/// Most work of one decode: every path of every vehicle, undisturbed and yielding.
+inline constexpr int kMaxPredictionWork = kMaxAgents * (2 * kPathsPerAgent) * kHorizonSteps;
+
 class Predictor {
  public:
   /// Reads the scene once; `scene` must outlive the following calls of this cycle.
@@ -23,14 +26,15 @@ class Predictor {
   /// CORE-042 Without plan we are taken to keep lane and speed only as far as we are in their way already,
   /// or have the right of way at a zone we are coming to.
   /// \param plan  our motion from start_ms, or null
-  void decode(const Trajectory* plan, PredictionSet& prediction) const;
+  /// \param allowance  most work; vehicles it does not cover, the least relevant ones, are not in the set
+  void decode(const Trajectory* plan, int allowance, PredictionSet& prediction) const;
 
   /// CORE-043 "Keeps doing what it does": every agent along its likeliest path at constant speed; one without
   /// a path at constant yaw rate.
   void keep_going(KinematicSet& prediction) const;
 
   /// Work done since encode(), in agent-mode-steps (the unit of the stage's allowance). At most
-  /// kMaxAgents * (2 * kPathsPerAgent) * kHorizonSteps a decode.
+  /// kMaxPredictionWork a decode.
   [[nodiscard]] int work() const { return work_; }
 
  private:

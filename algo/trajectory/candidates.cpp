@@ -167,8 +167,8 @@ bool make_feasible(const ReferenceLine& line, const TrajectoryPoint& start, cons
 }  // namespace
 
 void generate_candidates(const Scene& scene, const TrajectoryPoint& start, const Plan& running,
-                         std::uint32_t start_ms, const Parameters& parameters, ReferenceLines& lines,
-                         CandidateList& candidates, int& left_out) {
+                         std::uint32_t start_ms, const Parameters& parameters, int most,
+                         ReferenceLines& lines, CandidateList& candidates, int& left_out) {
   candidates.clear();
   left_out = 0;
   if (scene.map == nullptr) return;
@@ -195,6 +195,10 @@ void generate_candidates(const Scene& scene, const TrajectoryPoint& start, const
         if (!shape_longitudinal(kTrials[k], line, course, start, running, start_ms, lead_s, parameters,
                                 candidate))
           continue;
+        if (candidates.size() >= most && !candidates.full()) {
+          ++left_out;
+          continue;
+        }
         if (!make_feasible(line, start, running, start_ms, parameters, course, candidate, trajectory))
           continue;
         const Reach reach = reach_of(candidate, trajectory);

@@ -59,13 +59,13 @@ using ReferenceLines = ReferenceLine[decltype(Scene::ego_paths)::kCapacity];
 [[nodiscard]] TrajectoryPoint plan_start(const EgoState& ego, std::uint32_t now_ms, const Plan& running,
                                          std::uint32_t start_ms, const Parameters& parameters);
 
-/// All feasible candidates from `start`, at most kMaxCandidates (CAND-009): diversity over (path, intent)
-/// first, then progress; two that move alike count once. The keep path's hard braking and stops are always
-/// among those tried first. \param lines  receives what the candidates are rolled out on
-/// \param left_out  receives how many feasible ones did not fit
+/// Feasible candidates from `start`, at most `most` and kMaxCandidates (CAND-009): diversity over (path,
+/// intent) first, then progress; two that move alike count once. The keep path's hard braking and stops are
+/// always among those tried first. \param lines  receives what the candidates are rolled out on \param
+/// left_out  receives how many feasible ones did not fit, and how many `most` left untried
 void generate_candidates(const Scene& scene, const TrajectoryPoint& start, const Plan& running,
-                         std::uint32_t start_ms, const Parameters& parameters, ReferenceLines& lines,
-                         CandidateList& candidates, int& left_out);
+                         std::uint32_t start_ms, const Parameters& parameters, int most,
+                         ReferenceLines& lines, CandidateList& candidates, int& left_out);
 
 /// Rolls a candidate out on the line of its path. points[0] is `start` itself; speeds >= 0; each point lies
 /// where its speed leads (CAND-010). For kPrevious `running` is shifted and continued along the path at its

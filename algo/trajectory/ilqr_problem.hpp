@@ -78,8 +78,13 @@ struct RefinementProblem {
   float centre_m = 0.0F;  ///< rear axle to the centre of our box
   float half_length_m = 0.0F;
   float half_width_m = 0.0F;
+  MotionState start;
   RefinementStep steps[kHorizonSteps];  ///< steps[i] is of states[i + 1]
 };
+
+/// The start and the references with the inputs between them: what a refinement begins from. Not necessarily
+/// an exact motion of the model.
+void reference_motion(const RefinementProblem& problem, Motion& motion);
 
 /// The augmented Lagrangian's own part.
 struct BoundState {

@@ -65,10 +65,8 @@ MotionState state_of(const TrajectoryPoint& point, Point origin, float heading_b
 }
 
 void set_reference(const Parameters& parameters, const MotionState& before, const MotionState& reference,
-                   MotionInput& input, RefinementStep& step) {
+                   RefinementStep& step) {
   const auto& vehicle = parameters.vehicle;
-  input.jerk_mps3 = (reference.acceleration_mps2 - before.acceleration_mps2) / kStepS;
-  input.curvature_rate_1pms = (reference.curvature_1pm - before.curvature_1pm) / kStepS;
   const SinCos heading = sin_cos(reference.heading_rad);
   step.reference = reference;
   step.along_x = heading.cos;
@@ -77,8 +75,10 @@ void set_reference(const Parameters& parameters, const MotionState& before, cons
   // d(atan(L kappa))/dt = L kappa' / (1 + L^2 kappa^2)
   const float bend = vehicle.wheelbase_m * before.curvature_1pm;
   const float steering_1pms = vehicle.steering_rate_max_radps * (1.0F + square(bend)) / vehicle.wheelbase_m;
-  step.input_bound.jerk_mps3 = max(kOrdinaryJerkMps3, abs(input.jerk_mps3));
-  step.input_bound.curvature_rate_1pms = max(steering_1pms, abs(input.curvature_rate_1pms));
+  step.input_bound.jerk_mps3 =
+      max(kOrdinaryJerkMps3, abs(reference.acceleration_mps2 - before.acceleration_mps2) / kStepS);
+  step.input_bound.curvature_rate_1pms =
+      max(steering_1pms, abs(reference.curvature_1pm - before.curvature_1pm) / kStepS);
 }
 
 void write_back(const Motion& motion, Point origin, Trajectory& trajectory) {
@@ -100,19 +100,19 @@ void write_back(const Motion& motion, Point origin, Trajectory& trajectory) {
 }  // namespace
 
 void build_refinement(const ReferenceLine& line, float start_s_m, const Surroundings& surroundings,
-                      const Parameters& parameters, const Trajectory& trajectory, RefinementProblem& problem,
-                      Motion& motion) {
+                      const Parameters& parameters, const Trajectory& trajectory,
+                      RefinementProblem& problem) {
   const TrajectoryPoint& start = trajectory.points[0];
   const Point origin = position(start.rear_axle);
   set_weights(parameters, problem.weights);
   set_bounds(parameters, trajectory, problem);
-  motion.states[0] = state_of(start, origin, start.rear_axle.heading_rad);
+  problem.start = state_of(start, origin, start.rear_axle.heading_rad);
   ReferenceCoordinates where = locate_on(line, origin, start_s_m);
   for (int i = 0; i < kHorizonSteps; ++i) {
     const TrajectoryPoint& point = trajectory.points[i + 1];
     RefinementStep& step = problem.steps[i];
-    motion.states[i + 1] = state_of(point, origin, motion.states[i].heading_rad);
-    set_reference(parameters, motion.states[i], motion.states[i + 1], motion.inputs[i], step);
+    const MotionState& before = i > 0 ? problem.steps[i - 1].reference : problem.start;
+    set_reference(parameters, before, state_of(point, origin, before.heading_rad), step);
     where = locate_on(line, position(point.rear_axle), where.s_m + kStepS * point.speed_mps);
     step.lane_offset_m = abs(where.d_m) < kInLaneM ? where.d_m : 0.0F;
     step.speed_cap_mps = max(reference_at(line, where.s_m).speed_cap_mps, point.speed_mps);
@@ -126,7 +126,8 @@ void build_refinement(const ReferenceLine& line, float start_s_m, const Surround
 IlqrResult Optimizer::refine(const ReferenceLine& line, float start_s_m, const Surroundings& surroundings,
                              const Parameters& parameters, int allowance, Trajectory& trajectory) {
   if (allowance <= 0) return {};
-  build_refinement(line, start_s_m, surroundings, parameters, trajectory, problem_, motion_);
+  build_refinement(line, start_s_m, surroundings, parameters, trajectory, problem_);
+  reference_motion(problem_, motion_);
   const IlqrResult result = ilqr_.solve(problem_, allowance, motion_);
   if (result.improved) write_back(motion_, position(trajectory.points[0].rear_axle), trajectory);
   return result;

@@ -13,11 +13,10 @@ namespace s4tp {
 inline constexpr float kRefinedWithinM = 1.0F;  ///< of the candidate, along and across
 inline constexpr float kRefinedWithinS = 0.5F;  ///< of it in time: a stop stays where it is
 
-/// Writes what refining `trajectory` means, and the trajectory itself as a motion of the model.
+/// Writes what refining `trajectory` means.
 /// \param line  the reference line of its path. \param start_s_m  where on it the trajectory starts
 void build_refinement(const ReferenceLine& line, float start_s_m, const Surroundings& surroundings,
-                      const Parameters& parameters, const Trajectory& trajectory, RefinementProblem& problem,
-                      Motion& motion);
+                      const Parameters& parameters, const Trajectory& trajectory, RefinementProblem& problem);
 
 class Optimizer {
  public:
@@ -29,6 +28,9 @@ class Optimizer {
   [[nodiscard]] IlqrResult refine(const ReferenceLine& line, float start_s_m,
                                   const Surroundings& surroundings, const Parameters& parameters,
                                   int allowance, Trajectory& trajectory);
+
+  /// Of the last refine() with an allowance.
+  [[nodiscard]] const RefinementProblem& problem() const { return problem_; }
 
  private:
   RefinementProblem problem_;

@@ -62,8 +62,8 @@ Status Guard::apply(const PlannerInput& input, Status status, Plan& plan, Explan
 
 CheckReport Guard::check(const Trajectory& trajectory, std::uint32_t start_ms) {
   predictor_.encode(scene_, parameters_, start_ms);
-  predictor_.decode(nullptr, unconditioned_);
-  predictor_.decode(&trajectory, conditioned_);
+  predictor_.decode(nullptr, kMaxPredictionWork, unconditioned_);
+  predictor_.decode(&trajectory, kMaxPredictionWork, conditioned_);
   predictor_.keep_going(keep_going_);
   return check_trajectory(scene_, path_of(scene_, trajectory), trajectory, unconditioned_, conditioned_,
                           keep_going_, parameters_);

@@ -151,17 +151,18 @@ Status PredictiveDecision::plan(const PlannerInput& input, Plan& plan, Explanati
   PredictionSet chosen;
   if (status == Status::kOk) {
     predictor_.encode(scene_, parameters_, input.start_ms);
-    predictor_.decode(nullptr, unconditioned_);
+    predictor_.decode(nullptr, kMaxPredictionWork, unconditioned_);
     predictor_.keep_going(keep_going_);
     int left_out = 0;
-    generate_candidates(scene_, start, running, input.start_ms, parameters_, lines_, candidates_, left_out);
+    generate_candidates(scene_, start, running, input.start_ms, parameters_, kMaxCandidates, lines_,
+                        candidates_, left_out);
     float least = 1e9F;
     PredictionSet conditioned;
     Trajectory trajectory;
     status = Status::kNoSafePlan;
     for (const Candidate& candidate : candidates_) {
       roll_out(lines_[candidate.path], candidate, start, running, input.start_ms, parameters_, trajectory);
-      predictor_.decode(&trajectory, conditioned);
+      predictor_.decode(&trajectory, kMaxPredictionWork, conditioned);
       if (guarded_) {
         const CheckReport report = check_trajectory(scene_, candidate.path, trajectory, unconditioned_,
                                                     conditioned, keep_going_, parameters_);

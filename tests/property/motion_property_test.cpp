@@ -79,7 +79,8 @@ TEST(MotionProperty, CandidatesAreMotions) {
     ReferenceLines lines;
     CandidateList list;
     int left_out = 0;
-    generate_candidates(world.scene, world.start, Plan{}, kNow, parameters, lines, list, left_out);
+    generate_candidates(world.scene, world.start, Plan{}, kNow, parameters, kMaxCandidates, lines, list,
+                        left_out);
     RC_ASSERT(list.size() <= kMaxCandidates);
     RC_ASSERT(left_out >= 0);
     for (const Candidate& candidate : list) {
@@ -111,7 +112,8 @@ TEST(MotionProperty, OrdinaryStatesHaveCandidates) {
     ReferenceLines lines;
     CandidateList list;
     int left_out = 0;
-    generate_candidates(world.scene, world.start, Plan{}, kNow, Parameters{}, lines, list, left_out);
+    generate_candidates(world.scene, world.start, Plan{}, kNow, Parameters{}, kMaxCandidates, lines, list,
+                        left_out);
     bool brakes = false;
     for (const Candidate& candidate : list) {
       Trajectory trajectory;
@@ -143,7 +145,7 @@ TEST(MotionProperty, StopsRestBeforeTheirPlace) {
       ReferenceLines lines;
       CandidateList list;
       int left_out = 0;
-      generate_candidates(scene, state, Plan{}, kNow, Parameters{}, lines, list, left_out);
+      generate_candidates(scene, state, Plan{}, kNow, Parameters{}, kMaxCandidates, lines, list, left_out);
       const Candidate* stop = nullptr;
       for (const Candidate& candidate : list)
         if (candidate.intent == Intent::kStop) stop = &candidate;

@@ -192,11 +192,11 @@ void run_garbage(unsigned seed, Outcome& run) {
     RC_ASSERT((status == Status::kOk) == !run.scene.ego_paths.empty());
     check_scene(run.scene);
     predictor.encode(run.scene, parameters, now_ms + 100);
-    predictor.decode(nullptr, run.set);
+    predictor.decode(nullptr, kMaxPredictionWork, run.set);
     predictor.keep_going(run.keep_going);
     check_predictions(run.scene, run.set, run.keep_going);
     const Trajectory plan = test::plan_of(ego, uniform(random, -4.0F, 2.0F), uniform(random, -4.0F, 4.0F));
-    predictor.decode(&plan, run.set);
+    predictor.decode(&plan, kMaxPredictionWork, run.set);
     check_predictions(run.scene, run.set, run.keep_going);
     RC_ASSERT(predictor.work() <= (2 * kMaxAgents * 2 * kPathsPerAgent + kMaxTracks) * kHorizonSteps);
   }
@@ -286,7 +286,7 @@ TEST(PredictorProperty, StaysOnTheRoad) {
     static PredictionSet set;
     Predictor predictor;
     predictor.encode(scene, parameters, scene.time_ms + 100);
-    predictor.decode(nullptr, set);
+    predictor.decode(nullptr, kMaxPredictionWork, set);
     for (const AgentPrediction& agent : set.agents) {
       const Agent& seen = scene.agents[agent.agent];
       for (const Mode& mode : agent.modes) {

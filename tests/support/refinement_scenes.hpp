@@ -27,7 +27,8 @@ struct RefinementScene {
 
   [[nodiscard]] Surroundings surroundings() const { return {scene, prediction, prediction, keep_going}; }
   void build() {
-    build_refinement(line, candidate.start_s_m, surroundings(), parameters, trajectory, problem, start);
+    build_refinement(line, candidate.start_s_m, surroundings(), parameters, trajectory, problem);
+    reference_motion(problem, start);
   }
 };
 

@@ -53,7 +53,7 @@ CandidateList generate(const Scene& scene, const TrajectoryPoint& start, const P
   ReferenceLines lines;
   CandidateList list;
   int missing = 0;
-  generate_candidates(scene, start, running, kNow, Parameters{}, lines, list, missing);
+  generate_candidates(scene, start, running, kNow, Parameters{}, kMaxCandidates, lines, list, missing);
   if (left_out != nullptr) *left_out = missing;
   return list;
 }

@@ -33,7 +33,7 @@ void predict(const LaneMap& map, const EgoState& ego, const std::vector<Track>& 
   static const Parameters parameters;
   result.scene = test::scene_of(map, ego, tracks, parameters, 1000);
   result.predictor.encode(result.scene, parameters, 1000 + lead_ms);
-  result.predictor.decode(plan, result.set);
+  result.predictor.decode(plan, kMaxPredictionWork, result.set);
   result.predictor.keep_going(result.keep_going);
 }
 

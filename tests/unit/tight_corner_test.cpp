@@ -117,7 +117,7 @@ TEST(TightCorner, FromRestWithLockedWheelsThereIsAWayOn) {
   ReferenceLines lines;
   CandidateList list;
   int left_out = 0;
-  generate_candidates(scene, start, Plan{}, kNow, Parameters{}, lines, list, left_out);
+  generate_candidates(scene, start, Plan{}, kNow, Parameters{}, kMaxCandidates, lines, list, left_out);
   float furthest_m = 0.0F;
   for (const Candidate& candidate : list) {
     Trajectory trajectory;
