@@ -3,47 +3,16 @@
 #include <algorithm>
 #include <map>
 #include <set>
-#include <sstream>
 #include <stdexcept>
 #include <utility>
 
 #include "sim_host/world/find_route.hpp"
+#include "sim_host/world/flow_attributes.hpp"
 #include "sim_host/world/vehicle_types.hpp"
 #include "sim_host/world/xml_values.hpp"
 
 namespace s4tp::world {
 namespace {
-
-constexpr double kTimeMax_s = 1e6;
-
-[[noreturn]] void fail(const pugi::xml_node& node, const std::string& what) {
-  throw std::runtime_error(element_name(node) + ": " + what);
-}
-
-std::string quoted(const pugi::xml_node& node, const char* name) {
-  return std::string(name) + "=\"" + node.attribute(name).value() + "\"";
-}
-
-/// Seconds, or SUMO's [days:]hours:minutes:seconds.
-double time_of(const pugi::xml_node& node, const char* name, double missing_s) {
-  if (!node.attribute(name)) {
-    return missing_s;
-  }
-  std::vector<double> parts;  // the last one first
-  std::istringstream text(node.attribute(name).value());
-  for (std::string part; std::getline(text, part, ':');) {
-    parts.insert(parts.begin(), number_in(part).value_or(2.0 * kTimeMax_s));
-  }
-  static constexpr double kUnits_s[] = {1.0, 60.0, 3600.0, 86400.0};
-  double time_s = parts.empty() || parts.size() == 2 || parts.size() > 4 ? 2.0 * kTimeMax_s : 0.0;
-  for (std::size_t i = 0; i < std::min<std::size_t>(parts.size(), 4); ++i) {
-    time_s += kUnits_s[i] * parts[i];
-  }
-  if (!(time_s > -kTimeMax_s && time_s < kTimeMax_s)) {
-    fail(node, quoted(node, name) + ": expected seconds or h:m:s");
-  }
-  return time_s;
-}
 
 class Reader {
  public:
@@ -78,7 +47,7 @@ class Reader {
   std::vector<std::string> edges_of(const pugi::xml_node& node) const {
     const std::vector<std::string> edges = words_in(node.attribute("edges").value());
     if (edges.empty()) {
-      fail(node, "edges: expected at least one edge");
+      fail_at(node, "edges: expected at least one edge");
     }
     return edges;
   }
@@ -103,12 +72,12 @@ class Reader {
                             : i < weights.size() ? number_in(weights[i]).value_or(-1.0)
                                                  : -1.0;
       if (weight < 0.0) {
-        fail(node, "probabilities: expected a number of 0 and more for each of routes");
+        fail_at(node, "probabilities: expected a number of 0 and more for each of routes");
       }
       append(node, names[i], weight, choice);
     }
     if (choice.edges.empty()) {
-      fail(node, "expected at least one route");
+      fail_at(node, "expected at least one route");
     }
     return choice;
   }
@@ -116,7 +85,7 @@ class Reader {
   void append(const pugi::xml_node& node, const std::string& name, double weight, Choice& to) const {
     const auto found = named_.find(name);
     if (found == named_.end()) {
-      fail(node, "there is no <route id=\"" + name + "\">");
+      fail_at(node, "there is no <route id=\"" + name + "\">");
     }
     to.edges.insert(to.edges.end(), found->second.edges.begin(), found->second.edges.end());
     for (const double own : found->second.weights) {
@@ -141,8 +110,9 @@ class Reader {
       } else if (elsewhere.count(name) != 0) {
         leave_out("<" + name + ">: only vehicles on the road are simulated");
       } else {
-        fail(node,
-             "expected vehicle, trip, flow, route, routeDistribution, vType, vTypeDistribution or interval");
+        fail_at(
+            node,
+            "expected vehicle, trip, flow, route, routeDistribution, vType, vTypeDistribution or interval");
       }
     }
   }
@@ -160,7 +130,7 @@ class Reader {
     const std::string type = node.attribute("type").as_string("DEFAULT_VEHTYPE");
     const std::vector<VehicleType>* kinds = types_.find(type);
     if (kinds == nullptr) {
-      fail(node, "there is no <vType id=\"" + type + "\">");
+      fail_at(node, "there is no <vType id=\"" + type + "\">");
     }
     bool car = false;
     for (const VehicleType& kind : *kinds) {
@@ -181,7 +151,7 @@ class Reader {
       read_spacing(node, interval, flow);
     } else {
       if (depart.empty()) {
-        fail(node, "depart: missing");
+        fail_at(node, "depart: missing");
       }
       flow.begin_s = time_of(node, "depart", 0.0);
       flow.number = 1;
@@ -199,81 +169,6 @@ class Reader {
     demand_.flows.push_back(std::move(flow));
   }
 
-  void read_spacing(const pugi::xml_node& node, const pugi::xml_node& interval, DemandFlow& flow) const {
-    flow.begin_s = time_of(node, "begin", time_of(interval, "begin", 0.0));
-    flow.end_s = time_of(node, "end", time_of(interval, "end", flow.end_s));
-    const double number = attribute_number(node, "number", -1.0, 0.0, 1e7);
-    if (node.attribute("number")) {
-      flow.number = static_cast<int>(number);
-    }
-    const std::string period = node.attribute("period").value();
-    const double per_hour =
-        attribute_number(node, "perHour", attribute_number(node, "vehsPerHour", 0.0, 0.0, 1e6), 0.0, 1e6);
-    if (period.rfind("exp(", 0) == 0 && period.back() == ')') {
-      const double rate = number_in(period.substr(4, period.size() - 5)).value_or(0.0);
-      if (!(rate > 0.0 && rate <= 100.0)) {
-        fail(node, quoted(node, "period") + ": expected exp(RATE), vehicles a second, above 0");
-      }
-      flow.spacing = DemandFlow::Spacing::kExponential;
-      flow.period_s = 1.0 / rate;
-    } else if (!period.empty()) {
-      flow.period_s = attribute_number(node, "period", 1.0, 0.01, kTimeMax_s);
-    } else if (node.attribute("probability")) {
-      flow.spacing = DemandFlow::Spacing::kPerSecond;
-      flow.probability = attribute_number(node, "probability", 0.0, 0.0, 1.0);
-    } else if (per_hour > 0.0) {
-      flow.period_s = 3600.0 / per_hour;
-    } else if (flow.number > 0 && node.attribute("number") && flow.end_s > flow.begin_s &&
-               flow.end_s < kTimeMax_s) {
-      flow.period_s = (flow.end_s - flow.begin_s) / flow.number;
-    } else if (flow.number == 0 || node.attribute("perHour") || node.attribute("vehsPerHour")) {
-      flow.number = 0;
-    } else {
-      fail(node, "expected period, vehsPerHour, perHour, probability, or number with begin and end");
-    }
-  }
-
-  void read_depart(const pugi::xml_node& node, DepartWish& wish) const {
-    const auto word_of = [&](const char* name, const char* missing) {
-      return std::string(node.attribute(name).as_string(missing));
-    };
-    const std::string lane = word_of("departLane", "first");
-    const std::string position = word_of("departPos", "base");
-    const std::string speed = word_of("departSpeed", "0");
-    if (lane == "first" || lane == "allowed") {
-      wish.lane = DepartWish::Lane::kFirst;
-    } else if (lane == "random" || lane == "free") {
-      wish.lane = DepartWish::Lane::kRandom;
-    } else if (lane == "best" || lane == "best_prob") {
-      wish.lane = DepartWish::Lane::kBest;
-    } else {
-      const std::optional<double> number = number_in(lane);
-      if (!number || *number < 0.0 || *number > 99.0) {
-        fail(node,
-             quoted(node, "departLane") + ": expected a lane's number, first, random, free, allowed or best");
-      }
-      wish.lane = DepartWish::Lane::kNumber;
-      wish.lane_number = static_cast<int>(*number);
-    }
-    static const std::set<std::string> base{"base", "free", "last", "stop", "splitFront"};
-    if (base.count(position) != 0) {
-      wish.position = DepartWish::Position::kBase;
-    } else if (position == "random" || position == "random_free") {
-      wish.position = DepartWish::Position::kRandom;
-    } else {
-      wish.position = DepartWish::Position::kNumber;
-      wish.position_m = attribute_number(node, "departPos", 0.0, -1e6, 1e6);
-    }
-    static const std::set<std::string> fast{"max", "desired", "speedLimit", "last", "avg"};
-    if (fast.count(speed) != 0) {
-      wish.speed = DepartWish::Speed::kAsTrafficAllows;
-    } else if (speed == "random") {
-      wish.speed = DepartWish::Speed::kRandom;
-    } else {
-      wish.speed_mps = attribute_number(node, "departSpeed", 0.0, 0.0, 150.0);
-    }
-  }
-
   Choice choice_of(const pugi::xml_node& node) {
     if (const pugi::xml_node own = node.child("route")) {
       return {{edges_of(own)}, {1.0}};
@@ -289,7 +184,7 @@ class Reader {
     std::vector<std::string> stations = words_in(node.attribute("via").value());
     for (const char* end : {"from", "to"}) {
       if (!node.attribute(end)) {
-        fail(node, "expected a route, or from and to edges (zones and junctions as ends are not known)");
+        fail_at(node, "expected a route, or from and to edges (zones and junctions as ends are not known)");
       }
     }
     stations.insert(stations.begin(), node.attribute("from").value());
@@ -300,7 +195,7 @@ class Reader {
         const std::vector<std::string> way = find_route(network_, stations[i - 1], stations[i]);
         edges.insert(edges.end(), way.begin() + 1, way.end());
       } catch (const std::runtime_error& error) {
-        fail(node, error.what());
+        fail_at(node, error.what());
       }
     }
     return {{edges}, {1.0}};
@@ -326,7 +221,8 @@ class Reader {
       }
       if (flow.depart.lane == DepartWish::Lane::kNumber &&
           network_.lane_of(edges.front(), flow.depart.lane_number) == kNoLane) {
-        fail(node, quoted(node, "departLane") + ": edge \"" + edges.front() + "\" has no such lane for cars");
+        fail_at(node,
+                quoted(node, "departLane") + ": edge \"" + edges.front() + "\" has no such lane for cars");
       }
       flow.routes.push_back(index_of(node, route));
       flow.route_weights.push_back(choice.weights[i]);
@@ -341,7 +237,7 @@ class Reader {
         RouteGuide(network_, route.edges, kNoLane, 0.0);
       } catch (const std::runtime_error& error) {
         index_.erase(entry);
-        fail(node, error.what());
+        fail_at(node, error.what());
       }
       demand_.routes.push_back(route);
       return demand_.routes.size() - 1;

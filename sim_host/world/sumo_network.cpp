@@ -9,34 +9,23 @@
 #include <stdexcept>
 
 #include "sim_host/world/junction_links.hpp"
+#include "sim_host/world/sumo_lane.hpp"
 #include "sim_host/world/xml_values.hpp"
 
 namespace s4tp::world {
 namespace {
 
-constexpr double kDefaultWidth_m = 3.2;      // SUMO's own
-constexpr double kDefaultSpeed_mps = 13.89;  // SUMO's own
-constexpr double kFurthest_m = 1e8;
-constexpr double kSamePoint_m = 0.005;
-
 class Reader {
  public:
-  explicit Reader(const std::filesystem::path& file) : file_(file) {}
-
-  Network read() {
-    const pugi::xml_document document = parse_xml(file_.string());
-    const pugi::xml_node net = document.child("net");
-    if (!net) {
-      fail("the root element", "expected <net>, as netconvert writes it");
-    }
+  Network read(const pugi::xml_node& net) {
     if (net.attribute("lefthand").as_bool()) {
-      fail("<net lefthand>", "expected traffic on the right");
+      fail_at("<net lefthand>", "expected traffic on the right");
     }
     for (const pugi::xml_node edge : net.children("edge")) {
       read_edge(edge);
     }
     if (network_.lanes.empty()) {
-      fail("<net>", "expected at least one <lane> that passenger cars may use");
+      fail_at("<net>", "expected at least one <lane> that passenger cars may use");
     }
     for (const pugi::xml_node connection : net.children("connection")) {
       read_connection(connection);
@@ -68,66 +57,15 @@ class Reader {
     bool open = true;  ///< to cars
   };
 
-  [[noreturn]] void fail(const std::string& where, const std::string& what) const {
-    throw std::runtime_error(file_.string() + ": " + where + ": " + what);
-  }
-
-  double number(const pugi::xml_node& node, const char* name, double missing,
-                const std::string& where) const {
-    const pugi::xml_attribute attribute = node.attribute(name);
-    if (!attribute) {
-      return missing;
-    }
-    const std::optional<double> value = number_in(attribute.value());
-    if (!value) {
-      fail(where, std::string(name) + "=\"" + attribute.value() + "\": expected a number");
-    }
-    return *value;
-  }
-
-  /// Whether a list of vehicle classes means our cars.
-  static bool names_cars(const std::vector<std::string>& classes) {
-    return std::any_of(classes.begin(), classes.end(),
-                       [](const std::string& each) { return each == "passenger" || each == "all"; });
-  }
-
-  /// As SUMO has it, an empty list is as good as none.
-  static bool open_to_cars(const pugi::xml_node& lane) {
-    const std::vector<std::string> allowed = words_in(lane.attribute("allow").value());
-    return allowed.empty() ? !names_cars(words_in(lane.attribute("disallow").value())) : names_cars(allowed);
-  }
-
-  static bool change_open(const pugi::xml_node& lane, const char* side) {
-    const std::vector<std::string> allowed = words_in(lane.attribute(side).value());
-    return allowed.empty() || names_cars(allowed);
-  }
-
-  std::vector<Vec2> shape_of(const pugi::xml_node& lane, const std::string& where) const {
-    std::vector<Vec2> points;
-    for (const std::string& word : words_in(lane.attribute("shape").value())) {
-      const std::size_t comma = word.find(',');
-      const std::string after = comma == std::string::npos ? "" : word.substr(comma + 1);
-      const std::optional<double> x = number_in(word.substr(0, comma));
-      const std::optional<double> y = number_in(after.substr(0, after.find(',')));
-      if (!x || !y || std::abs(*x) > kFurthest_m || std::abs(*y) > kFurthest_m) {
-        fail(where, "shape holds \"" + word + "\": expected x,y or x,y,z within 1e8 m");
-      }
-      if (points.empty() || std::hypot(*x - points.back().x, *y - points.back().y) > kSamePoint_m) {
-        points.push_back({*x, *y});
-      }
-    }
-    return points;
-  }
-
   void read_edge(const pugi::xml_node& edge) {
     const std::string id = edge.attribute("id").value();
     const std::string function = edge.attribute("function").as_string("normal");
     if (id.empty()) {
-      fail("<edge> at byte " + std::to_string(edge.offset_debug()), "expected an id");
+      fail_at("<edge> at byte " + std::to_string(edge.offset_debug()), "expected an id");
     }
     const bool walked = function == "walkingarea" || function == "crossing";
     if (!priority_.try_emplace(id, edge.attribute("priority").as_int(-1)).second) {
-      fail("edge \"" + id + "\"", "expected an id of its own; there is another of that name");
+      fail_at("edge \"" + id + "\"", "expected an id of its own; there is another of that name");
     }
     std::map<int, LaneId> by_index;
     std::map<int, bool> may_go_left;
@@ -135,41 +73,27 @@ class Reader {
     for (const pugi::xml_node node : edge.children("lane")) {
       const std::string name = node.attribute("id").value();
       const std::string where = "lane \"" + name + "\" of edge \"" + id + "\"";
-      const double index = number(node, "index", -1.0, where);
+      const double index = lane_number(node, "index", -1.0, where);
       if (name.empty() || index < 0.0 || index > 99.0 || index != std::floor(index)) {
-        fail(where, "expected an id and an index from 0 on");
+        fail_at(where, "expected an id and an index from 0 on");
       }
       if (!known_.insert(name).second || by_index.count(static_cast<int>(index)) != 0) {
-        fail(where, "expected an id and an index of its own; there is another lane with it");
+        fail_at(where, "expected an id and an index of its own; there is another lane with it");
       }
       if (walked || !open_to_cars(node)) {
         continue;
       }
-      NetworkLane lane;
-      lane.name = name;
-      lane.edge = id;
-      lane.index = static_cast<int>(index);
-      lane.in_junction = function == "internal";
-      lane.width_m = number(node, "width", kDefaultWidth_m, where);
-      lane.speed_limit_mps = number(node, "speed", kDefaultSpeed_mps, where);
-      if (lane.width_m <= 0.0 || lane.width_m > 100.0 || lane.speed_limit_mps <= 0.0) {
-        fail(where, "expected width (up to 100 m) and speed above 0");
-      }
-      const std::vector<Vec2> shape = shape_of(node, where);
-      if (shape.size() < 2 && lane.in_junction) {
+      std::optional<NetworkLane> lane = read_lane(node, id, function == "internal", where);
+      if (!lane) {
         continue;  // no longer than a point, as at a node that only ends one edge: passed over
       }
-      if (shape.size() < 2) {
-        fail(where, "shape: expected at least two different points x,y");
-      }
-      lane.centre = Polyline(shape);
-      lane.sumo_length_m = number(node, "length", lane.centre.length_m(), where);
+      lane->index = static_cast<int>(index);
       const LaneId number = static_cast<LaneId>(network_.lanes.size());
-      by_index[lane.index] = number;
-      may_go_left[lane.index] = change_open(node, "changeLeft");
-      may_go_right[lane.index] = change_open(node, "changeRight");
+      by_index[lane->index] = number;
+      may_go_left[lane->index] = change_open(node, "changeLeft");
+      may_go_right[lane->index] = change_open(node, "changeRight");
       lane_of_[name] = number;
-      network_.lanes.push_back(std::move(lane));
+      network_.lanes.push_back(*std::move(lane));
     }
     for (const auto& [index, number] : by_index) {
       const auto left = by_index.find(index + 1);
@@ -191,7 +115,7 @@ class Reader {
     const std::string where = "connection from \"" + from + "\" to \"" + to + "\"";
     for (const char* name : {"from", "to", "fromLane", "toLane"}) {
       if (!node.attribute(name)) {
-        fail(where, std::string("expected the attribute ") + name);
+        fail_at(where, std::string("expected the attribute ") + name);
       }
     }
     const std::string from_lane = from + "_" + node.attribute("fromLane").value();
@@ -199,7 +123,7 @@ class Reader {
     const std::string via = node.attribute("via").value();
     for (const std::string& name : {from_lane, to_lane, via}) {
       if (!name.empty() && known_.count(name) == 0) {
-        fail(where, "names the lane \"" + name + "\", which no <edge> has");
+        fail_at(where, "names the lane \"" + name + "\", which no <edge> has");
       }
     }
     const bool open = lane_of_.count(from_lane) != 0 && lane_of_.count(to_lane) != 0 && open_to_cars(node);
@@ -232,7 +156,7 @@ class Reader {
               bridge->name = inside;
               bridge->edge = name;
               if (!known_.insert(inside).second) {
-                fail("junction \"" + id + "\"", "expected a via for each of its connections, or for none");
+                fail_at("junction \"" + id + "\"", "expected a via for each of its connections, or for none");
               }
               lane_of_[inside] = static_cast<LaneId>(network_.lanes.size());
               network_.lanes.push_back(*std::move(bridge));
@@ -304,9 +228,9 @@ class Reader {
         const auto bits = [&](const char* name) {
           const std::string text = request.attribute(name).value();
           if (index >= junction.links.size() || text.find_first_not_of("01") != std::string::npos) {
-            fail(where, "request index=\"" + std::string(request.attribute("index").value()) +
-                            "\": expected an index below the number of intLanes, and " + name +
-                            " of 0s and 1s");
+            fail_at(where, "request index=\"" + std::string(request.attribute("index").value()) +
+                               "\": expected an index below the number of intLanes, and " + name +
+                               " of 0s and 1s");
           }
           std::vector<bool> found(text.size());
           std::transform(text.rbegin(), text.rend(), found.begin(), [](char c) { return c == '1'; });
@@ -364,7 +288,6 @@ class Reader {
     return link;
   }
 
-  std::filesystem::path file_;
   Network network_;
   std::set<std::string> known_;  ///< every lane's name, those cars may not use too
   std::map<std::string, LaneId> lane_of_;
@@ -377,7 +300,15 @@ class Reader {
 }  // namespace
 
 Network load_network(const std::filesystem::path& file) {
-  return Reader(file).read();
+  const pugi::xml_document document = parse_xml(file.string());
+  try {
+    if (!document.child("net")) {
+      fail_at("the root element", "expected <net>, as netconvert writes it");
+    }
+    return Reader().read(document.child("net"));
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(file.string() + ": " + error.what());
+  }
 }
 
 }  // namespace s4tp::world

@@ -1,0 +1,28 @@
+#pragma once
+/// How an episode begins: which draw of the traffic, whom the ego's entry takes off the road, and what is
+/// shown before it (WORLD-032, see World).
+
+#include <memory>
+#include <vector>
+
+#include "sim_host/world/locator.hpp"
+#include "sim_host/world/traffic_engine.hpp"
+#include "sim_host/world/world.hpp"
+
+namespace s4tp::world {
+
+struct EnteredTraffic {
+  std::unique_ptr<TrafficEngine> traffic;       ///< at entry
+  std::vector<std::vector<CarState>> pre_roll;  ///< who is shown in each of its ticks
+  int redrawn = 0;                              ///< draws in which the ego would have been touched at once
+};
+
+/// \param scenario  must outlive the traffic
+[[nodiscard]] EnteredTraffic draw_entry(const Scenario& scenario, const WorldOptions& options,
+                                        const Locator& locator);
+
+/// The ego under the world's own control: along the start lane at entry speed, straight before its start.
+/// \param time_s  since entry
+[[nodiscard]] CarState ego_at_entry(const Scenario& scenario, double time_s);
+
+}  // namespace s4tp::world
