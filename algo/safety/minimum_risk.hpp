@@ -1,5 +1,18 @@
 #pragma once
-/// The minimum-risk manoeuvre: what is driven when nothing else passes. There is always one.
+/// The minimum-risk manoeuvre: what is driven when nothing else passes. There is always one, and it is a
+/// ladder, climbed anew each cycle:
+///
+/// \code
+///   comfortable stop  entered: nothing passes the check, no lane, broken input (planner.hpp)
+///                     brakes with safety.minimum_risk_braking; left: a plan passes, or at rest
+///   hard stop         entered: that is not enough before a leader, the road's end or a zone
+///                     brakes as hard as it takes; left: less will do, or as above
+///   clearing          entered: inside a zone, and the way out is free
+///                     drives with 2 m/s^2, stops behind the zone; left: clear of it, or not free
+///   hold              entered: at rest; the pose stays; left: a plan passes
+/// \endcode
+/// When the ECU itself loses what planning needs, the last plan's path is driven to a stop and held until the
+/// driver lets go (modes.hpp). Shoulders are not used: no map node of ours sends any.
 
 #include "algo/core/parameters.hpp"
 #include "algo/core/trajectory.hpp"

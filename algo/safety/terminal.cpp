@@ -100,7 +100,8 @@ TerminalVerdict judge_zone(const Scene& scene, const ConflictZone& zone, const A
     if (!leaves_zone_to_us(scene, i, zone, in_s, out_s, committed, parameters)) {
       TerminalVerdict verdict = blame(TerminalCause::kZone, i);
       verdict.arrives_s = earliest_arrival_s(scene, i, zone, parameters);
-      verdict.needed_s = out_s;
+      const bool we_wait = zone.priority != Priority::kFirstHasPriority && !committed;
+      verdict.needed_s = out_s + (we_wait ? parameters.safety.zone_margin_s : 0.0F);
       return verdict;
     }
   }

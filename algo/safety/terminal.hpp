@@ -25,7 +25,7 @@ struct TerminalVerdict {
   TerminalCause cause = TerminalCause::kNone;
   std::uint8_t agent = 255;  ///< who is in the way; 255: nobody
   float arrives_s = 0.0F;    ///< kZone: how soon it can be there; 0: is there; 1e3: not by accelerating
-  float needed_s = 0.0F;     ///< kZone: until we would have left the zone
+  float needed_s = 0.0F;     ///< kZone: to have left the zone, with the margin due
   [[nodiscard]] bool safe() const { return cause == TerminalCause::kNone; }
 };
 

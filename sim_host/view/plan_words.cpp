@@ -189,7 +189,7 @@ std::string because_words(const campaign::CycleTrace& cycle, const Reason& reaso
     case Because::kNoRoom:
       return "beyond the junction there is no room, and it must not be blocked";
     case Because::kRoadEnd:
-      return "our way ends ahead";
+      return "our lane ends ahead";
     case Because::kLaneEnd:
       return "this lane does not lead to the goal, and the place to leave it is near";
     case Because::kTooNear:

@@ -92,7 +92,7 @@ TEST(PlanWords, EveryCauseHasWords) {
     TerminalCause cause;
     const char* words;
   } kCases[] = {
-      {TerminalCause::kRoadEnd, "Slowing down: our way ends ahead."},
+      {TerminalCause::kRoadEnd, "Slowing down: our lane ends ahead."},
       {TerminalCause::kLaneEnd,
        "Slowing down: this lane does not lead to the goal, and the place to leave it is near."},
       {TerminalCause::kStopsInZone,
