@@ -26,7 +26,7 @@ TEST_P(EmptyRoad, IsDrivenToTheGoal) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Baselines, EmptyRoad,
-                         testing::Values("static_drf", "idm_lane", "predictive_decision"),
+                         testing::Values("static_drf", "idm_lane", "predictive_decision", "drf_controller"),
                          [](const auto& planner) { return std::string(planner.param); });
 
 }  // namespace

@@ -83,8 +83,8 @@ TEST(PlannerRegistry, EveryPlannerIsThere) {
   const std::vector<std::string> names = planner_names();
   ASSERT_FALSE(names.empty());
   EXPECT_EQ(names.front(), "s4tp");
-  for (const char* const name :
-       {"blind", "constant_speed", "idm_lane", "predictive_decision", "static_drf", "sumo_driver"}) {
+  for (const char* const name : {"blind", "constant_speed", "drf_controller", "idm_lane",
+                                 "predictive_decision", "static_drf", "sumo_driver"}) {
     EXPECT_NE(std::find(names.begin(), names.end(), name), names.end()) << name;
   }
 }
