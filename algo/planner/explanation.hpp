@@ -5,6 +5,7 @@
 
 #include "algo/core/bounded.hpp"
 #include "algo/core/status.hpp"
+#include "algo/sadrf/risk.hpp"
 #include "algo/safety/rss.hpp"
 #include "algo/safety/trajectory_check.hpp"
 #include "algo/trajectory/candidates.hpp"
@@ -55,7 +56,10 @@ struct Explanation {
   CostBreakdown chosen_cost;
   CostBreakdown runner_up_cost;
   Rejection rejections[kMaxCandidates] = {};
-  std::uint8_t decisions = 0;           ///< how many were predicted with our plan
+  std::uint8_t decisions = 0;  ///< how many were predicted with our plan
+  /// CORE-072 Of the plan as it is given, a minimum-risk manoeuvre's too; zeros where nothing was predicted
+  /// (no lane, broken input), and of the plan before its last changes where no allowance was left.
+  RiskProfile risk{};
   std::uint8_t dominating_track = 255;  ///< track id of the vehicle whose risk is largest; 255: nobody
   std::uint8_t dominating_step = 0;
   HeldUp held_up;                        ///< in our lane

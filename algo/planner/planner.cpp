@@ -103,7 +103,7 @@ Status Planner::plan(const PlannerInput& input, Plan& plan, Explanation& explana
   start_ms_ = input.start_ms;
 
   conditioned_.agents.clear();
-  risk_ = RiskProfile{};
+  refined_in_force_ = false;
 
   Status status = Status::kInvalidInput;
   if (valid(input)) {
@@ -134,12 +134,31 @@ Status Planner::plan(const PlannerInput& input, Plan& plan, Explanation& explana
     explanation.rss_track = track_id(envelope.agent);
   }
 
+  if (status == Status::kOk || status == Status::kNoSafePlan) explain_risk(status, explanation);
+
   plan.kind = status == Status::kOk ? PlanKind::kDrive : PlanKind::kMinimumRisk;
   plan.start_ms = start_ms_;
   plan.trajectory = chosen_;
   explanation.status = status;
-  if (probe != nullptr) probe->cycle_done(scene_, conditioned_, risk_);
+  if (probe != nullptr) probe->cycle_done(scene_, conditioned_, explanation.risk);
   return status;
+}
+
+void Planner::explain_risk(Status status, Explanation& explanation) {
+  const StageScope scope(probe, Stage::kExactRisk);
+  // What the optimizer or the clip changed, or the minimum-risk manoeuvre, is felt anew while the allowance
+  // lasts.
+  const bool changed = status != Status::kOk || refined_in_force_ || explanation.rss_clipped;
+  if (changed && explanation.work[static_cast<int>(Stage::kExactRisk)] < allowance.exact_risks) {
+    const PredictionSet& prediction = status == Status::kOk ? conditioned_ : unconditioned_;
+    exact_risk(scene_, drivable_, prediction, keep_going_, chosen_, parameters_, explanation.risk);
+    count(explanation, Stage::kExactRisk, 1);
+  } else if (status != Status::kOk) {
+    explanation.risk = RiskProfile{};  // it is of a motion that was rejected
+  }
+  explanation.dominating_track = track_id(explanation.risk.dominating_agent);
+  explanation.dominating_step =
+      explanation.dominating_track == kNobody ? std::uint8_t{0} : explanation.risk.dominating_step;
 }
 
 void Planner::forget_scene() {
@@ -281,9 +300,6 @@ Status Planner::choose(Explanation& explanation) {
     explanation.runner_up_cost = costs_[second];
     explanation.runner_up_manoeuvre = scene_.ego_paths[candidates_[second].path].manoeuvre;
   }
-  explanation.dominating_track = track_id(risk_.dominating_agent);
-  explanation.dominating_step =
-      explanation.dominating_track == kNobody ? std::uint8_t{0} : risk_.dominating_step;
   const EgoPath& path = scene_.ego_paths[candidates_[best].path];
   explanation.manoeuvre = path.manoeuvre;
   const Leader leader = find_leader(scene_, path, path.frenet.s_m, parameters_);
@@ -313,9 +329,9 @@ bool Planner::evaluate(int index, Explanation& explanation) {
   // Without an allowance left the ranking's risk stands.
   if (explanation.work[static_cast<int>(Stage::kExactRisk)] >= allowance.exact_risks) return true;
   const StageScope scope(probe, Stage::kExactRisk);
-  exact_risk(scene_, drivable_, conditioned_, keep_going_, chosen_, parameters_, risk_);
+  exact_risk(scene_, drivable_, conditioned_, keep_going_, chosen_, parameters_, explanation.risk);
   costs_[index].risk =
-      parameters_.scoring.risk * risk_integral(risk_, parameters_) + crash_cost(conditioned_);
+      parameters_.scoring.risk * risk_integral(explanation.risk, parameters_) + crash_cost(conditioned_);
   count(explanation, Stage::kExactRisk, 1);
   return true;
 }
@@ -345,7 +361,9 @@ void Planner::refine(const Candidate& candidate, Explanation& explanation) {
                                                        conditioned_, keep_going_, parameters_)
                                               .result == CheckResult::kPassed
                                     : feasible(refined_, parameters_);
-  if (passes_check) chosen_ = refined_;
+  if (!passes_check) return;
+  chosen_ = refined_;
+  refined_in_force_ = true;
 }
 
 }  // namespace s4tp

@@ -78,6 +78,7 @@ class Planner {
   [[nodiscard]] bool evaluate(int index, Explanation& explanation);
   void note_held_up(int path, const CheckReport& report, Explanation& explanation) const;
   [[nodiscard]] std::uint8_t track_id(int agent) const;
+  void explain_risk(Status status, Explanation& explanation);
   [[nodiscard]] Rejection judge(int path, const PredictionSet& conditioned, CheckReport& report) const;
   /// What stands for the check in an unguarded planner's score; 0 in a guarded one's.
   [[nodiscard]] float crash_cost(const PredictionSet& prediction) const;
@@ -103,9 +104,9 @@ class Planner {
   bool keeps_plan_ = false;  ///< the running plan is among the candidates, as decision plan_key_
   DecisionKey plan_key_ = 0;
   PredictionSet conditioned_;
-  RiskProfile risk_;
   Trajectory chosen_;
   Trajectory refined_;
+  bool refined_in_force_ = false;  ///< chosen_ is refined_
 
   /// Scratch of stages that never need it at once: the predictor's ways have served when the optimizer
   /// begins.

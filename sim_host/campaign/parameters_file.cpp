@@ -1,9 +1,13 @@
 #include "sim_host/campaign/parameters_file.hpp"
 
+#include <algorithm>
 #include <sstream>
 #include <stdexcept>
 #include <string>
 #include <toml.hpp>
+#include <vector>
+
+#include "algo/sadrf/presets.hpp"
 
 namespace s4tp::campaign {
 namespace {
@@ -18,6 +22,27 @@ std::string range_of(const ParameterInfo& info) {
   return text.str();
 }
 
+/// [risk] preset and look_ahead choose several numbers at once; numbers the file names override them.
+void choose_preset(const std::filesystem::path& file, const toml::table& fields, Parameters& parameters) {
+  const auto index_of = [&](const std::string& field, const std::vector<std::string>& names) {
+    const auto found = fields.find(field);
+    if (found == fields.end()) return 0;
+    const std::string accepted = names[0] + ", " + names[1];
+    if (!found->second.is_string()) refuse(file, "risk." + field + " is not a name; accepted: " + accepted);
+    const std::string name = found->second.as_string();
+    const auto place = std::find(names.begin(), names.end(), name);
+    if (place == names.end()) refuse(file, "risk." + field + " = '" + name + "'; accepted: " + accepted);
+    return static_cast<int>(place - names.begin());
+  };
+  const int preset = index_of("preset", {"paper", "kolekar2020"});
+  const int look_ahead = index_of("look_ahead", {"shrinking", "fixed"});
+  choose_risk(static_cast<FieldPreset>(preset), static_cast<LookAhead>(look_ahead), parameters);
+}
+
+bool names_preset(const std::string& group, const std::string& field) {
+  return group == "risk" && (field == "preset" || field == "look_ahead");
+}
+
 }  // namespace
 
 Parameters load_parameters(const std::filesystem::path& file) {
@@ -30,7 +55,9 @@ Parameters load_parameters(const std::filesystem::path& file) {
   }
   for (const auto& [group, fields] : root.as_table()) {
     if (!fields.is_table()) refuse(file, "'" + group + "' is not a group; accepted: [group] field = value");
+    if (group == "risk") choose_preset(file, fields.as_table(), parameters);
     for (const auto& [field, value] : fields.as_table()) {
+      if (names_preset(group, field)) continue;
       const std::string name = group + "." + field;
       const int index = find_parameter(name.c_str());
       if (index < 0) refuse(file, "no parameter '" + name + "'; docs/parameters.md lists them");

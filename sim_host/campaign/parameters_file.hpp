@@ -1,5 +1,6 @@
 #pragma once
-/// Run-time parameters from a TOML file: [group] field = value, names as in docs/parameters.md.
+/// Run-time parameters from a TOML file: [group] field = value, names as in docs/parameters.md. In [risk]
+/// also preset = "paper" or "kolekar2020" and look_ahead = "shrinking" or "fixed" (docs/risk.md).
 
 #include <filesystem>
 

@@ -313,6 +313,10 @@ std::string in_numbers(const campaign::CycleTrace& cycle) {
   if (e.dominating_track != kNobody)
     lines += format("\n  risk:      track %d (%s) at +%.1f s", e.dominating_track,
                     name_of(cycle, e.dominating_track).c_str(), 0.1 * (e.dominating_step + 1));
+  if (std::any_of(std::begin(e.risk.obstacle), std::end(e.risk.obstacle), [](float r) { return r > 0.0F; })) {
+    lines += "\n  R_obs every 0.5 s:";
+    for (int i = 4; i < kHorizonSteps; i += 5) lines += format(" %.0f", e.risk.obstacle[i]);
+  }
   if (e.rss.active)
     lines += format(
         "\n  RSS:       at most %.1f m/s2, %.1f m/s to the left, %.1f to the right, by track %d (%s)%s",

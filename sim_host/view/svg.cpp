@@ -70,6 +70,11 @@ void Svg::rectangle_px(double x, double y, double width, double height, const st
         << fill << "'/>\n";
 }
 
+void Svg::path_px(const std::string& data, const std::string& colour, double width) {
+  body_ << "<path fill='none' stroke='" << colour << "' stroke-width='" << std::setprecision(2) << width
+        << std::setprecision(1) << "' d='" << data << "'/>\n";
+}
+
 void Svg::line_px(const std::vector<world::Vec2>& points, const std::string& colour, double width) {
   body_ << "<polyline fill='none' stroke='" << colour << "' stroke-width='" << width << "' points='";
   for (const world::Vec2& point : points) body_ << point.x << ',' << point.y << ' ';

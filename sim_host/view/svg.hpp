@@ -31,6 +31,8 @@ class Svg {
   void text_px(double x, double y, const std::string& text, double size_px,
                const std::string& colour = "#222");
   void rectangle_px(double x, double y, double width, double height, const std::string& fill);
+  /// Strokes path data as SVG writes it, in pixels.
+  void path_px(const std::string& data, const std::string& colour, double width);
   void line_px(const std::vector<world::Vec2>& points, const std::string& colour, double width);
 
   [[nodiscard]] double width_px() const { return width_px_; }

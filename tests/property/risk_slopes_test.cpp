@@ -36,8 +36,8 @@ double at(std::vector<double> errors, double share) {
 
 }  // namespace
 
-// CORE-069 CORE-070: central differences by x, y, heading, speed and steering of single points, wherever the risk
-// there is at least 1,000; errors against the derivative plus what a field falling by 1 / e in 2 m would
+// CORE-069 CORE-070: central differences by x, y, heading, speed and steering of single points, wherever the
+// risk there is at least 1,000; errors against the derivative plus what a field falling by 1 / e in 2 m would
 // have.
 TEST(RiskSlopes, AgreeWithDifferences) {
   const unsigned first = 20261121U + static_cast<unsigned>(GTEST_FLAG_GET(random_seed));

@@ -7,6 +7,8 @@
 #include <fstream>
 #include <string>
 
+#include "algo/sadrf/presets.hpp"
+
 namespace s4tp::campaign {
 namespace {
 
@@ -31,6 +33,17 @@ TEST(ParametersFile, TakesNamedFields) {
   EXPECT_EQ(parameters.vehicle.wheelbase_m, Parameters{}.vehicle.wheelbase_m);
 }
 
+// A preset and a look-ahead by name set their numbers and the threshold; a number in the file comes after
+// them.
+TEST(ParametersFile, PresetsByName) {
+  const Parameters parameters =
+      load("[risk]\nwidening = 0.02\npreset = \"kolekar2020\"\nlook_ahead = \"fixed\"\n");
+  Parameters expected;
+  choose_risk(FieldPreset::kKolekar2020, LookAhead::kFixed, expected);
+  expected.risk.widening = 0.02F;
+  EXPECT_EQ(parameters_crc(parameters), parameters_crc(expected));
+}
+
 // Each kind of mistake is answered with the file, the field and what is accepted.
 TEST(ParametersFile, NamesTheMistake) {
   const struct {
@@ -41,6 +54,8 @@ TEST(ParametersFile, NamesTheMistake) {
       {"[comfort]\nheadway_s = \"two\"\n", "comfort.headway_s is not a number"},
       {"[comfort]\nheadway_s = 99.0\n", "comfort.headway_s = 99.0"},
       {"headway_s = 2.0\n", "'headway_s' is not a group"},
+      {"[risk]\npreset = \"newest\"\n", "risk.preset = 'newest'; accepted: paper, kolekar2020"},
+      {"[risk]\nlook_ahead = 3\n", "risk.look_ahead is not a name; accepted: shrinking, fixed"},
       {"[comfort\n", "s4tp_parameters_file_test.toml"},
   };
   for (const auto& one : cases) {

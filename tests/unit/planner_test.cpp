@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -126,6 +127,8 @@ TEST(Planner, BrakesWhenNothingIsSafe) {
   EXPECT_EQ(drive.step(), Status::kNoSafePlan);
   EXPECT_EQ(drive.running.kind, PlanKind::kMinimumRisk);
   EXPECT_LT(drive.running.trajectory.points[10].speed_mps, 8.0F);
+  EXPECT_GT(drive.explanation.risk.obstacle[0], 0.0F);  // CORE-072: and what it risks is told
+  EXPECT_NE(drive.explanation.dominating_track, 255);
 }
 
 // Behind a car standing 80 m ahead in a single lane it comes to rest before it, without a collision on the
@@ -161,6 +164,49 @@ TEST(Planner, ExplainsItsChoice) {
     EXPECT_LE(drive.explanation.chosen_cost.total(), drive.explanation.runner_up_cost.total());
   }
   EXPECT_EQ(drive.explanation.parameters_crc, parameters_crc(Parameters{}));
+}
+
+/// Keeps what the planner saw and predicted.
+class Witness final : public Probe {
+ public:
+  void stage_begin(Stage) override {}
+  void stage_end(Stage) override {}
+  void cycle_done(const Scene& of, const PredictionSet& expected, const RiskProfile&) override {
+    scene = of;
+    prediction = expected;
+  }
+  Scene scene;
+  PredictionSet prediction;
+};
+
+// CORE-072: behind a slower car every plan carries the risk of each of its steps: that of the very trajectory
+// given, clipped or not; the dominating cause is that car, at the step where its share is largest.
+TEST(Planner, EveryPlanCarriesItsRiskAndItsCause) {
+  Drive drive(straight_road(1, 400.0F));
+  drive.input.ego.rear_axle = {20.0F, 0.0F, 0.0F};
+  drive.input.ego.speed_mps = 12.0F;
+  ASSERT_TRUE(drive.input.tracks.push(car(7, 52.0F, 0.0F, 0.0F, 8.0F)));
+  const auto witness = std::make_unique<Witness>();
+  const auto area = std::make_unique<DrivableArea>();
+  drive.planner->probe = witness.get();
+  for (int cycle = 0; cycle < 10; ++cycle) {
+    ASSERT_EQ(drive.step(), Status::kOk);
+    const Explanation& why = drive.explanation;
+    RiskProfile expected;
+    build_drivable(witness->scene.map, *area);
+    exact_risk(witness->scene, *area, witness->prediction, {}, drive.running.trajectory, Parameters{},
+               expected);
+    float largest = 0.0F;
+    for (int i = 0; i < kHorizonSteps; ++i) {
+      ASSERT_EQ(why.risk.obstacle[i], expected.obstacle[i]) << cycle << ' ' << i;
+      ASSERT_EQ(why.risk.road[i], expected.road[i]) << cycle << ' ' << i;
+      ASSERT_EQ(why.risk.social[i], expected.social[i]) << cycle << ' ' << i;
+      largest = std::max(largest, why.risk.obstacle[i]);
+    }
+    ASSERT_GT(largest, 0.0F);
+    EXPECT_EQ(why.dominating_track, 7);
+    EXPECT_EQ(why.risk.obstacle[why.dominating_step], largest);
+  }
 }
 
 // Work allowances cut at the same place every time and still give a plan: one candidate, one decision.
