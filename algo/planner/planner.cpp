@@ -311,7 +311,7 @@ Status Planner::choose(Explanation& explanation) {
 bool Planner::evaluate(int index, Explanation& explanation) {
   const Candidate& candidate = candidates_[index];
   roll_out(lines_[candidate.path], candidate, start_, running_, start_ms_, parameters_, chosen_);
-  risk_ = RiskProfile{};
+  explanation.risk = RiskProfile{};
   if (allowance.decisions <= 0) return true;  // it has passed with the predictions without plan
   {
     const StageScope scope(probe, Stage::kPredict);
