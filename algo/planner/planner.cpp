@@ -4,6 +4,7 @@
 
 #include "algo/core/inline.hpp"
 #include "algo/core/self_test.hpp"
+#include "algo/planner/outlook.hpp"
 #include "algo/planner/scoring.hpp"
 #include "algo/safety/minimum_risk.hpp"
 #include "algo/safety/rss.hpp"
@@ -193,6 +194,9 @@ void Planner::rank(bool careful, Explanation& explanation) {
   const int shortlisted = allowance.decisions > 1 ? allowance.decisions : 1;
   decisions_.clear();
   keeps_plan_ = false;
+  Outlook outlook;
+  outlook.look(scene_, keep_going_, parameters_);
+  const int plan_path = path_of_plan();
   CheckReport report;
   for (int i = 0; i < candidates_.size(); ++i) {
     const Candidate& candidate = candidates_[i];
@@ -208,7 +212,8 @@ void Planner::rank(bool careful, Explanation& explanation) {
       note_held_up(candidate.path, report, explanation);
       continue;
     }
-    costs_[i] = score_motion(scene_, keep_going_, candidate.path, chosen_, previous, careful, parameters_);
+    const bool other_lane = candidate.path != plan_path;
+    costs_[i] = score_motion(scene_, outlook, candidate.path, chosen_, other_lane, careful, parameters_);
     count(explanation, Stage::kRank, 1);
     const DecisionKey key = decision_key(scene_, candidate.path, chosen_, unconditioned_);
     if (previous) {
@@ -225,6 +230,13 @@ void Planner::rank(bool careful, Explanation& explanation) {
     decisions_.offer(key, i, costs_[i].total());
   }
   decisions_.shortlist(shortlisted, keeps_plan_, plan_key_);
+}
+
+int Planner::path_of_plan() const {
+  for (const Candidate& candidate : candidates_) {
+    if (candidate.intent == Intent::kPrevious) return candidate.path;
+  }
+  return 0;
 }
 
 void Planner::note_held_up(int path, const CheckReport& report, Explanation& explanation) const {

@@ -76,6 +76,8 @@ class Planner {
   [[nodiscard]] Status choose(Explanation& explanation);
   /// Rolls candidate `index` out into chosen_, predicts for it, checks it and computes its exact risk.
   [[nodiscard]] bool evaluate(int index, Explanation& explanation);
+  /// Where the running plan leads, as far as it can go on: our own lane's path else.
+  [[nodiscard]] int path_of_plan() const;
   void note_held_up(int path, const CheckReport& report, Explanation& explanation) const;
   [[nodiscard]] std::uint8_t track_id(int agent) const;
   void explain_risk(Status status, Explanation& explanation);

@@ -8,47 +8,8 @@ namespace {
 
 constexpr float kCarefulSpeedShare = 0.6F;  // of the limit, while a source of ours is stale
 constexpr float kChangeRoomM = 60.0F;  // a lane change left to do starts to press when its room is this short
-constexpr float kGapReachM = 50.0F;    // beyond this nobody is in the way of a lane change
-constexpr float kTypicalLaneM = 3.5F;
-constexpr float kGapHeadwayS = 0.6F;   // between the two that a gap opens for
-constexpr float kGapClosingS = 1.0F;   // more for each m/s the rear one is faster
 constexpr float kGapShare = 0.25F;     // of lane_route, per metre of a gap missing
 constexpr float kMissedRoute = 10.0F;  // times lane_route: driving past the last place to change lanes
-
-/// The path beside `path` towards the route's lane, or null.
-const EgoPath* path_towards_route(const Scene& scene, const EgoPath& path) {
-  if (path.manoeuvre != Manoeuvre::kKeep || path.changes_needed == 0) return nullptr;
-  const Manoeuvre wanted = path.changes_needed > 0 ? Manoeuvre::kLeft : Manoeuvre::kRight;
-  for (const EgoPath& other : scene.ego_paths) {
-    if (other.manoeuvre == wanted) return &other;
-  }
-  return nullptr;
-}
-
-/// How much the gaps to the vehicles of a lane fall short of what a change into it takes, at the horizon's
-/// end [m].
-float gap_shortage_m(const Scene& scene, const KinematicSet& keep_going, const EgoPath& path,
-                     const TrajectoryPoint& end, const Parameters& parameters) {
-  const Point own = position(ego_box(end.rear_axle, parameters).centre);
-  const Frenet at = project(*scene.map, path.path, own, path.frenet.s_m, -1.0F);
-  float shortage_m = 0.0F;
-  for (int i = 0; i < keep_going.agents.size() && i < scene.agents.size(); ++i) {
-    const Point there = position(keep_going.agents[i].steps[kHorizonSteps - 1]);
-    if (distance(own, there) > kGapReachM) continue;
-    const Frenet other = project(*scene.map, path.path, there, at.s_m, kGapReachM);
-    if (abs(other.d_m) > 0.5F * kTypicalLaneM) continue;
-    const Track& track = scene.agents[i].track;
-    const float ahead_m = other.s_m - at.s_m;
-    const float gap_m = abs(ahead_m) - 0.5F * (track.length_m + parameters.vehicle.length_m);
-    const bool in_front = ahead_m > 0.0F;
-    const float rear_mps = in_front ? end.speed_mps : track.speed_mps;
-    const float closing_mps = max(0.0F, rear_mps - (in_front ? track.speed_mps : end.speed_mps));
-    const float needed_m =
-        parameters.comfort.standstill_gap_m + kGapHeadwayS * rear_mps + kGapClosingS * closing_mps;
-    shortage_m = shortage_m + max(0.0F, needed_m - gap_m);
-  }
-  return shortage_m;
-}
 
 /// Price of the lane: how many changes are left, more pressing as the room for them shortens.
 float route_cost(const EgoPath& path, float end_s_m, const Parameters& parameters) {
@@ -60,10 +21,33 @@ float route_cost(const EgoPath& path, float end_s_m, const Parameters& parameter
   return parameters.scoring.lane_route * static_cast<float>(changes) * pressing;
 }
 
+/// What being in the lane of `path` at the horizon's end costs: time, and lane changes left.
+float lane_cost(const Scene& scene, const Outlook& outlook, int path, float s_m, float speed_mps,
+                const Parameters& parameters) {
+  return parameters.scoring.delay * outlook.delay_s(path, s_m, speed_mps) +
+         route_cost(scene.ego_paths[path], s_m, parameters);
+}
+
+/// Price of the gap missing in the lane beside that we had rather be in, if there is one.
+float gap_cost(const Scene& scene, const Outlook& outlook, int path, float s_m, float speed_mps,
+               float cost_here, const Parameters& parameters) {
+  float gain = 0.0F;
+  float shortage_m = 0.0F;
+  for (int i = 0; i < scene.ego_paths.size(); ++i) {
+    if (i == path) continue;
+    const float there_s_m = s_m + scene.ego_paths[i].frenet.s_m - scene.ego_paths[path].frenet.s_m;
+    const float cost = lane_cost(scene, outlook, i, there_s_m, speed_mps, parameters);
+    if (cost_here - cost <= gain) continue;
+    gain = cost_here - cost;
+    shortage_m = outlook.gap_shortage_m(i, there_s_m, speed_mps);
+  }
+  return kGapShare * min(gain, parameters.scoring.lane_route) * shortage_m;
+}
+
 }  // namespace
 
-CostBreakdown score_motion(const Scene& scene, const KinematicSet& keep_going, int path_index,
-                           const Trajectory& trajectory, bool keeps_plan, bool careful,
+CostBreakdown score_motion(const Scene& scene, const Outlook& outlook, int path_index,
+                           const Trajectory& trajectory, bool other_lane, bool careful,
                            const Parameters& parameters) {
   const EgoPath& path = scene.ego_paths[path_index];
   const TrajectoryPoint& start = trajectory.points[0];
@@ -107,14 +91,12 @@ CostBreakdown score_motion(const Scene& scene, const KinematicSet& keep_going, i
   cost.speed = parameters.scoring.speed * (speed_sum / samples) * 3.0F;
   cost.jerk = parameters.scoring.jerk * (jerk_sum / steps);
   cost.lateral = parameters.scoring.lateral_acceleration * (lateral_sum / steps);
-  cost.lane = parameters.scoring.lane_offset * (offset_sum / samples) + route_cost(path, s_m, parameters);
-  if (const EgoPath* beside = path_towards_route(scene, path); beside != nullptr) {
-    cost.lane = cost.lane +
-                kGapShare * parameters.scoring.lane_route *
-                    gap_shortage_m(scene, keep_going, *beside, trajectory.points[kHorizonSteps], parameters);
-  }
-  if (path.manoeuvre != Manoeuvre::kKeep && !keeps_plan)
-    cost.lane = cost.lane + parameters.scoring.lane_change;
+  const float end_mps = trajectory.points[kHorizonSteps].speed_mps;
+  const float lane = lane_cost(scene, outlook, path_index, s_m, end_mps, parameters);
+  cost.lane = parameters.scoring.lane_offset * (offset_sum / samples) + lane;
+  if (path.manoeuvre == Manoeuvre::kKeep)
+    cost.lane = cost.lane + gap_cost(scene, outlook, path_index, s_m, end_mps, lane, parameters);
+  if (other_lane) cost.lane = cost.lane + parameters.scoring.lane_change;
   return cost;
 }
 

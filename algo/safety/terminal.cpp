@@ -12,12 +12,14 @@ constexpr float kHorizonS = static_cast<float>(kHorizonSteps) * kStepS;
 constexpr float kLineToleranceM = 0.3F;  // standing this far over a stop line still counts as before it
 constexpr float kClearOfZoneM = 0.7F;    // who waits keeps this far from the zone: others must see it is free
 constexpr float kRestToleranceM = 0.02F;
-constexpr float kComfortTolerance = 1.1F;     // a stop under way may ask for a little more than comfort
-constexpr float kHardMps2 = 6.0F;             // the most a plan may count on to stop
-constexpr float kCommittedMps2 = 5.0F;        // who would have to brake harder than this is bound to go
-constexpr float kMovingMps = 1.0F;            // slower inside a zone is standing in it
-constexpr float kCrawlMps = 2.0F;             // way beyond the horizon is driven no slower
-constexpr float kLeaderGapM = 0.3F;           // left when both have stopped
+constexpr float kComfortTolerance = 1.1F;  // a stop under way may ask for a little more than comfort
+constexpr float kHardMps2 = 6.0F;          // the most a plan may count on to stop
+constexpr float kCommittedMps2 = 5.0F;     // who would have to brake harder than this is bound to go
+constexpr float kMovingMps = 1.0F;         // slower inside a zone is standing in it
+constexpr float kCrawlMps = 2.0F;          // way beyond the horizon is driven no slower
+constexpr float kLeaderGapM = 0.3F;        // left when both have stopped
+constexpr float kChangeWayM = 15.0F;       // of a slow lane change
+constexpr float kUsualLaneM = 3.2F;
 constexpr float kChangeGapM = 1.0F;           // the same, to a leader we choose ourselves
 constexpr float kFollowerBrakingMps2 = 3.0F;  // a lane change may ask this of the one behind
 constexpr float kFollowerHeadwayS = 0.3F;
@@ -166,11 +168,13 @@ TerminalVerdict judge_terminal(const Scene& scene, int path_index, const Traject
   const float at_once_m =
       along.start_s_m() + square(along.start_mps) / (2.0F * parameters.comfort.braking_mps2);
   if (!stops_before(along, max(end_of_road_m, at_once_m), parameters)) return blame(TerminalCause::kRoadEnd);
-  // Where the road ends in the wrong lane, room is left to change lanes from rest; who is past it, is.
-  const float last_change_m = end_of_road_m - change_room_m(scene, path);
-  const float room_m = last_change_m - along.start_s_m();
-  const bool still_comfortable = square(along.start_mps) <= 2.0F * parameters.comfort.braking_mps2 * room_m;
-  if (still_comfortable && !stops_before(along, last_change_m, parameters)) {
+  // Where the road ends in the wrong lane, room is left to change lanes from rest. Who is past that stops at
+  // once, for what is left is better than nothing; but a change under way is finished before: nobody is to
+  // stand astride two lanes.
+  const float astride = min(1.0F, abs(path.frenet.d_m) / kUsualLaneM);
+  const float finished_m = along.start_s_m() + astride * kChangeWayM;
+  const float last_change_m = max(end_of_road_m - change_room_m(scene, path), finished_m);
+  if (!stops_before(along, max(last_change_m, at_once_m), parameters)) {
     return blame(TerminalCause::kLaneEnd);
   }
   for (const ConflictZone& zone : path.zones) {

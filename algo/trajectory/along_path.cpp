@@ -34,6 +34,22 @@ bool clear_of(const Scene& scene, const EgoPath& path, const Agent& agent) {
          agent.track.length_m < 10.0F;
 }
 
+/// Whether the vehicle is still before the path's first lane, on a way that leads into it: seen along its own
+/// way then. (A lane's start is no end of the world: who comes along behind it follows us all the same.)
+bool comes_up_behind(const EgoPath& path, const Agent& agent, OnPath& seen, float& error_rad) {
+  if (path.path.lanes.empty()) return false;
+  for (int i = 0; i < agent.paths.size(); ++i) {
+    float start_s_m = 0.0F;
+    if (!lane_start(agent.paths[i], path.path.lanes[0].lane, start_s_m)) continue;
+    if (agent.frenet[i].s_m >= start_s_m) return false;  // in the first lane already
+    seen.centre_s_m = agent.frenet[i].s_m - start_s_m;
+    seen.centre_d_m = agent.frenet[i].d_m;
+    error_rad = wrap_angle(agent.track.centre.heading_rad - agent.frenet[i].heading_rad);
+    return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 OnPath see_on_path(const Scene& scene, const EgoPath& path, const Agent& agent, const Parameters& parameters,
@@ -41,16 +57,19 @@ OnPath see_on_path(const Scene& scene, const EgoPath& path, const Agent& agent, 
   OnPath seen;
   known = false;
   if (distance(position(agent.track.centre), position(scene.ego.rear_axle)) > kFarM) return seen;
-  if (!whole_road && clear_of(scene, path, agent)) return seen;
+  float error_rad = 0.0F;
+  if (whole_road || !comes_up_behind(path, agent, seen, error_rad)) {
+    if (!whole_road && clear_of(scene, path, agent)) return seen;
+    const Frenet frenet =
+        project(*scene.map, path.path, position(agent.track.centre), path.frenet.s_m, -1.0F);
+    error_rad = wrap_angle(agent.track.centre.heading_rad - frenet.heading_rad);
+    seen.centre_s_m = frenet.s_m;
+    seen.centre_d_m = frenet.d_m;
+  }
   known = true;
-  const float guess_s_m = path.frenet.s_m;
-  const Frenet frenet = project(*scene.map, path.path, position(agent.track.centre), guess_s_m, -1.0F);
-  const float error_rad = wrap_angle(agent.track.centre.heading_rad - frenet.heading_rad);
   const float cosine = cos(error_rad);
   const float signed_sine = sin(error_rad);
   const float sine = abs(signed_sine);
-  seen.centre_s_m = frenet.s_m;
-  seen.centre_d_m = frenet.d_m;
   seen.half_length_m = 0.5F * (abs(cosine) * agent.track.length_m + sine * agent.track.width_m);
   seen.half_width_m = 0.5F * (abs(cosine) * agent.track.width_m + sine * agent.track.length_m);
   seen.along_mps = agent.track.speed_mps * cosine;

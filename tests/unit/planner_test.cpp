@@ -16,6 +16,7 @@ namespace s4tp {
 namespace {
 
 using test::car;
+using test::kLaneWidthM;
 using test::straight_road;
 
 /// A planner that is driven at its own planned state, 100 ms a cycle.
@@ -152,6 +153,56 @@ TEST(Planner, OvertakesASlowCar) {
   ASSERT_TRUE(drive.input.tracks.push(car(1, 60.0F, 0.0F, 0.0F, 5.0F)));
   for (int i = 0; i < 150; ++i) ASSERT_NE(drive.step(), Status::kInvalidInput);
   EXPECT_GT(drive.input.ego.rear_axle.x_m, drive.input.tracks[0].centre.x_m);
+}
+
+/// Two lanes, 400 m: the right one is the route's, the left one a change away from it.
+LaneMap road_with_goal_right() {
+  LaneMap map = straight_road(2, 400.0F);
+  map.lanes[1].changes_needed = -1;
+  return map;
+}
+
+// Overtaking pays: behind a car at 5 m/s 360 m would take 72 s. It passes, and is back in its lane, ahead, in
+// half of that time.
+TEST(Planner, OvertakesAndReturns) {
+  Drive drive(road_with_goal_right());
+  drive.input.ego.rear_axle = {20.0F, 0.0F, 0.0F};
+  drive.input.ego.speed_mps = 13.0F;
+  ASSERT_TRUE(drive.input.tracks.push(car(1, 60.0F, 0.0F, 0.0F, 5.0F)));
+  for (int i = 0; i < 360 && drive.input.ego.rear_axle.x_m < 380.0F; ++i) (void)drive.step();
+  EXPECT_GE(drive.input.ego.rear_axle.x_m, 380.0F);
+  EXPECT_NEAR(drive.input.ego.rear_axle.y_m, 0.0F, 0.5F);
+}
+
+// It does not pay 60 m before the goal behind a car at 9 m/s: it stays in its lane.
+TEST(Planner, StaysBehindJustBeforeTheGoal) {
+  Drive drive(road_with_goal_right());
+  drive.input.ego.rear_axle = {340.0F, 0.0F, 0.0F};
+  drive.input.ego.speed_mps = 10.0F;
+  ASSERT_TRUE(drive.input.tracks.push(car(1, 370.0F, 0.0F, 0.0F, 9.0F)));
+  for (int i = 0; i < 50; ++i) {
+    (void)drive.step();
+    ASSERT_LT(std::abs(drive.input.ego.rear_axle.y_m), 0.5F) << i;
+  }
+}
+
+// Our lane ends after 200 m, and a column of five cars drives abreast where we have to go. It lets them pass
+// or gets in between, and is in the other lane in the end: one attempt that fails is not the last.
+TEST(Planner, ChangesLaneAfterBlockedAttempts) {
+  LaneMap map = straight_road(2, 400.0F);
+  map.lanes[0].points[1].x_m = 200.0F;
+  map.lanes[0].length_m = map.lanes[0].route_remaining_m = 200.0F;
+  map.lanes[0].changes_needed = 1;
+  Drive drive(map);
+  drive.input.ego.rear_axle = {60.0F, 0.0F, 0.0F};
+  drive.input.ego.speed_mps = 10.0F;
+  for (int i = 0; i < 5; ++i) {
+    const float x_m = 80.0F - 12.0F * static_cast<float>(i);
+    ASSERT_TRUE(drive.input.tracks.push(car(i + 1, x_m, kLaneWidthM, 0.0F, 10.0F)));
+  }
+  for (int i = 0; i < 400; ++i) (void)drive.step();
+  EXPECT_NEAR(drive.input.ego.rear_axle.y_m, kLaneWidthM, 0.5F);
+  EXPECT_GT(drive.input.ego.rear_axle.x_m, 200.0F);
 }
 
 // Every plan says why: terms add up to a score, the runner-up is not better, the parameters' CRC is there.

@@ -146,6 +146,19 @@ TEST(Terminal, RoomIsLeftForTheLaneChange) {
   EXPECT_TRUE(crossing.safe(318.0F, 10.0F, 0.0F));
 }
 
+// TERM-012 Who has passed the last place for it keeps what room is left: no driving on in that lane, but a
+// stop at once. From s = 372, the front at 376 m of the 375 allowed, at 5 m/s: 3 s of braking at 2 m/s^2
+// stop.
+TEST(Terminal, RoomForTheLaneChangeIsNotEatenUp) {
+  Crossing crossing(Priority::kFirstYields);
+  crossing.map.lanes[0].on_route = false;
+  crossing.map.lanes[0].changes_needed = 1;
+  EXPECT_FALSE(crossing.safe(372.0F, 5.0F, 0.0F));
+  EXPECT_FALSE(crossing.safe(372.0F, 0.0F, 1.0F));
+  EXPECT_TRUE(crossing.safe(372.0F, 5.0F, -2.6F));
+  EXPECT_TRUE(crossing.safe(372.0F, 0.0F, 0.0F));
+}
+
 // TERM-008 A road that ends 400 m on: from s = 340 at 10 m/s the end of the plan can stop; from 360 it
 // cannot, unless the goal comes first.
 TEST(Terminal, RoadEndsCount) {
@@ -216,6 +229,29 @@ TEST(Terminal, LaneChangeLeavesTheFollowerRoom) {
     EXPECT_EQ(judge_terminal(scene, 1, trajectory, Parameters{}).safe(), gap_m > 6.0F) << gap_m;
     scene.agents.clear();
     add_vehicle(scene, map, scene.ego_paths[1].path, 104.0F + gap_m - 1.0F + 2.5F, 10.0F);
+    EXPECT_EQ(judge_terminal(scene, 1, trajectory, Parameters{}).safe(), gap_m > 6.0F) << gap_m;
+  }
+}
+
+// TERM-010 The lane we come to begins where we are, and the follower is still on the lane before it: he
+// follows all the same.
+TEST(Terminal, FollowersBeforeTheLanesStartCount) {
+  for (const float gap_m : {7.0F, 5.0F}) {
+    LaneMap map = straight_road(2, 400.0F);
+    const LaneIndex before = add_lane(map, {{-200.0F, kLaneWidthM}, {0.0F, kLaneWidthM}});
+    link(map, before, 1);
+    Scene scene;
+    add_way(scene, map, path_of(map, {0}));
+    add_way(scene, map, path_of(map, {1}), Manoeuvre::kLeft);
+    const TrajectoryPoint start = state_on(map, scene.ego_paths[0].path, 2.0F, 10.0F);
+    put_ego(scene, start);
+    add_vehicle(scene, map, path_of(map, {before, 1}), 200.0F + 1.0F - gap_m - 2.5F, 10.0F);
+    Trajectory trajectory;
+    trajectory.points[0] = start;
+    for (int i = 1; i < kTrajectoryPoints; ++i) {
+      trajectory.points[i] = bicycle_step(trajectory.points[i - 1], 0.0F, 0.0F, kStepS);
+      trajectory.points[i].rear_axle.y_m = kLaneWidthM * static_cast<float>(i) / 30.0F;
+    }
     EXPECT_EQ(judge_terminal(scene, 1, trajectory, Parameters{}).safe(), gap_m > 6.0F) << gap_m;
   }
 }

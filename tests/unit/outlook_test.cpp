@@ -1,0 +1,113 @@
+// What a lane costs beyond the horizon: when overtaking pays, and when there is no time left for it.
+
+#include "algo/planner/outlook.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/driving_scenes.hpp"
+
+namespace s4tp {
+namespace {
+
+using namespace test;  // NOLINT: the map builders are the language of these tests
+
+/// We are at s = 20 of the right of two lanes at 10 m/s, the limit; the goal is at the end of our lane, 300
+/// m.
+struct Road {
+  LaneMap map = straight_road(2, 300.0F, 10.0F);
+  Scene scene;
+  Outlook outlook;
+
+  Road() {
+    add_way(scene, map, path_of(map, {0}));
+    add_way(scene, map, path_of(map, {1}), Manoeuvre::kLeft).changes_needed = -1;
+    put_ego(scene, state_on(map, scene.ego_paths[0].path, 20.0F, 10.0F));
+  }
+  void vehicle(int path, float s_m, float speed_mps) {
+    add_vehicle(scene, map, scene.ego_paths[path].path, s_m, speed_mps);
+  }
+  void look() {
+    KinematicSet keep_going;
+    for (const Agent& agent : scene.agents) (void)keep_going.agents.push(steady_future(map, agent));
+    outlook.look(scene, keep_going, Parameters{});
+  }
+};
+
+// With nobody about 150 m at the limit lose nothing, in neither lane.
+TEST(Outlook, EmptyRoadLosesNothing) {
+  Road road;
+  road.look();
+  EXPECT_NEAR(road.outlook.delay_s(0, 50.0F, 10.0F), 0.0F, 0.01F);
+  EXPECT_NEAR(road.outlook.delay_s(1, 50.0F, 10.0F), 0.0F, 0.01F);
+}
+
+// Who has slowed down to 5 m/s by the horizon's end builds up again at 2 m/s^2: 2.5 s over 18.75 m, which the
+// limit drives in 1.875 s: 0.625 s lost, besides what the shorter way to there has lost.
+TEST(Outlook, BuildingUpSpeedCosts) {
+  Road road;
+  road.look();
+  EXPECT_NEAR(road.outlook.delay_s(0, 50.0F, 5.0F), 0.625F, 0.01F);
+}
+
+// Our leader drives 5 m/s, his centre at 60 m now. Our centre is at the target of 170 + 1.5 m when his is 5 m
+// of lengths, 2.5 m and 1.2 s * 5 m/s further: (171.5 + 13.5 - 75) / 5 = 22 s after the horizon's end. 15 s
+// at the limit: 10 s lost. The lane beside loses none: he is passed long before the way back has to begin.
+TEST(Outlook, OvertakingPays) {
+  Road road;
+  road.vehicle(0, 60.0F, 5.0F);
+  road.look();
+  EXPECT_NEAR(road.outlook.delay_s(0, 50.0F, 10.0F), 10.0F, 0.05F);
+  EXPECT_NEAR(road.outlook.delay_s(1, 50.0F, 10.0F), 0.0F, 0.01F);
+}
+
+// One at 9 m/s, 15 m nearer, costs (171.5 + 18.3 - 72) / 9 = 13.1 s: 1.1 s lost. We gain 1 m/s on him: where
+// the way back has to begin, 20 m before the end at 300, we are 2.5 m ahead, centre to centre: not past him.
+// So the lane beside is as slow as ours.
+TEST(Outlook, NoOvertakingWithoutRoomToReturn) {
+  Road road;
+  road.vehicle(0, 45.0F, 9.0F);
+  road.look();
+  EXPECT_NEAR(road.outlook.delay_s(0, 50.0F, 10.0F), 1.1F, 0.05F);
+  EXPECT_NEAR(road.outlook.delay_s(1, 50.0F, 10.0F), road.outlook.delay_s(0, 50.0F, 10.0F), 0.01F);
+}
+
+// Somebody slower in the other lane makes that the worse one.
+TEST(Outlook, TheLaneBesideMayBeSlower) {
+  Road road;
+  road.vehicle(0, 60.0F, 6.0F);
+  road.vehicle(1, 60.0F, 4.0F);
+  road.look();
+  EXPECT_GT(road.outlook.delay_s(1, 50.0F, 10.0F), road.outlook.delay_s(0, 50.0F, 10.0F) + 3.0F);
+}
+
+// A change that we have to make comes first: with 60 m left for it time counts for nothing, with 90 m half of
+// what it does with 120 m.
+TEST(Outlook, DeadlinesComeBeforeTime) {
+  float delays_s[3] = {};
+  const float rooms_m[3] = {60.0F, 90.0F, 120.0F};
+  for (int i = 0; i < 3; ++i) {
+    Road road;
+    road.scene.ego_paths[0].changes_needed = 1;
+    road.scene.ego_paths[1].changes_needed = 0;
+    road.scene.ego_paths[0].route_end_s_m = 20.0F + rooms_m[i];
+    road.vehicle(0, 60.0F, 5.0F);
+    road.look();
+    delays_s[i] = road.outlook.delay_s(0, 50.0F, 10.0F);
+  }
+  EXPECT_EQ(delays_s[0], 0.0F);
+  EXPECT_NEAR(delays_s[1], 0.5F * delays_s[2], 0.01F);
+  EXPECT_NEAR(delays_s[2], 10.0F, 0.05F);
+}
+
+// Beside a gap there is nothing missing; abreast of a car all of it is: 2.5 + 0.6 * 10 m plus 5 m of lengths,
+// less the 0.5 m by which the centres differ, at equal speeds.
+TEST(Outlook, GapsAreMeasured) {
+  Road road;
+  road.vehicle(1, 22.0F, 10.0F);  // at 52 m at the horizon's end
+  road.look();
+  EXPECT_NEAR(road.outlook.gap_shortage_m(1, 50.0F, 10.0F), 8.5F + 5.0F - 0.5F, 0.02F);
+  EXPECT_EQ(road.outlook.gap_shortage_m(1, 80.0F, 10.0F), 0.0F);
+}
+
+}  // namespace
+}  // namespace s4tp
