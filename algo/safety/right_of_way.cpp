@@ -1,6 +1,7 @@
 #include "algo/safety/right_of_way.hpp"
 
 #include "algo/core/inline.hpp"
+#include "algo/scene/agent_paths.hpp"
 
 namespace s4tp {
 namespace {
@@ -14,6 +15,18 @@ constexpr float kBesideS = 0.5F;       // between us and one who should yield bu
 constexpr float kBendRad = 0.5F;       // lanes that turn by less are driven like straight ones
 constexpr float kHurriedLateralMps2 = 7.0F;  // nobody turns faster
 constexpr float kHurriedBrakingMps2 = 6.0F;  // or brakes for the turn later
+
+constexpr float kPedalS = 0.5F;  // from braking to gaining speed
+constexpr float kStandsMps = 0.3F;
+constexpr float kFirstS =
+    1.0F;  // in front of somebody who stands, and sees us for so long before he could be there
+constexpr int kGivenUpMs =
+    2000;  // who stands for longer with nobody to wait for does not use his right of way
+constexpr float kStartS = 0.5F;       // until somebody who stands is under way
+constexpr float kGentlyMps2 = 2.0F;   // easily braked with
+constexpr float kQueueingMps = 5.0F;  // faster behind one who stands may be about to pass him
+constexpr float kSlowMps = 4.0F;      // who is no faster is easily stopped
+constexpr float kAtLineM = 2.0F;      // this near before a stop line is at it
 
 /// Whether its present braking, kept up, ends before the zone.
 bool is_stopping(const Agent& agent, const Approach& approach) {
@@ -53,6 +66,36 @@ float cover_s(float way_m, float gain_mps2, float top_mps, float& speed_mps) {
   return (speed_mps - start_mps) / gain_mps2;
 }
 
+/// Who decides when the vehicle comes to the zone: who stands before it in its own lane, or itself.
+int head_of_queue(const Scene& scene, int index, Approach& approach) {
+  const Agent& agent = scene.agents[index];
+  if (agent.track.speed_mps > kQueueingMps) return index;
+  const LanePath& path = agent.paths[approach.path];
+  const float own_s_m = agent.frenet[approach.path].s_m;
+  const float entry_s_m = own_s_m + approach.to_entry_m;
+  int head = index;
+  float nearest_s_m = own_s_m;
+  for (int i = 0; i < scene.agents.size(); ++i) {
+    float s_m = 0.0F;
+    if (i == index || scene.agents[i].idle_ms < kGivenUpMs) continue;
+    if (!arc_length_on(path, scene.agents[i], s_m)) continue;
+    if (s_m <= nearest_s_m || s_m >= entry_s_m) continue;
+    head = i;
+    nearest_s_m = s_m;
+  }
+  approach.to_exit_m = approach.to_exit_m - (nearest_s_m - own_s_m);
+  approach.to_entry_m = entry_s_m - nearest_s_m;
+  return head;
+}
+
+/// Whether it has stood for a second.
+bool stands(const Agent& agent) {
+  for (int i = 0; i < kHistorySamples; ++i) {
+    if ((agent.history.valid >> i & 1) == 0 || agent.history.samples[i].speed_mps > kStandsMps) return false;
+  }
+  return true;
+}
+
 /// How soon the vehicle, free to accelerate, can have driven `way_m`, which ends in the zone's lane.
 float earliest_time_s(const Scene& scene, const Agent& agent, const ConflictZone& zone, float way_m,
                       const Parameters& parameters) {
@@ -64,8 +107,19 @@ float earliest_time_s(const Scene& scene, const Agent& agent, const ConflictZone
   const float top_mps = max(max(limit_mps * parameters.safety.over_limit, speed_mps), 0.1F);
   const float gain_mps2 = parameters.rss.acceleration_mps2;
 
+  // Who brakes does not gain speed at once.
+  float before_s = 0.0F;
+  if (agent.track.acceleration_mps2 < kBrakingMps2) {
+    const float later_mps = max(0.0F, speed_mps + agent.track.acceleration_mps2 * kPedalS);
+    const float braked_m = 0.5F * (speed_mps + later_mps) * kPedalS;
+    if (braked_m < way_m) {
+      before_s = kPedalS;
+      way_m = way_m - braked_m;
+      speed_mps = later_mps;
+    }
+  }
   const float bend_mps = bend_speed_mps(lane);
-  if (bend_mps >= top_mps) return min(kNever, cover_s(way_m, gain_mps2, top_mps, speed_mps));
+  if (bend_mps >= top_mps) return min(kNever, before_s + cover_s(way_m, gain_mps2, top_mps, speed_mps));
   // Into a turn: free to the turn's start, less what braking for it takes, and through it at most as it can
   // be driven.
   const float in_bend_m = min(way_m, zone.other_entry_m);
@@ -74,10 +128,18 @@ float earliest_time_s(const Scene& scene, const Agent& agent, const ConflictZone
   const float lost_s =
       way_m > in_bend_m ? square(faster_mps) / (2.0F * kHurriedBrakingMps2 * max(speed_mps, 1.0F)) : 0.0F;
   speed_mps = faster_mps > 0.0F ? bend_mps : speed_mps;
-  return min(kNever, to_bend_s + lost_s + cover_s(in_bend_m, gain_mps2, max(bend_mps, speed_mps), speed_mps));
+  return min(kNever, before_s + to_bend_s + lost_s +
+                         cover_s(in_bend_m, gain_mps2, max(bend_mps, speed_mps), speed_mps));
 }
 
 }  // namespace
+
+float zone_margin_s(const Scene& scene, Resolve resolve, const Parameters& parameters) {
+  if (resolve != Resolve::kConsidering) return 0.0F;
+  const auto& safety = parameters.safety;
+  return scene.waited_s > safety.patience_s ? min(safety.zone_margin_waited_s, safety.zone_margin_s)
+                                            : safety.zone_margin_s;
+}
 
 Approach approach_to(const Agent& agent, const ConflictZone& zone) {
   Approach nearest;
@@ -88,7 +150,7 @@ Approach approach_to(const Agent& agent, const ConflictZone& zone) {
       const float to_exit_m = zone.other_exit_m - along_m;
       const float to_entry_m = zone.other_entry_m - along_m;
       if (to_exit_m <= 0.0F) continue;
-      if (!nearest.reaches || to_entry_m < nearest.to_entry_m) nearest = {true, to_entry_m, to_exit_m};
+      if (!nearest.reaches || to_entry_m < nearest.to_entry_m) nearest = {true, to_entry_m, to_exit_m, p};
     }
   }
   return nearest;
@@ -97,6 +159,10 @@ Approach approach_to(const Agent& agent, const ConflictZone& zone) {
 bool can_stop_for_us(const Agent& agent, const Approach& approach) {
   return approach.to_entry_m > 0.0F &&
          square(agent.track.speed_mps) <= 2.0F * kTrustedBrakingMps2 * approach.to_entry_m;
+}
+
+bool waits_beyond_line(const Scene& scene, float line_s_m, float start_s_m) {
+  return scene.waited_s > 0.0F && start_s_m > line_s_m - kAtLineM;
 }
 
 bool will_yield(const EgoPath& path, const Agent& agent) {
@@ -111,6 +177,24 @@ bool will_yield(const EgoPath& path, const Agent& agent) {
   return owes;
 }
 
+bool lets_us_finish(const Scene& scene, const EgoPath& path, float own_s_m, float own_mps, const Agent& agent,
+                    const Parameters& parameters) {
+  if (agent.track.speed_mps > kSlowMps) return false;
+  bool under_way = false;
+  bool meets = false;
+  for (const ConflictZone& zone : path.zones) {
+    under_way = under_way || (own_s_m > zone.entry_s_m && own_s_m < zone.exit_s_m);
+    const Approach approach = approach_to(agent, zone);
+    if (!approach.reaches || own_s_m > zone.exit_s_m) continue;
+    meets = true;
+    if (approach.to_entry_m <= 0.0F) return false;
+    if (square(agent.track.speed_mps) > 2.0F * kGentlyMps2 * approach.to_entry_m) return false;
+    const float ours_s = max(zone.entry_s_m - own_s_m, 0.0F) / max(own_mps, kMovingMps);
+    if (ours_s > earliest_time_s(scene, agent, zone, approach.to_entry_m, parameters)) return false;
+  }
+  return under_way && meets;
+}
+
 float earliest_arrival_s(const Scene& scene, int agent_index, const ConflictZone& zone,
                          const Parameters& parameters) {
   const Agent& agent = scene.agents[agent_index];
@@ -120,7 +204,7 @@ float earliest_arrival_s(const Scene& scene, int agent_index, const ConflictZone
 }
 
 bool leaves_zone_to_us(const Scene& scene, int index, const ConflictZone& zone, float in_s, float out_s,
-                       bool committed, const Parameters& parameters) {
+                       Resolve resolve, const Parameters& parameters) {
   const Agent& agent = scene.agents[index];
   const Approach approach = approach_to(agent, zone);
   if (!approach.reaches) return true;
@@ -130,11 +214,19 @@ bool leaves_zone_to_us(const Scene& scene, int index, const ConflictZone& zone, 
   const float arrival_s = earliest_arrival_s(scene, index, zone, parameters);
   const bool we_yield =
       zone.priority == Priority::kFirstYields || (zone.priority == Priority::kFirstCome && arrival_s < in_s);
-  if (we_yield && !committed) {
+  if (we_yield && resolve != Resolve::kCommitted) {
+    Approach first = approach;
+    const Agent& head = scene.agents[head_of_queue(scene, index, first)];
+    const float start_s = earliest_time_s(scene, head, zone, first.to_entry_m, parameters);
+    if (head.idle_ms >= kGivenUpMs && in_s < start_s + kStartS) return true;
+    if (stands(head) && in_s + kFirstS < start_s) return true;
+    const bool slow = agent.track.speed_mps < kSlowMps &&
+                      square(agent.track.speed_mps) <= 2.0F * kGentlyMps2 * approach.to_entry_m;
+    if (resolve == Resolve::kUnderWay && slow && in_s < arrival_s) return true;
     // Who comes after us into the same lane may be on the ground shared while we are: not when we leave it.
     const float meeting_s =
         zone.merging ? earliest_time_s(scene, agent, zone, approach.to_exit_m, parameters) : arrival_s;
-    return meeting_s > out_s + parameters.safety.zone_margin_s;
+    return meeting_s > out_s + zone_margin_s(scene, resolve, parameters);
   }
   // It owes us the way, or we can no longer stop: will it, at its present speed, be there while we are?
   if (!we_yield && can_stop_for_us(agent, approach)) return true;

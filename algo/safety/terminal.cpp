@@ -76,7 +76,16 @@ TerminalVerdict blame(TerminalCause cause, int agent = 255) {
   return {cause, static_cast<std::uint8_t>(agent)};
 }
 
-TerminalVerdict judge_zone(const Scene& scene, const ConflictZone& zone, const Along& along,
+/// Whether the start is in others' way already: to wait for the next zone there is no place to wait.
+bool starts_inside(const EgoPath& path, const Along& along, const Parameters& parameters) {
+  const float centre_s_m = along.start_s_m() + rear_axle_to_centre_m(parameters);
+  for (const ConflictZone& zone : path.zones) {
+    if (centre_s_m > zone.entry_s_m && centre_s_m < zone.exit_s_m) return true;
+  }
+  return false;
+}
+
+TerminalVerdict judge_zone(const Scene& scene, const ConflictZone& zone, const Along& along, bool inside_one,
                            const Parameters& parameters) {
   const float centre_m = rear_axle_to_centre_m(parameters);
   const float entry_s_m = zone.entry_s_m - centre_m;
@@ -86,24 +95,32 @@ TerminalVerdict judge_zone(const Scene& scene, const ConflictZone& zone, const A
   const float line_s_m = zone.stop_s_m - rear_axle_to_front_m(parameters);
   const float edge_s_m = entry_s_m - kClearOfZoneM;
   float hold_s_m = min(line_s_m + kLineToleranceM, edge_s_m);
-  if (along.start_s_m() > hold_s_m) hold_s_m = edge_s_m;  // over the line there is still the zone to wait for
-  if (along.start_s_m() > hold_s_m) {                     // nearer than that: at once, no creeping
+  // Over the line there is still the zone to wait for.
+  if (along.start_s_m() > hold_s_m || waits_beyond_line(scene, line_s_m, along.start_s_m()))
+    hold_s_m = edge_s_m;
+  if (along.start_s_m() > hold_s_m) {  // nearer than that: at once, no creeping
     hold_s_m = min(along.start_s_m() + square(along.start_mps) / (2.0F * parameters.comfort.braking_mps2),
                    entry_s_m);
   }
   if (stops_before(along, hold_s_m, parameters)) return {};
   if (along.end_s_m() < exit_s_m && along.end_mps < kMovingMps) return blame(TerminalCause::kStopsInZone);
 
-  const bool committed =
-      square(along.start_mps) > 2.0F * kCommittedMps2 * max(entry_s_m - along.start_s_m(), 0.0F);
+  const float to_entry_m = max(entry_s_m - along.start_s_m(), 0.0F);
+  const auto needs_more_than = [&](float braking_mps2) {
+    return square(along.start_mps) > 2.0F * braking_mps2 * to_entry_m;
+  };
+  const Resolve resolve = needs_more_than(kCommittedMps2) ? Resolve::kCommitted
+                          : inside_one || needs_more_than(parameters.comfort.braking_mps2)
+                              ? Resolve::kUnderWay
+                              : Resolve::kConsidering;
   const float in_s = time_at(along, entry_s_m);
   const float out_s = time_at(along, exit_s_m);
   for (int i = 0; i < scene.agents.size(); ++i) {
-    if (!leaves_zone_to_us(scene, i, zone, in_s, out_s, committed, parameters)) {
+    if (!leaves_zone_to_us(scene, i, zone, in_s, out_s, resolve, parameters)) {
       TerminalVerdict verdict = blame(TerminalCause::kZone, i);
       verdict.arrives_s = earliest_arrival_s(scene, i, zone, parameters);
-      const bool we_wait = zone.priority != Priority::kFirstHasPriority && !committed;
-      verdict.needed_s = out_s + (we_wait ? parameters.safety.zone_margin_s : 0.0F);
+      const bool we_wait = zone.priority != Priority::kFirstHasPriority && resolve != Resolve::kCommitted;
+      verdict.needed_s = out_s + (we_wait ? zone_margin_s(scene, resolve, parameters) : 0.0F);
       return verdict;
     }
   }
@@ -177,8 +194,9 @@ TerminalVerdict judge_terminal(const Scene& scene, int path_index, const Traject
   if (!stops_before(along, max(last_change_m, at_once_m), parameters)) {
     return blame(TerminalCause::kLaneEnd);
   }
+  const bool inside_one = starts_inside(path, along, parameters);
   for (const ConflictZone& zone : path.zones) {
-    const TerminalVerdict verdict = judge_zone(scene, zone, along, parameters);
+    const TerminalVerdict verdict = judge_zone(scene, zone, along, inside_one, parameters);
     if (!verdict.safe()) return verdict;
   }
   const bool changes = changes_lane(scene, path);

@@ -31,13 +31,13 @@ struct TerminalVerdict {
 
 /// Safe for ever means, for each conflict zone of the path not yet left at the start:
 /// - the end can still stop before it (TERM-001), at comfortable deceleration or as hard as the start already
-///   demands; or
+///   demands: at the stop line, or, for who stood there, before the ground shared (TERM-014); or
 /// - every vehicle that may reach it leaves it to us (TERM-002): where we yield, it comes
-/// safety.zone_margin_s
-///   after we have left, at limit * safety.over_limit and accelerating (TERM-003); where it owes us the way,
-///   it can stop with 4 m/s^2 or less, or comes later (TERM-004); or it has plainly gone before we come
-///   (TERM-005). First come: the other has right of way when it can be there first. Who could stop only with
-///   more than 5 m/s^2 is bound to go, and counts on others' present speeds;
+///   safety.zone_margin_s after we have left, at limit * safety.over_limit and accelerating (TERM-003); where
+///   it owes us the way, it can stop with 4 m/s^2 or less, or comes later (TERM-004); or it has plainly gone
+///   before we come (TERM-005). First come: the other has right of way when it can be there first. Who could
+///   stop only with more than 5 m/s^2 is bound to go, and counts on others' present speeds; what waiting and
+///   a crossing under way change stands at leaves_zone_to_us();
 /// - the end does not stand in it (TERM-006). Who is inside already has to leave, unless a leader blocks the
 /// way
 ///   (TERM-007).

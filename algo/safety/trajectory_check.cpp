@@ -41,6 +41,15 @@ bool follows_us(const Scene& scene, int path, const Agent& agent, const Paramete
          (path != 0 && follows_us(scene, scene.ego_paths[0], agent, parameters));
 }
 
+bool lets_us_finish(const Scene& scene, int index, const Trajectory& trajectory, const Agent& agent,
+                    const Parameters& parameters) {
+  const EgoPath& path = scene.ego_paths[index];
+  const TrajectoryPoint& start = trajectory.points[0];
+  const Point centre = position(ego_box(start.rear_axle, parameters).centre);
+  const float s_m = project(*scene.map, path.path, centre, path.frenet.s_m, 15.0F).s_m;
+  return lets_us_finish(scene, path, s_m, start.speed_mps, agent, parameters);
+}
+
 /// Looks through the futures of the watched vehicles.
 bool clear_of(const Scene& scene, int path, const Trajectory& trajectory, const PredictionSet& prediction,
               const Parameters& parameters, CheckReport& report) {
@@ -51,6 +60,7 @@ bool clear_of(const Scene& scene, int path, const Trajectory& trajectory, const 
                                        parameters.safety.margin_m, parameters);
       if (step < 0) continue;
       if (!mode.yields && will_yield(scene.ego_paths[path], agent)) continue;
+      if (lets_us_finish(scene, path, trajectory, agent, parameters)) continue;
       if (follows_us(scene, path, agent, parameters)) break;
       report = {CheckResult::kCollision, predicted.agent, static_cast<std::uint8_t>(step)};
       return false;
@@ -67,7 +77,9 @@ bool clear_of(const Scene& scene, int path, const Trajectory& trajectory, const 
     const Agent& agent = scene.agents[i];
     const int step = first_collision(trajectory, keep_going.agents[i], agent.track, kKeepGoingSteps,
                                      parameters.safety.margin_m, parameters);
-    if (step < 0 || will_yield(scene.ego_paths[path], agent) || follows_us(scene, path, agent, parameters))
+    if (step < 0 || will_yield(scene.ego_paths[path], agent) ||
+        lets_us_finish(scene, path, trajectory, agent, parameters) ||
+        follows_us(scene, path, agent, parameters))
       continue;
     report = {CheckResult::kCollision, static_cast<std::uint8_t>(i), static_cast<std::uint8_t>(step)};
     return false;

@@ -23,7 +23,8 @@ struct History {
 /// A vehicle as of the scene's time (tracks are brought forward from the list's time).
 struct Agent {
   Track track;
-  std::uint16_t age_ms = 0;  ///< since it was last in a list; coasted meanwhile
+  std::uint16_t age_ms = 0;   ///< since it was last in a list; coasted meanwhile
+  std::uint16_t idle_ms = 0;  ///< CORE-034 how long it has stood with nobody to wait for; at most a minute
   LaneIndex lane = kNoLaneIndex;
   BoundedVector<LanePath, kPathsPerAgent> paths;  ///< ways it may go; the first is the likeliest
   float path_probability[kPathsPerAgent] = {};    ///< of each path; they add up to 1
@@ -66,6 +67,7 @@ struct Scene {
   BoundedVector<Agent, kMaxTracks> agents;  ///< the first `watched` are the relevant ones
   int watched = 0;                          ///< <= kMaxAgents, predicted with interaction
   const LaneMap* map = nullptr;             ///< valid during the cycle only
+  float waited_s = 0.0F;  ///< how long we have stood at the junction we are at or in (CORE-033)
 };
 
 /// Which vehicles SATP watches (METHOD 4.0).
@@ -83,7 +85,8 @@ class SceneBuilder {
   /// range. \param list_time_ms  vehicle time of `tracks`; a list older than the last one is ignored \param
   /// map  may be null or empty: the scene then has no ego paths and the status says so \return kOk, kNoLane
   /// (the scene is still usable for a minimum-risk manoeuvre), or kInvalidInput (the ego is not finite: the
-  /// scene is empty)
+  /// scene is empty). CORE-033 What we have waited counts where we give way within 15 m, and is forgotten
+  /// only when that junction is left: a start is not judged by another measure than the rest of the crossing.
   [[nodiscard]] Status build(std::uint32_t time_ms, const EgoState& ego, const TrackList& tracks,
                              std::uint32_t list_time_ms, const LaneMap* map, const Parameters& parameters,
                              Scene& scene);
@@ -96,9 +99,12 @@ class SceneBuilder {
     Track track;                ///< as last seen
     std::uint32_t seen_ms = 0;  ///< list time of that
     LaneIndex lane = kNoLaneIndex;
+    std::uint16_t idle_ms = 0;
     History history;
   };
 
+  void note_waiting(std::int32_t passed_ms, const Scene& scene, const Parameters& parameters);
+  void note_idle(std::int32_t passed_ms, Scene& scene);
   void advance_time(std::uint32_t time_ms);
   void take_list(const TrackList& tracks, std::uint32_t list_time_ms);
   int find_past(const Track& track, std::uint32_t list_time_ms) const;
@@ -108,6 +114,7 @@ class SceneBuilder {
   std::uint32_t last_ms_ = 0;
   std::uint32_t last_list_ms_ = 0;
   bool started_ = false;
+  std::int32_t waited_ms_ = 0;
   LaneIndex ego_lane_ = kNoLaneIndex;
 };
 

@@ -1,6 +1,7 @@
 #include "algo/core/inline.hpp"
 #include "algo/scene/agent_paths.hpp"
 #include "algo/scene/ego_paths.hpp"
+#include "algo/scene/hindrance.hpp"
 #include "algo/scene/lane_table.hpp"
 #include "algo/scene/relevance.hpp"
 #include "algo/scene/scene.hpp"
@@ -15,6 +16,10 @@ constexpr float kSameSpeedMps = 4.0F;
 constexpr float kJumpM = 8.0F;    // an id this far from where it should be is another vehicle
 constexpr float kHinderS = 2.5F;  // a vehicle within this headway explains another's braking
 constexpr float kHinderBesideM = 2.0F;
+constexpr float kStandingMps = 0.3F;
+constexpr float kAtJunctionM = 15.0F;  // standing this far before the zone, or nearer, is waiting for it
+constexpr std::int32_t kLongestStepMs = 500;  // a hole in time is no waiting
+constexpr std::int32_t kLongestStandMs = 60'000;
 constexpr std::uint16_t kPresentBit = 1U << (kHistorySamples - 1);
 
 // Signed, so that the 32-bit time may wrap and lists may lie a little in the future.
@@ -65,6 +70,12 @@ void record(History& history, const Pose& pose, float speed_mps, bool seen) {
   }
 }
 
+// Time counted as spent standing between two scenes.
+std::int32_t counted_ms(std::int32_t step_ms) {
+  if (step_ms < 0) return 0;
+  return step_ms < kLongestStepMs ? step_ms : kLongestStepMs;
+}
+
 // Where a vehicle last seen as `track` is `seconds` later, roughly.
 Point coasted(const Track& track, float seconds) {
   return offset_point(track.centre, track.speed_mps * seconds, 0.0F);
@@ -94,7 +105,36 @@ void SceneBuilder::reset() {
   last_ms_ = 0;
   last_list_ms_ = 0;
   started_ = false;
+  waited_ms_ = 0;
   ego_lane_ = kNoLaneIndex;
+}
+
+void SceneBuilder::note_waiting(std::int32_t passed_ms, const Scene& scene, const Parameters& parameters) {
+  bool at_junction = false;
+  if (!scene.ego_paths.empty()) {
+    const EgoPath& path = scene.ego_paths[0];
+    const float to_front_m = parameters.vehicle.length_m - parameters.vehicle.rear_overhang_m;
+    for (const ConflictZone& zone : path.zones) {
+      const bool near = zone.entry_s_m - path.frenet.s_m - to_front_m < kAtJunctionM;
+      at_junction = at_junction || (near && zone.priority != Priority::kFirstHasPriority);
+    }
+  }
+  if (!at_junction) {
+    waited_ms_ = 0;
+  } else if (scene.ego.speed_mps < kStandingMps && waited_ms_ < kLongestStandMs) {
+    waited_ms_ = waited_ms_ + passed_ms;
+  }
+}
+
+void SceneBuilder::note_idle(std::int32_t passed_ms, Scene& scene) {
+  for (int i = 0; i < scene.agents.size(); ++i) {  // one for each of past_, in its order
+    Past& past = past_[i];
+    const bool idle = scene.map != nullptr && scene.agents[i].track.speed_mps < kStandingMps &&
+                      !waits_for_somebody(scene, i);
+    const std::int32_t idle_ms = idle ? past.idle_ms + passed_ms : 0;
+    past.idle_ms = static_cast<std::uint16_t>(idle_ms < kLongestStandMs ? idle_ms : kLongestStandMs);
+    scene.agents[i].idle_ms = past.idle_ms;
+  }
 }
 
 void SceneBuilder::advance_time(std::uint32_t time_ms) {
@@ -140,6 +180,7 @@ void SceneBuilder::take_list(const TrackList& tracks, std::uint32_t list_time_ms
         const float seconds = 1e-3F * static_cast<float>(elapsed_ms(past.seen_ms, list_time_ms));
         if (distance(coasted(past.track, seconds), position(track.centre)) > kJumpM) {
           past.history.valid = 0;
+          past.idle_ms = 0;
           past.lane = kNoLaneIndex;
         }
         past.track = track;
@@ -172,12 +213,14 @@ Status SceneBuilder::build(std::uint32_t time_ms, const EgoState& ego, const Tra
   scene.watched = 0;
   scene.map = map;
   scene.ego = EgoState{};
+  scene.waited_s = 0.0F;
   if (!sound(ego)) {
     reset();
     scene.ego_history = History{};
     return Status::kInvalidInput;
   }
   scene.ego = ego;
+  const std::int32_t step_ms = started_ ? elapsed_ms(last_ms_, time_ms) : 0;
   advance_time(time_ms);
   const bool newer = past_.empty() || !started_ || elapsed_ms(last_list_ms_, list_time_ms) > 0;
   const std::int32_t list_age_ms = elapsed_ms(list_time_ms, time_ms);
@@ -189,6 +232,9 @@ Status SceneBuilder::build(std::uint32_t time_ms, const EgoState& ego, const Tra
   table.fit(ego.rear_axle, {ego_lane_, true}, fits);
   ego_lane_ = fits.empty() ? table.lane_ahead(ego.rear_axle) : fits[0].lane;
   if (ego_lane_ != kNoLaneIndex) build_ego_paths(table, ego_lane_, parameters, scene);
+  const std::int32_t passed_ms = counted_ms(step_ms);
+  note_waiting(passed_ms, scene, parameters);
+  scene.waited_s = 1e-3F * static_cast<float>(waited_ms_);
   record(ego_history_, ego.rear_axle, ego.speed_mps, true);
   scene.ego_history = ego_history_;
 
@@ -208,6 +254,7 @@ Status SceneBuilder::build(std::uint32_t time_ms, const EgoState& ego, const Tra
     agent.history = past.history;
     (void)scene.agents.push(agent);
   }
+  note_idle(passed_ms, scene);
   rank_agents(relevance, parameters, scene);
   return ego_lane_ != kNoLaneIndex ? Status::kOk : Status::kNoLane;
 }

@@ -1,6 +1,7 @@
 #include "algo/trajectory/candidates.hpp"
 
 #include "algo/core/inline.hpp"
+#include "algo/safety/right_of_way.hpp"
 #include "algo/trajectory/along_path.hpp"
 #include "algo/trajectory/bicycle.hpp"
 #include "algo/trajectory/roll_out.hpp"
@@ -66,6 +67,15 @@ void add_stop(float s_m, Course& course) {
   if (course.stop_count < kMaxStops) ++course.stop_count;
 }
 
+/// Whether our box, standing there, keeps clear of the ground shared with others.
+bool clear_of_zones(const EgoPath& path, float rear_axle_s_m, const Parameters& parameters) {
+  const float centre_s_m = rear_axle_s_m + rear_axle_to_centre_m(parameters);
+  for (const ConflictZone& zone : path.zones) {
+    if (centre_s_m > zone.entry_s_m - kPassedM && centre_s_m < zone.exit_s_m) return false;
+  }
+  return true;
+}
+
 void find_stops(const Scene& scene, const EgoPath& path, const Parameters& parameters, Course& course) {
   const float front_m = rear_axle_to_front_m(parameters);
   const float centre_m = rear_axle_to_centre_m(parameters);
@@ -73,7 +83,10 @@ void find_stops(const Scene& scene, const EgoPath& path, const Parameters& param
     // Beyond the stop line there is still the zone itself to stop before.
     const float line_s_m = zone.stop_s_m - front_m;
     const float edge_s_m = zone.entry_s_m - centre_m - kClearOfZoneM;
-    add_stop(line_s_m >= course.where.s_m - kPassedM ? line_s_m : edge_s_m, course);
+    const bool passed = line_s_m < course.where.s_m - kPassedM;
+    if (!passed) add_stop(line_s_m, course);
+    const bool may_wait_there = passed || waits_beyond_line(scene, line_s_m, course.where.s_m);
+    if (may_wait_there && clear_of_zones(path, edge_s_m, parameters)) add_stop(edge_s_m, course);
   }
   const float end_s_m = dead_end_s_m(scene, path);
   if (end_s_m >= kNoDeadEndM) return;

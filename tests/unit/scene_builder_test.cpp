@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "algo/core/math.hpp"
 #include "algo/scene/scene.hpp"
 #include "tests/support/lane_maps.hpp"
 #include "tests/support/scene_support.hpp"
@@ -58,6 +59,67 @@ TEST(SceneBuilder, OffersKeepLeftRight) {
   EXPECT_EQ(scene.ego_paths[2].manoeuvre, Manoeuvre::kRight);
   EXPECT_NEAR(scene.ego_paths[2].frenet.s_m, 50.0F, 1e-3F);
   EXPECT_NEAR(scene.ego_paths[0].goal_s_m, 200.0F, 1e-3F);
+}
+
+// CORE-033 20 steps at rest 10 m before a zone we give way at are 2 s; driving off keeps them, and a hole of
+// 10 s counts as half a second. Where we have the way, or 60 m before, nothing is counted; behind the
+// junction it is forgotten.
+TEST(SceneBuilder, RemembersHowLongWeWaited) {
+  LaneMap map = test::straight_road(1, 200.0F);
+  const LaneIndex across = test::add_lane(map, {{100.0F, -50.0F}, {100.0F, 50.0F}});
+  test::add_conflict(map, 0, across, Priority::kFirstYields);
+  SceneBuilder builder;
+  Scene scene;
+  std::uint32_t now_ms = 1000;
+  const auto waited_s = [&](float x_m, float speed_mps, std::uint32_t step_ms = 100) {
+    now_ms += step_ms;
+    EXPECT_EQ(builder.build(now_ms, test::ego_at(x_m, 0.0F, 0.0F, speed_mps), TrackList{}, now_ms, &map,
+                            Parameters{}, scene),
+              Status::kOk);
+    return scene.waited_s;
+  };
+  EXPECT_FLOAT_EQ(waited_s(85.0F, 0.0F), 0.0F);
+  for (int i = 0; i < 20; ++i) (void)waited_s(85.0F, 0.0F);
+  EXPECT_FLOAT_EQ(scene.waited_s, 2.0F);
+  EXPECT_FLOAT_EQ(waited_s(86.0F, 4.0F), 2.0F);
+  EXPECT_FLOAT_EQ(waited_s(95.0F, 8.0F), 2.0F);
+  EXPECT_FLOAT_EQ(waited_s(95.0F, 0.0F, 10'000), 2.5F);
+  EXPECT_FLOAT_EQ(waited_s(110.0F, 8.0F), 0.0F);
+  EXPECT_FLOAT_EQ(waited_s(36.0F, 0.0F), 0.0F);
+  EXPECT_FLOAT_EQ(waited_s(36.0F, 0.0F), 0.0F);
+  map.conflicts[0].priority = Priority::kFirstHasPriority;
+  EXPECT_FLOAT_EQ(waited_s(85.0F, 0.0F), 0.0F);
+}
+
+// CORE-034 One stands 10 m before a crossing where it gives way: 20 steps are 2 s. While somebody who moves
+// comes to that crossing it stands for him; nor is a step at 1 m/s standing. One who stands there himself is
+// no reason.
+TEST(SceneBuilder, SeesWhoStandsForNobody) {
+  LaneMap map = test::straight_road(1, 200.0F);
+  const LaneIndex across = test::add_lane(map, {{100.0F, -50.0F}, {100.0F, 50.0F}});
+  test::add_conflict(map, 0, across, Priority::kFirstYields);
+  SceneBuilder builder;
+  Scene scene;
+  std::uint32_t now_ms = 1000;
+  const auto idle_ms = [&](float speed_mps, float across_mps) {
+    now_ms += 100;
+    TrackList tracks;
+    EXPECT_TRUE(tracks.push(test::car(7, 90.0F, 0.0F, 0.0F, speed_mps)));
+    EXPECT_TRUE(tracks.push(test::car(8, 100.0F, -20.0F, 0.5F * kPi, across_mps)));
+    EXPECT_EQ(builder.build(now_ms, test::ego_at(50.0F, 0.0F, 0.0F, 0.0F), tracks, now_ms, &map, Parameters{},
+                            scene),
+              Status::kOk);
+    for (const Agent& agent : scene.agents) {
+      if (agent.track.id == 7) return static_cast<int>(agent.idle_ms);
+    }
+    return -1;
+  };
+  EXPECT_EQ(idle_ms(0.0F, 0.0F), 0);
+  for (int i = 0; i < 20; ++i) (void)idle_ms(0.1F, 0.0F);
+  EXPECT_EQ(idle_ms(0.0F, 0.0F), 2100);
+  EXPECT_EQ(idle_ms(1.0F, 0.0F), 0);
+  EXPECT_EQ(idle_ms(0.0F, 0.0F), 100);
+  EXPECT_EQ(idle_ms(0.0F, 5.0F), 0);
 }
 
 // No map at all, and a map without a lane under us: kNoLane, no paths, but the others are still there.

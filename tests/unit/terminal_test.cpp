@@ -80,6 +80,111 @@ TEST(Terminal, GapMustLastUntilWeAreGone) {
   EXPECT_TRUE(far.safe(80.0F, 8.0F, 0.0F));
 }
 
+// TERM-013 The same drive, the other 56 m away: there after 56 / 15.28 = 3.7 s, 0.8 s after we have left. Too
+// little, but not for one who has stood 9 s; 47 m (3.1 s) is too little for him as well.
+TEST(Terminal, WhoHasWaitedTakesASmallerGap) {
+  Crossing crossing(Priority::kFirstYields);
+  crossing.other(96.0F - 56.0F, 15.0F);
+  EXPECT_FALSE(crossing.safe(80.0F, 8.0F, 0.0F));
+  crossing.scene.waited_s = 9.0F;
+  EXPECT_TRUE(crossing.safe(80.0F, 8.0F, 0.0F));
+  Crossing near(Priority::kFirstYields);
+  near.other(96.0F - 47.0F, 15.0F);
+  near.scene.waited_s = 9.0F;
+  EXPECT_FALSE(near.safe(80.0F, 8.0F, 0.0F));
+}
+
+// TERM-013 6.5 m before the zone at 8 m/s, stopping takes 4.9 m/s^2, and we leave after 1.9 s. The other, 38
+// m away, comes after 2.5 s: not enough to begin with, but enough to go through with. 26 m (1.7 s) are not.
+TEST(Terminal, ACrossingUnderWayIsFinished) {
+  Crossing crossing(Priority::kFirstYields);
+  crossing.other(96.0F - 38.0F, 15.0F);
+  EXPECT_TRUE(crossing.safe(88.0F, 8.0F, 0.0F));
+  Crossing near(Priority::kFirstYields);
+  near.other(96.0F - 26.0F, 15.0F);
+  EXPECT_FALSE(near.safe(88.0F, 8.0F, 0.0F));
+}
+
+// TERM-014 From 91, at the line, at 2 m/s and braking with 1 m/s^2, we come to rest at 93: 1.5 m before the
+// zone. Who has stood may wait there. Whoever comes along does not stop 6 m before the line only to roll over
+// it.
+TEST(Terminal, WhoHasStoodMayWaitBeyondTheLine) {
+  Crossing crossing(Priority::kFirstYields);
+  crossing.other(50.0F, 10.0F);
+  EXPECT_FALSE(crossing.safe(91.0F, 2.0F, -1.0F));
+  crossing.scene.waited_s = 0.5F;
+  EXPECT_TRUE(crossing.safe(91.0F, 2.0F, -1.0F));
+  EXPECT_FALSE(crossing.safe(85.0F, 3.0F, -0.5625F));
+  EXPECT_FALSE(crossing.safe(91.0F, 2.0F, -0.6F));  // 3.3 m: into the zone
+}
+
+// TERM-015 From 93 with 3 m/s^2 we are in the zone after 1 s and out after 2.5 s. The other stands 9 m before
+// it: starting now it is there after 3 s. That is enough once it has stood for 2 s with nobody to wait for;
+// so with one who comes up behind it. Half a metre before the zone (0.7 s, and 0.5 s to start) it goes first,
+// when we come from 91 (1.6 s).
+TEST(Terminal, WhoStandsForNothingDoesNotUseHisRightOfWay) {
+  Crossing crossing(Priority::kFirstYields);
+  crossing.other(96.0F - 9.0F, 0.0F).idle_ms = 1900;
+  EXPECT_FALSE(crossing.safe(93.0F, 0.0F, 3.0F));
+  crossing.scene.agents[0].idle_ms = 2000;
+  EXPECT_TRUE(crossing.safe(93.0F, 0.0F, 3.0F));
+  (void)crossing.other(96.0F - 16.0F, 3.0F);
+  EXPECT_TRUE(crossing.safe(93.0F, 0.0F, 3.0F));
+  crossing.scene.agents[0].idle_ms = 0;
+  EXPECT_FALSE(crossing.safe(93.0F, 0.0F, 3.0F));
+
+  Crossing near(Priority::kFirstYields);
+  near.other(96.0F - 0.5F, 0.0F).idle_ms = 10'000;
+  EXPECT_FALSE(near.safe(91.0F, 0.0F, 3.0F));
+}
+
+// TERM-015 From 93 with 3 m/s^2 we are in the zone after 1 s. One who has stood for a second 9 m before it (3
+// s) has us before him for 2 s; one 3.6 m before it (1.9 s) for less than one: he goes first. So does who
+// stood for less than a second.
+TEST(Terminal, WhoStandsSeesUsGo) {
+  const auto crossing = [](float way_m, int samples_standing) {
+    Crossing road(Priority::kFirstYields);
+    Agent& other = road.other(96.0F - way_m, 0.0F);
+    other.history.valid = (1U << kHistorySamples) - 1U;
+    for (int i = 0; i < kHistorySamples - samples_standing; ++i) other.history.samples[i].speed_mps = 1.0F;
+    return road.safe(93.0F, 0.0F, 3.0F);
+  };
+  EXPECT_TRUE(crossing(9.0F, kHistorySamples));
+  EXPECT_FALSE(crossing(9.0F, kHistorySamples - 1));
+  EXPECT_FALSE(crossing(3.6F, kHistorySamples));
+}
+
+// TERM-015 Four where the right goes before the left: the one on our right stands 3.3 m before the zone, and
+// could be there after 1.8 s, we after 1.6 s. He waits for his right, who waits for nobody that moves: one
+// has to begin.
+TEST(Terminal, AStandOffIsEnded) {
+  Crossing crossing(Priority::kFirstYields);
+  crossing.other(96.0F - 3.3F, 0.0F);
+  EXPECT_FALSE(crossing.safe(91.0F, 0.0F, 3.0F));
+  crossing.scene.agents[0].idle_ms = 2500;
+  EXPECT_TRUE(crossing.safe(91.0F, 0.0F, 3.0F));
+}
+
+// TERM-016 At 3 m/s inside one zone, 4.5 m before the next (there after 1.5 s, out after 3.5 s). The other is
+// 9 m before that, at 2 m/s there after sqrt(10) - 1 = 2.2 s at the earliest: we do not stop in the first
+// zone for it. Outside of any zone we would; and for one who comes at 13 m/s, too.
+TEST(Terminal, NobodyStopsInOneZoneForTheNext) {
+  const auto crossing = [](bool inside_one, float way_m, float speed_mps) {
+    Crossing road(Priority::kFirstYields);
+    ConflictZone next = road.zone();
+    next.entry_s_m = 106.0F;
+    next.exit_s_m = 112.0F;
+    next.stop_s_m = 95.0F;
+    if (!inside_one) road.scene.ego_paths[0].zones.clear();
+    (void)road.scene.ego_paths[0].zones.push(next);
+    road.other(96.0F - way_m, speed_mps);
+    return road.safe(100.0F, 3.0F, 0.0F);
+  };
+  EXPECT_TRUE(crossing(true, 9.0F, 2.0F));
+  EXPECT_FALSE(crossing(false, 9.0F, 2.0F));
+  EXPECT_FALSE(crossing(true, 40.0F, 13.0F));
+}
+
 // TERM-004 Who owes us the way and needs less than 4 m/s^2 (10 m/s: 12.5 m) is trusted; who needs more is
 // not.
 TEST(Terminal, OthersAreTrustedWhileTheyCanStop) {
@@ -270,6 +375,14 @@ TEST(EarliestArrival, FreeToAccelerate) {
     EXPECT_NEAR(earliest_arrival_s(crossing.scene, i, crossing.zone(), crossing.parameters), expected[i],
                 0.01F)
         << i;
+}
+
+// TERM-011 Who brakes with 4 m/s^2 goes on for half a second: from 10 m/s to 8 in 4.5 m, and then 15.5 m from
+// there in (sqrt(64 + 62) - 8) / 2 = 1.61 s.
+TEST(EarliestArrival, BrakesAreNotDriveAtOnce) {
+  Crossing crossing(Priority::kFirstYields);
+  crossing.other(96.0F - 20.0F, 10.0F).track.acceleration_mps2 = -4.0F;
+  EXPECT_NEAR(earliest_arrival_s(crossing.scene, 0, crossing.zone(), crossing.parameters), 2.11F, 0.01F);
 }
 
 // TERM-002 Without a map or path nothing can be promised.

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "algo/core/math.hpp"
 #include "algo/trajectory/bicycle.hpp"
 #include "tests/support/driving_scenes.hpp"
 
@@ -175,6 +176,34 @@ TEST(Check, TrustsThoseWhoOweUsTheWay) {
       EXPECT_EQ(report.result, c.result) << c.to_entry_m << ' ' << c.yields;
     }
   }
+}
+
+// CHECK-009 We are 2.5 m inside a zone at 3 m/s; one with right of way sets off 6 m before it at 2 m/s, and
+// would hit us if he went on. He sees us and can stop with 0.3 m/s^2: we go on, for to stop would leave us in
+// his way. Not so at 10 m/s, nor while we are still before the zone.
+TEST(Check, ACrossingUnderWayIsFinishedInFrontOfWhoSetsOff) {
+  const auto result = [](float entry_s_m, float speed_mps) {
+    Road road;
+    const LaneIndex other = add_lane(road.map, {{105.0F, -100.0F}, {105.0F, 100.0F}});
+    ConflictZone zone;
+    zone.entry_s_m = entry_s_m;
+    zone.exit_s_m = 112.0F;
+    zone.stop_s_m = 96.0F;
+    zone.other_lane = other;
+    zone.other_entry_m = 96.0F;
+    zone.other_exit_m = 104.0F;
+    zone.priority = Priority::kFirstYields;
+    (void)road.scene.ego_paths[0].zones.push(zone);
+    add_vehicle(road.scene, road.map, path_of(road.map, {other}), 90.0F, speed_mps);
+    Mode mode;
+    mode.probability = 1.0F;
+    for (Pose& step : mode.steps) step = {105.0F, 0.0F, 0.5F * kPi};  // in our way
+    road.predict(road.unconditioned, 0, mode);
+    return road.check(road.drive(3.0F)).result;
+  };
+  EXPECT_EQ(result(99.0F, 2.0F), CheckResult::kPassed);
+  EXPECT_EQ(result(99.0F, 10.0F), CheckResult::kCollision);
+  EXPECT_EQ(result(103.0F, 2.0F), CheckResult::kCollision);
 }
 
 // CHECK-007 One 6 m behind us at 15 m/s runs into us if he keeps going: his affair, while we are in our lane.
