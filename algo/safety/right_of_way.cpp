@@ -16,8 +16,11 @@ constexpr float kBendRad = 0.5F;       // lanes that turn by less are driven lik
 constexpr float kHurriedLateralMps2 = 7.0F;  // nobody turns faster
 constexpr float kHurriedBrakingMps2 = 6.0F;  // or brakes for the turn later
 
-constexpr float kPedalS = 0.5F;  // from braking to gaining speed
+constexpr float kPedalS = 0.5F;       // from braking to gaining speed
+constexpr float kStillFirstS = 0.7F;  // what must be left of that once both move
 constexpr float kStandsMps = 0.3F;
+constexpr float kOverlapS =
+    0.3F;  // of one leaving and one who stands, starting now: less than he needs to start
 constexpr float kFirstS =
     1.0F;  // in front of somebody who stands, and sees us for so long before he could be there
 constexpr int kGivenUpMs =
@@ -25,7 +28,7 @@ constexpr int kGivenUpMs =
 constexpr float kStartS = 0.5F;       // until somebody who stands is under way
 constexpr float kGentlyMps2 = 2.0F;   // easily braked with
 constexpr float kQueueingMps = 5.0F;  // faster behind one who stands may be about to pass him
-constexpr float kSlowMps = 4.0F;      // who is no faster is easily stopped
+constexpr float kSlowMps = 5.0F;      // who is no faster is easily stopped
 constexpr float kAtLineM = 2.0F;      // this near before a stop line is at it
 
 /// Whether its present braking, kept up, ends before the zone.
@@ -183,13 +186,15 @@ bool lets_us_finish(const Scene& scene, const EgoPath& path, float own_s_m, floa
   bool under_way = false;
   bool meets = false;
   for (const ConflictZone& zone : path.zones) {
-    under_way = under_way || (own_s_m > zone.entry_s_m && own_s_m < zone.exit_s_m);
+    const float to_entry_m = max(zone.entry_s_m - own_s_m, 0.0F);
+    const bool stops = square(own_mps) <= 2.0F * parameters.comfort.braking_mps2 * to_entry_m;
+    under_way = under_way || (!stops && own_s_m < zone.exit_s_m);
     const Approach approach = approach_to(agent, zone);
     if (!approach.reaches || own_s_m > zone.exit_s_m) continue;
     meets = true;
     if (approach.to_entry_m <= 0.0F) return false;
     if (square(agent.track.speed_mps) > 2.0F * kGentlyMps2 * approach.to_entry_m) return false;
-    const float ours_s = max(zone.entry_s_m - own_s_m, 0.0F) / max(own_mps, kMovingMps);
+    const float ours_s = to_entry_m / max(own_mps, kMovingMps);
     if (ours_s > earliest_time_s(scene, agent, zone, approach.to_entry_m, parameters)) return false;
   }
   return under_way && meets;
@@ -219,10 +224,14 @@ bool leaves_zone_to_us(const Scene& scene, int index, const ConflictZone& zone, 
     const Agent& head = scene.agents[head_of_queue(scene, index, first)];
     const float start_s = earliest_time_s(scene, head, zone, first.to_entry_m, parameters);
     if (head.idle_ms >= kGivenUpMs && in_s < start_s + kStartS) return true;
-    if (stands(head) && in_s + kFirstS < start_s) return true;
+    if (stands(head) && out_s < start_s + kOverlapS) return true;
     const bool slow = agent.track.speed_mps < kSlowMps &&
                       square(agent.track.speed_mps) <= 2.0F * kGentlyMps2 * approach.to_entry_m;
-    if (resolve == Resolve::kUnderWay && slow && in_s < arrival_s) return true;
+    // Once we move, one who starts after us is no reason to stop again, unless it has caught up.
+    const bool started =
+        resolve == Resolve::kUnderWay || (scene.waited_s > 0.0F && scene.ego.speed_mps > kStandsMps);
+    const float first_s = resolve == Resolve::kUnderWay ? 0.0F : kStillFirstS;
+    if (started && slow && in_s + first_s < arrival_s) return true;
     // Who comes after us into the same lane may be on the ground shared while we are: not when we leave it.
     const float meeting_s =
         zone.merging ? earliest_time_s(scene, agent, zone, approach.to_exit_m, parameters) : arrival_s;
