@@ -16,8 +16,7 @@ constexpr float kBendRad = 0.5F;       // lanes that turn by less are driven lik
 constexpr float kHurriedLateralMps2 = 7.0F;  // nobody turns faster
 constexpr float kHurriedBrakingMps2 = 6.0F;  // or brakes for the turn later
 
-constexpr float kPedalS = 0.5F;       // from braking to gaining speed
-constexpr float kStillFirstS = 0.7F;  // what must be left of that once both move
+constexpr float kPedalS = 0.5F;  // from braking to gaining speed
 constexpr float kStandsMps = 0.3F;
 constexpr float kOverlapS =
     0.3F;  // of one leaving and one who stands, starting now: less than he needs to start
@@ -227,11 +226,7 @@ bool leaves_zone_to_us(const Scene& scene, int index, const ConflictZone& zone, 
     if (stands(head) && out_s < start_s + kOverlapS) return true;
     const bool slow = agent.track.speed_mps < kSlowMps &&
                       square(agent.track.speed_mps) <= 2.0F * kGentlyMps2 * approach.to_entry_m;
-    // Once we move, one who starts after us is no reason to stop again, unless it has caught up.
-    const bool started =
-        resolve == Resolve::kUnderWay || (scene.waited_s > 0.0F && scene.ego.speed_mps > kStandsMps);
-    const float first_s = resolve == Resolve::kUnderWay ? 0.0F : kStillFirstS;
-    if (started && slow && in_s + first_s < arrival_s) return true;
+    if (resolve == Resolve::kUnderWay && slow && in_s < arrival_s) return true;
     // Who comes after us into the same lane may be on the ground shared while we are: not when we leave it.
     const float meeting_s =
         zone.merging ? earliest_time_s(scene, agent, zone, approach.to_exit_m, parameters) : arrival_s;

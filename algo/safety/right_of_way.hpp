@@ -48,10 +48,10 @@ enum class Resolve : std::uint8_t {
 /// - by having stood for 2 s though nobody it gives way to is coming, if we are there half a second after it
 /// could
 ///   be at the latest: waiting for each other would not end;
-/// - by having stood for 1 s, if we are there 1 s before it could be: it may start when we do, for it may
-/// have
-///   waited for the same gap, but then it has us before it for a second, and has hardly begun to move. The
-///   same for who queues behind one who stands (TERM-015);
+/// - by having stood for 1 s, if it comes 0.3 s before we have left at the earliest: it may start when we do,
+/// for
+///   it may have waited for the same gap, but takes that long to get under way. The same for who queues
+///   behind one who stands (TERM-015);
 /// - by being slow when our crossing is under way, if we are there first and it can stop gently (TERM-016).
 [[nodiscard]] bool leaves_zone_to_us(const Scene& scene, int index, const ConflictZone& zone, float in_s,
                                      float out_s, Resolve resolve, const Parameters& parameters);

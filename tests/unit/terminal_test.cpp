@@ -138,10 +138,10 @@ TEST(Terminal, WhoStandsForNothingDoesNotUseHisRightOfWay) {
   EXPECT_FALSE(near.safe(91.0F, 0.0F, 3.0F));
 }
 
-// TERM-015 From 93 with 3 m/s^2 we are in the zone after 1 s. One who has stood for a second 9 m before it (3
-// s) has us before him for 2 s; one 3.6 m before it (1.9 s) for less than one: he goes first. So does who
-// stood for less than a second.
-TEST(Terminal, WhoStandsSeesUsGo) {
+// TERM-015 From 93 with 3 m/s^2 we are out of the zone after 2.5 s. One who has stood for a second 7.5 m
+// before it could be there after 2.7 s: without the usual margin, for he stands. 3.6 m before it (1.9 s) he
+// goes first. So does who stood for less than a second.
+TEST(Terminal, WhoStandsNeedsTimeToStart) {
   const auto crossing = [](float way_m, int samples_standing) {
     Crossing road(Priority::kFirstYields);
     Agent& other = road.other(96.0F - way_m, 0.0F);
@@ -149,8 +149,8 @@ TEST(Terminal, WhoStandsSeesUsGo) {
     for (int i = 0; i < kHistorySamples - samples_standing; ++i) other.history.samples[i].speed_mps = 1.0F;
     return road.safe(93.0F, 0.0F, 3.0F);
   };
-  EXPECT_TRUE(crossing(9.0F, kHistorySamples));
-  EXPECT_FALSE(crossing(9.0F, kHistorySamples - 1));
+  EXPECT_TRUE(crossing(7.5F, kHistorySamples));
+  EXPECT_FALSE(crossing(7.5F, kHistorySamples - 1));
   EXPECT_FALSE(crossing(3.6F, kHistorySamples));
 }
 

@@ -203,7 +203,7 @@ TEST(Check, ACrossingUnderWayIsFinishedInFrontOfWhoSetsOff) {
   };
   EXPECT_EQ(result(99.0F, 2.0F), CheckResult::kPassed);
   EXPECT_EQ(result(99.0F, 10.0F), CheckResult::kCollision);
-  EXPECT_EQ(result(103.0F, 2.0F), CheckResult::kCollision);
+  EXPECT_EQ(result(105.0F, 2.0F), CheckResult::kCollision);
 }
 
 // CHECK-007 One 6 m behind us at 15 m/s runs into us if he keeps going: his affair, while we are in our lane.
