@@ -20,8 +20,6 @@ constexpr float kPedalS = 0.5F;  // from braking to gaining speed
 constexpr float kStandsMps = 0.3F;
 constexpr float kOverlapS =
     0.3F;  // of one leaving and one who stands, starting now: less than he needs to start
-constexpr float kFirstS =
-    1.0F;  // in front of somebody who stands, and sees us for so long before he could be there
 constexpr int kGivenUpMs =
     2000;  // who stands for longer with nobody to wait for does not use his right of way
 constexpr float kStartS = 0.5F;       // until somebody who stands is under way

@@ -46,7 +46,7 @@ TEST_P(UnseenRoads, ReachesItsGoal) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Ten, UnseenRoads, testing::ValuesIn(roads()),
-                         [](const auto& info) { return info.param.stem().string(); });
+                         [](const auto& road) { return road.param.stem().string(); });
 
 }  // namespace
 }  // namespace s4tp::campaign
