@@ -1,7 +1,9 @@
 #include "algo/safety/minimum_risk.hpp"
 
 #include "algo/core/inline.hpp"
+#include "algo/safety/lane_change.hpp"
 #include "algo/safety/right_of_way.hpp"
+#include "algo/safety/rss.hpp"
 #include "algo/trajectory/along_path.hpp"
 #include "algo/trajectory/bicycle.hpp"
 #include "algo/trajectory/path_walk.hpp"
@@ -20,6 +22,9 @@ constexpr float kBesideM = 0.4F;      // without a map: who is this near to our 
 constexpr float kBuildUpS = 0.1F;     // at speed, until braking has built up
 constexpr float kStretch = 1.7F;
 constexpr int kStretches = 3;
+constexpr float kInLaneM = 0.6F;    // nearer to a lane's centre we are in it for good
+constexpr float kWayAcross = 5.0F;  // way along the lane for each metre to its centre
+constexpr float kNoticeS = 0.5F;    // until the one behind brakes
 
 /// Braking that stops within `way_m`, its build-up counted in.
 float needed_mps2(float speed_mps, float way_m) {
@@ -64,13 +69,44 @@ float driving_time_s(float way_m, float speed_mps) {
   return (sqrt(square(speed_mps) + 2.0F * kLeavingMps2 * way_m) - speed_mps) / kLeavingMps2;
 }
 
-/// The ego path we are nearest to.
-int nearest_path(const Scene& scene) {
-  int best = 0;
-  for (int i = 1; i < scene.ego_paths.size(); ++i) {
-    if (abs(scene.ego_paths[i].frenet.d_m) < abs(scene.ego_paths[best].frenet.d_m)) best = i;
+/// By how much who is behind in the lane of the path is nearer to us than is safe.
+float in_the_way_m(const Leader& follower, float speed_mps, const Parameters& parameters) {
+  if (follower.agent < 0) return 0.0F;
+  return max(0.0F, safe_distance_m(follower.speed_mps, speed_mps, parameters) - follower.gap_m);
+}
+
+/// The ego path to stop on: of the lanes we are in or bound for, the one where we are least in others' way,
+/// then the nearest one.
+int path_to_stop_on(const Scene& scene, const TrajectoryPoint& start, const Parameters& parameters) {
+  int best = -1;
+  float least_m = 0.0F;
+  for (int i = 0; i < scene.ego_paths.size(); ++i) {
+    const EgoPath& path = scene.ego_paths[i];
+    if (!change_under_way(scene, path, start, parameters)) continue;
+    const Leader follower = find_neighbours(scene, path, parameters).follower;
+    const float here_m = in_the_way_m(follower, start.speed_mps, parameters);
+    const bool nearer = best >= 0 && abs(path.frenet.d_m) < abs(scene.ego_paths[best].frenet.d_m);
+    if (best >= 0 && (here_m > least_m || (here_m == least_m && !nearer))) continue;
+    best = i;
+    least_m = here_m;
   }
-  return best;
+  return best < 0 ? 0 : best;
+}
+
+/// The hardest braking that lets us come into the lane first, and the one behind us there stop in time.
+float braking_into_lane(const Scene& scene, const EgoPath& path, float speed_mps,
+                        const Parameters& parameters) {
+  const float braking_mps2 = parameters.safety.minimum_risk_braking_mps2;
+  const float aside_m = abs(path.frenet.d_m) - kInLaneM;
+  if (aside_m <= 0.0F) return braking_mps2;
+  float way_m = kWayAcross * aside_m;
+  const Leader follower = find_neighbours(scene, path, parameters).follower;
+  if (follower.agent >= 0) {
+    const float its_way_m =
+        follower.speed_mps * kNoticeS + square(follower.speed_mps) / (2.0F * kFollowerBrakingMps2);
+    way_m = max(way_m, its_way_m + kGapM - follower.gap_m);
+  }
+  return min(braking_mps2, square(speed_mps) / (2.0F * way_m));
 }
 
 /// Whether everybody lets us drive on by `way_m`, through all zones we touch on it.
@@ -99,7 +135,7 @@ void shape_braking(const Scene& scene, const EgoPath& path, float s_m, float spe
   const Leader leader = find_leader(scene, path, path.frenet.s_m, parameters);
   const float free_m = leader.agent < 0 ? kNoDeadEndM : leader.gap_m - kGapM - (s_m - path.frenet.s_m);
 
-  float braking = parameters.safety.minimum_risk_braking_mps2;
+  float braking = braking_into_lane(scene, path, speed_mps, parameters);
   if (leader.agent >= 0) {
     const float way_m = way_behind(leader.gap_m, leader.speed_mps, leader.acceleration_mps2, parameters);
     braking = harder(braking, speed_mps, way_m - (s_m - path.frenet.s_m), parameters);
@@ -132,7 +168,7 @@ void shape_braking(const Scene& scene, const EgoPath& path, float s_m, float spe
 /// \return whether the motion is one the vehicle can follow
 bool along_lane(const Scene& scene, const TrajectoryPoint& start, const Parameters& parameters,
                 Trajectory& trajectory) {
-  const int index = nearest_path(scene);
+  const int index = path_to_stop_on(scene, start, parameters);
   const EgoPath& path = scene.ego_paths[index];
   const Frenet frenet = project(*scene.map, path.path, position(start.rear_axle), path.frenet.s_m, 20.0F);
   ReferenceLine line;

@@ -25,7 +25,10 @@ namespace s4tp {
 /// vehicle.braking_max, when a leader or the road's end demands it (MRM-002), or up to 6 m/s^2 to stop before
 /// a conflict zone instead of in it (MRM-003). An ego already inside a zone leaves it first when its way is
 /// free (MRM-004). Every value is finite, speed never grows except to leave a zone, at rest the pose stays
-/// (MRM-005). The scene may be empty: no map, no paths (MRM-006).
+/// (MRM-005). The scene may be empty: no map, no paths (MRM-006). The stop ends in a lane: of those we are in
+/// or bound for, the one where who is behind is farther than the safe distance, or nearest to it, and not
+/// before we are in it (MRM-007); in one we come into we brake only so hard that who is behind there can stop
+/// with kFollowerBrakingMps2, unless what is ahead demands more (MRM-008).
 void minimum_risk(const Scene& scene, const TrajectoryPoint& start, const Plan& running,
                   std::uint32_t start_ms, const Parameters& parameters, Trajectory& trajectory);
 

@@ -1,6 +1,7 @@
 #include "algo/safety/terminal.hpp"
 
 #include "algo/core/inline.hpp"
+#include "algo/safety/lane_change.hpp"
 #include "algo/safety/right_of_way.hpp"
 #include "algo/trajectory/along_path.hpp"
 #include "algo/trajectory/bicycle.hpp"
@@ -20,8 +21,7 @@ constexpr float kCrawlMps = 2.0F;          // way beyond the horizon is driven n
 constexpr float kLeaderGapM = 0.3F;        // left when both have stopped
 constexpr float kChangeWayM = 15.0F;       // of a slow lane change
 constexpr float kUsualLaneM = 3.2F;
-constexpr float kChangeGapM = 1.0F;           // the same, to a leader we choose ourselves
-constexpr float kFollowerBrakingMps2 = 3.0F;  // a lane change may ask this of the one behind
+constexpr float kChangeGapM = 1.0F;  // the same, to a leader we choose ourselves
 constexpr float kFollowerHeadwayS = 0.3F;
 constexpr float kFollowerGapM = 2.5F;
 
@@ -127,14 +127,8 @@ TerminalVerdict judge_zone(const Scene& scene, const ConflictZone& zone, const A
   return {};
 }
 
-/// Whether the path is another lane than the one most of us is in.
-bool changes_lane(const Scene& scene, const EgoPath& path) {
-  const float width_m = path_point(*scene.map, path.path, path.frenet.s_m).width_m;
-  return path.manoeuvre != Manoeuvre::kKeep && abs(path.frenet.d_m) >= 0.5F * width_m;
-}
-
 /// Way left between us and the leader when both have stopped, it at b_max from the horizon's end on.
-bool leader_safe(const EgoPath& path, const Leader& leader, const Along& along, bool changes,
+bool leader_safe(const EgoPath& path, const Leader& leader, const Along& along, bool begins,
                  const Parameters& parameters) {
   if (leader.agent < 0) return true;
   const float later_mps = max(0.0F, leader.speed_mps + min(0.0F, leader.acceleration_mps2) * kHorizonS);
@@ -144,11 +138,11 @@ bool leader_safe(const EgoPath& path, const Leader& leader, const Along& along, 
                               : square(leader.speed_mps) / (-2.0F * braking);
   const float stop_m = square(later_mps) / (2.0F * parameters.rss.braking_max_mps2);
   // Into a gap of our own choice only where the proper response (rss.hpp) would still be less than b_min.
-  const float own_braking = changes ? parameters.rss.braking_min_mps2 : kHardMps2;
+  const float own_braking = begins ? parameters.rss.braking_min_mps2 : kHardMps2;
   const float own_stop_m = square(along.end_mps) / (2.0F * own_braking);
   const float own_way_m = along.end_s_m() - path.frenet.s_m;
   const float left_m = leader.gap_m + its_way_m + stop_m - own_way_m - own_stop_m;
-  if (changes) return left_m >= kChangeGapM;
+  if (begins) return left_m >= kChangeGapM;
   // A leader who cut in may have left less than that already: then it only must not get worse.
   const float now_m = leader.gap_m + square(leader.speed_mps) / (2.0F * parameters.rss.braking_max_mps2) -
                       square(along.start_mps) / (2.0F * kHardMps2);
@@ -185,13 +179,16 @@ TerminalVerdict judge_terminal(const Scene& scene, int path_index, const Traject
   const float at_once_m =
       along.start_s_m() + square(along.start_mps) / (2.0F * parameters.comfort.braking_mps2);
   if (!stops_before(along, max(end_of_road_m, at_once_m), parameters)) return blame(TerminalCause::kRoadEnd);
+  const bool changes = changes_lane(scene, path);
+  const bool under_way = change_under_way(scene, path, trajectory.points[0], parameters);
   // Where the road ends in the wrong lane, room is left to change lanes from rest. Who is past that stops at
   // once, for what is left is better than nothing; but a change under way is finished before: nobody is to
   // stand astride two lanes.
   const float astride = min(1.0F, abs(path.frenet.d_m) / kUsualLaneM);
   const float finished_m = along.start_s_m() + astride * kChangeWayM;
   const float last_change_m = max(end_of_road_m - change_room_m(scene, path), finished_m);
-  if (!stops_before(along, max(last_change_m, at_once_m), parameters)) {
+  const bool finishes = changes && under_way;
+  if (!finishes && !stops_before(along, max(last_change_m, at_once_m), parameters)) {
     return blame(TerminalCause::kLaneEnd);
   }
   const bool inside_one = starts_inside(path, along, parameters);
@@ -199,13 +196,17 @@ TerminalVerdict judge_terminal(const Scene& scene, int path_index, const Traject
     const TerminalVerdict verdict = judge_zone(scene, zone, along, inside_one, parameters);
     if (!verdict.safe()) return verdict;
   }
-  const bool changes = changes_lane(scene, path);
-  const Leader leader = find_leader(scene, path, path.frenet.s_m, parameters);
-  if (!leader_safe(path, leader, along, changes, parameters))
+  if (!changes) {
+    const Leader leader = find_leader(scene, path, path.frenet.s_m, parameters);
+    return leader_safe(path, leader, along, false, parameters) ? TerminalVerdict{}
+                                                               : blame(TerminalCause::kLeader, leader.agent);
+  }
+  const auto [leader, follower] = find_neighbours(scene, path, parameters);
+  if (!leader_safe(path, leader, along, !under_way, parameters))
     return blame(TerminalCause::kLeader, leader.agent);
-  if (!changes) return {};
-  const Leader follower = find_follower(scene, path, path.frenet.s_m, parameters);
-  if (!follower_safe(follower, along, parameters)) return blame(TerminalCause::kFollower, follower.agent);
+  const bool follower_stays = under_way && can_stay_behind(follower.gap_m, follower.speed_mps, trajectory);
+  if (!follower_stays && !follower_safe(follower, along, parameters))
+    return blame(TerminalCause::kFollower, follower.agent);
   return {};
 }
 

@@ -1,6 +1,7 @@
 #include "algo/safety/trajectory_check.hpp"
 
 #include "algo/core/inline.hpp"
+#include "algo/safety/lane_change.hpp"
 #include "algo/safety/right_of_way.hpp"
 #include "algo/trajectory/along_path.hpp"
 #include "algo/trajectory/bicycle.hpp"
@@ -41,6 +42,18 @@ bool follows_us(const Scene& scene, int path, const Agent& agent, const Paramete
          (path != 0 && follows_us(scene, scene.ego_paths[0], agent, parameters));
 }
 
+/// Whether it can brake gently enough to stay behind us, whose change into its lane is under way.
+bool lets_us_in(const Scene& scene, const EgoPath& path, const Trajectory& trajectory, const Agent& agent,
+                const Parameters& parameters) {
+  if (!change_under_way(scene, path, trajectory.points[0], parameters)) return false;
+  bool known = false;
+  const bool joining = joins(scene, path, agent);
+  const OnPath seen = see_on_path(scene, path, agent, parameters, joining, known);
+  if (!known || seen.crossing || seen.along_mps < 0.0F || !(seen.overlaps || joining)) return false;
+  const float rear_s_m = path.frenet.s_m - parameters.vehicle.rear_overhang_m;
+  return can_stay_behind(rear_s_m - seen.centre_s_m - seen.half_length_m, seen.along_mps, trajectory);
+}
+
 bool lets_us_finish(const Scene& scene, int index, const Trajectory& trajectory, const Agent& agent,
                     const Parameters& parameters) {
   const EgoPath& path = scene.ego_paths[index];
@@ -61,6 +74,7 @@ bool clear_of(const Scene& scene, int path, const Trajectory& trajectory, const 
       if (step < 0) continue;
       if (!mode.yields && will_yield(scene.ego_paths[path], agent)) continue;
       if (lets_us_finish(scene, path, trajectory, agent, parameters)) continue;
+      if (lets_us_in(scene, scene.ego_paths[path], trajectory, agent, parameters)) break;
       if (follows_us(scene, path, agent, parameters)) break;
       report = {CheckResult::kCollision, predicted.agent, static_cast<std::uint8_t>(step)};
       return false;
@@ -79,6 +93,7 @@ bool clear_of(const Scene& scene, int path, const Trajectory& trajectory, const 
                                      parameters.safety.margin_m, parameters);
     if (step < 0 || will_yield(scene.ego_paths[path], agent) ||
         lets_us_finish(scene, path, trajectory, agent, parameters) ||
+        lets_us_in(scene, scene.ego_paths[path], trajectory, agent, parameters) ||
         follows_us(scene, path, agent, parameters))
       continue;
     report = {CheckResult::kCollision, static_cast<std::uint8_t>(i), static_cast<std::uint8_t>(step)};

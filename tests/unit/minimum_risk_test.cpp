@@ -168,6 +168,70 @@ TEST(MinimumRisk, StaysWhenSomebodyComes) {
   }
 }
 
+/// Two lanes along +x, we 1.5 m to the left of the right one's centre, heading for the left one; others
+/// behind us, from bumper to bumper.
+struct Astride {
+  LaneMap map = straight_road(2, 300.0F);
+  Scene scene;
+  TrajectoryPoint start;
+  explicit Astride(float speed_mps) {
+    add_way(scene, map, path_of(map, {0}));
+    add_way(scene, map, path_of(map, {1}), Manoeuvre::kLeft);
+    start = state_on(map, scene.ego_paths[0].path, 100.0F, speed_mps, 1.5F);
+    start.rear_axle.heading_rad = 0.1F;
+    put_ego(scene, start);
+  }
+  void behind(int lane, float gap_m, float speed_mps) {
+    add_vehicle(scene, map, scene.ego_paths[lane].path, 99.0F - gap_m - 2.5F, speed_mps);
+  }
+};
+
+// MRM-007 Astride at 10 m/s, the one behind at 14 m/s: he needs 29.8 - 6.3 = 23.5 m. The stop ends in the
+// lane in which he is not, 5 m behind us; or, one in each, in that in which he is farther behind.
+TEST(MinimumRisk, StopsInTheLaneWhereItIsLeastInTheWay) {
+  for (const int lane : {0, 1}) {
+    Astride one(10.0F);
+    one.behind(lane, 5.0F, 14.0F);
+    const float other_m = lane == 0 ? kLaneWidthM : 0.0F;
+    EXPECT_NEAR(end_of(manoeuvre(one.scene, one.start)).rear_axle.y_m, other_m, 0.7F) << lane;
+    Astride both(10.0F);
+    both.behind(lane, 5.0F, 14.0F);
+    both.behind(1 - lane, 15.0F, 14.0F);
+    TrajectoryPoint state = both.start;
+    for (int i = 0; i < 30; ++i) {
+      put_ego(both.scene, state);
+      state = manoeuvre(both.scene, state).points[1];
+      for (Agent& agent : both.scene.agents) agent.track.centre.x_m += 1.2F;
+    }
+    EXPECT_NEAR(state.rear_axle.y_m, other_m, 0.7F) << lane;
+  }
+}
+
+// MRM-007 At 3 m/s a stop with 4 m/s^2 would end after 1.1 m, astride. It ends in a lane instead.
+TEST(MinimumRisk, DoesNotStopBetweenTwoLanes) {
+  Astride astride(3.0F);
+  TrajectoryPoint state = astride.start;
+  for (int i = 0; i < 100; ++i) {
+    put_ego(astride.scene, state);
+    state = manoeuvre(astride.scene, state).points[1];
+    EXPECT_LE(state.speed_mps, 3.0F);
+  }
+  EXPECT_LT(state.speed_mps, 0.3F);
+  const float aside_m =
+      std::fmin(std::fabs(state.rear_axle.y_m), std::fabs(state.rear_axle.y_m - kLaneWidthM));
+  EXPECT_LT(aside_m, 0.75F);
+}
+
+// MRM-008 Coming into the left lane, 10 m in front of one at 14 m/s, one 3 m behind us in the right one: he
+// takes 7 m to notice and 32.7 m to stop with 3 m/s^2. We leave him those with 100 / (2 * (39.7 + 1 - 10)) =
+// 1.63 m/s^2.
+TEST(MinimumRisk, BrakesGentlyInFrontOfWhoIsBehindInTheLaneEntered) {
+  Astride astride(10.0F);
+  astride.behind(0, 3.0F, 14.0F);
+  astride.behind(1, 10.0F, 14.0F);
+  EXPECT_NEAR(hardest(manoeuvre(astride.scene, astride.start)), -1.63F, 0.02F);
+}
+
 // MRM-006 Nothing known at all, wheels turned: braking on the present curvature, to rest.
 TEST(MinimumRisk, NeedsNoMap) {
   TrajectoryPoint start;

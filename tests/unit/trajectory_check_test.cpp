@@ -217,6 +217,37 @@ TEST(Check, HitFromBehindIsNoReason) {
   EXPECT_EQ(road.check(road.drive(10.0F, -2.0F)).result, CheckResult::kCollision);
 }
 
+// CHECK-010 In the lane we come to, at 10 m/s, one at 13 m/s drives on into us. From 6 m behind he can stay
+// there with 3 m/s^2 (3.5 m needed): a change under way goes on; it is not begun, nor gone on with from 3 m.
+TEST(Check, AChangeUnderWayIsFinishedInFrontOfWhoCanStayBehind) {
+  const auto result = [](float gap_m, bool begun) {
+    Road road;
+    add_way(road.scene, road.map, path_of(road.map, {1}), Manoeuvre::kLeft);
+    TrajectoryPoint start = state_on(road.map, road.scene.ego_paths[0].path, 100.0F, 10.0F);
+    if (begun) {
+      start.rear_axle.y_m = 0.6F;
+      start.rear_axle.heading_rad = 0.08F;
+    }
+    put_ego(road.scene, start);
+    road.vehicle(1, 99.0F - gap_m - 2.5F, 13.0F);
+    road.predict(road.unconditioned, 0, road.keep_going.agents[0]);
+    Trajectory trajectory;
+    trajectory.points[0] = start;
+    for (int i = 1; i < kTrajectoryPoints; ++i) {
+      TrajectoryPoint& point = trajectory.points[i];
+      point = trajectory.points[i - 1];
+      point.rear_axle.x_m += 1.0F;
+      if (point.rear_axle.y_m < kLaneWidthM) point.rear_axle.y_m += 0.15F;
+    }
+    return check_trajectory(road.scene, 1, trajectory, road.unconditioned, road.conditioned, road.keep_going,
+                            road.parameters)
+        .result;
+  };
+  EXPECT_EQ(result(6.0F, true), CheckResult::kPassed);
+  EXPECT_EQ(result(6.0F, false), CheckResult::kCollision);
+  EXPECT_EQ(result(3.0F, true), CheckResult::kCollision);
+}
+
 // CHECK-008 A car standing 0.2 m beside us (margin 0.3 m) does not freeze us; steering 0.15 m nearer counts.
 TEST(Check, StandingCloseIsNoCollision) {
   Road road;
