@@ -50,7 +50,8 @@ bool joins(const Scene& scene, const EgoPath& path, const Agent& agent) {
 
 Neighbours find_neighbours(const Scene& scene, const EgoPath& path, const Parameters& parameters) {
   const float s_m = path.frenet.s_m;
-  Neighbours found{find_leader(scene, path, s_m, parameters), find_follower(scene, path, s_m, parameters)};
+  Neighbours found{find_leader(scene, path, s_m, parameters), find_follower(scene, path, s_m, parameters),
+                   -1};
   const float centre_s_m = s_m + rear_axle_to_centre_m(parameters);
   const float front_s_m = s_m + rear_axle_to_front_m(parameters);
   const float rear_s_m = s_m - parameters.vehicle.rear_overhang_m;
@@ -63,6 +64,10 @@ Neighbours find_neighbours(const Scene& scene, const EgoPath& path, const Parame
     const bool ahead = seen.centre_s_m > centre_s_m;
     const float gap_m = ahead ? seen.centre_s_m - seen.half_length_m - front_s_m
                               : rear_s_m - seen.centre_s_m - seen.half_length_m;
+    if (gap_m < 0.0F) {
+      found.joins_beside = i;
+      continue;
+    }
     Leader& nearest = ahead ? found.leader : found.follower;
     if (nearest.agent >= 0 && gap_m >= nearest.gap_m) continue;
     nearest = {i, gap_m, seen.along_mps, agent.track.acceleration_mps2};

@@ -26,6 +26,7 @@ inline constexpr float kFollowerBrakingMps2 = 3.0F;
 struct Neighbours {
   Leader leader;
   Leader follower;
+  int joins_beside = -1;  ///< who joins it neither ahead nor behind; -1: nobody
 };
 [[nodiscard]] Neighbours find_neighbours(const Scene& scene, const EgoPath& path,
                                          const Parameters& parameters);

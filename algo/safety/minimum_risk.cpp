@@ -25,6 +25,7 @@ constexpr int kStretches = 3;
 constexpr float kInLaneM = 0.6F;    // nearer to a lane's centre we are in it for good
 constexpr float kWayAcross = 5.0F;  // way along the lane for each metre to its centre
 constexpr float kNoticeS = 0.5F;    // until the one behind brakes
+constexpr float kBesideUsM = 1e3F;  // short of the safe distance by more than anybody behind
 
 /// Braking that stops within `way_m`, its build-up counted in.
 float needed_mps2(float speed_mps, float way_m) {
@@ -69,8 +70,13 @@ float driving_time_s(float way_m, float speed_mps) {
   return (sqrt(square(speed_mps) + 2.0F * kLeavingMps2 * way_m) - speed_mps) / kLeavingMps2;
 }
 
-/// By how much who is behind in the lane of the path is nearer to us than is safe.
-float in_the_way_m(const Leader& follower, float speed_mps, const Parameters& parameters) {
+/// By how much who is behind in the lane of the path is nearer to us than is safe; more when somebody is
+/// beside us there.
+float in_the_way_m(const Neighbours& others, float speed_mps, const Parameters& parameters) {
+  const auto& [leader, follower, joins_beside] = others;
+  const bool beside = joins_beside >= 0 || (leader.agent >= 0 && leader.gap_m < 0.0F) ||
+                      (follower.agent >= 0 && follower.gap_m < 0.0F);
+  if (beside) return kBesideUsM;
   if (follower.agent < 0) return 0.0F;
   return max(0.0F, safe_distance_m(follower.speed_mps, speed_mps, parameters) - follower.gap_m);
 }
@@ -83,8 +89,8 @@ int path_to_stop_on(const Scene& scene, const TrajectoryPoint& start, const Para
   for (int i = 0; i < scene.ego_paths.size(); ++i) {
     const EgoPath& path = scene.ego_paths[i];
     if (!change_under_way(scene, path, start, parameters)) continue;
-    const Leader follower = find_neighbours(scene, path, parameters).follower;
-    const float here_m = in_the_way_m(follower, start.speed_mps, parameters);
+    const Neighbours others = find_neighbours(scene, path, parameters);
+    const float here_m = in_the_way_m(others, start.speed_mps, parameters);
     const bool nearer = best >= 0 && abs(path.frenet.d_m) < abs(scene.ego_paths[best].frenet.d_m);
     if (best >= 0 && (here_m > least_m || (here_m == least_m && !nearer))) continue;
     best = i;

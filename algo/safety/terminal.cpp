@@ -201,7 +201,9 @@ TerminalVerdict judge_terminal(const Scene& scene, int path_index, const Traject
     return leader_safe(path, leader, along, false, parameters) ? TerminalVerdict{}
                                                                : blame(TerminalCause::kLeader, leader.agent);
   }
-  const auto [leader, follower] = find_neighbours(scene, path, parameters);
+  const auto [leader, follower, joins_beside] = find_neighbours(scene, path, parameters);
+  // To brake for who joins it at the same time is to stay beside him: who is under way goes on.
+  if (!under_way && joins_beside >= 0) return blame(TerminalCause::kFollower, joins_beside);
   if (!leader_safe(path, leader, along, !under_way, parameters))
     return blame(TerminalCause::kLeader, leader.agent);
   const bool follower_stays = under_way && can_stay_behind(follower.gap_m, follower.speed_mps, trajectory);

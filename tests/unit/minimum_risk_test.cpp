@@ -207,6 +207,14 @@ TEST(MinimumRisk, StopsInTheLaneWhereItIsLeastInTheWay) {
   }
 }
 
+// MRM-007 One beside us in the left lane, a metre ahead: worse than one 5 m behind in the right one.
+TEST(MinimumRisk, DoesNotStopWhereSomebodyIsBesideUs) {
+  Astride astride(10.0F);
+  astride.behind(0, 5.0F, 14.0F);
+  astride.behind(1, -8.5F, 10.0F);
+  EXPECT_NEAR(end_of(manoeuvre(astride.scene, astride.start)).rear_axle.y_m, 0.0F, 0.7F);
+}
+
 // MRM-007 At 3 m/s a stop with 4 m/s^2 would end after 1.1 m, astride. It ends in a lane instead.
 TEST(MinimumRisk, DoesNotStopBetweenTwoLanes) {
   Astride astride(3.0F);

@@ -430,13 +430,28 @@ TEST(Terminal, AChangeUnderWayIsFinished) {
 }
 
 // TERM-019 Three lanes; one beside us, in the third, on his way into the second: we do not begin to change
-// into it. When he keeps to his lane, we do.
+// into it. When he keeps to his lane, we do; and who has begun already does not fall back to his side.
 TEST(Terminal, WhoJoinsTheLaneFromItsOtherSideCounts) {
-  for (const bool joins : {false, true}) {
-    Change change(3, 100.0F, 10.0F, 0.0F, 0.0F);
+  const auto cause = [](bool joins, bool begun) {
+    Change change(3, 100.0F, 10.0F, begun ? 0.6F : 0.0F, begun ? 0.08F : 0.0F);
     Agent& beside = add_vehicle(change.scene, change.map, path_of(change.map, {2}), 101.0F, 10.0F, -0.3F);
     if (joins) (void)beside.paths.push(path_of(change.map, {1}));
-    EXPECT_EQ(change.cause(), joins ? TerminalCause::kFollower : TerminalCause::kNone);
+    return change.cause();
+  };
+  EXPECT_EQ(cause(true, false), TerminalCause::kFollower);
+  EXPECT_EQ(cause(false, false), TerminalCause::kNone);
+  EXPECT_EQ(cause(true, true), TerminalCause::kNone);
+}
+
+// TERM-019 The same, his centre 12 m behind ours: 7 m from bumper to bumper are enough for one as fast (5.5
+// needed), not for one who comes 3 m/s faster.
+TEST(Terminal, WhoJoinsTheLaneBehindUsFollowsThere) {
+  for (const float speed_mps : {10.0F, 13.0F}) {
+    Change change(3, 100.0F, 10.0F, 0.0F, 0.0F);
+    Agent& behind =
+        add_vehicle(change.scene, change.map, path_of(change.map, {2}), 101.5F - 12.0F, speed_mps);
+    (void)behind.paths.push(path_of(change.map, {1}));
+    EXPECT_EQ(change.cause(), speed_mps > 11.0F ? TerminalCause::kFollower : TerminalCause::kNone);
   }
 }
 
