@@ -47,9 +47,9 @@ struct TerminalVerdict {
 /// lane change keeps a distance to the leader there that asks for less than rss b_min at once, and leaves the
 /// one behind 0.3 s and 2.5 m, and a braking of 3 m/s^2 at most (TERM-010); drive beyond comfort is not
 /// counted on for it; and it is not begun beside one who comes into the same lane from its other side.
-/// Once under way (lane_change.hpp) a change is finished: the leader counts as any other, the one behind needs
-/// room only to stay there, and no room is kept for the next change (TERM-020). \param path  index of the ego
-/// path the trajectory follows
+/// Once under way (lane_change.hpp) a change is finished: the leader counts as any other, the one behind
+/// needs room only to stay there, and no room is kept for the next change (TERM-020). \param path  index of
+/// the ego path the trajectory follows
 [[nodiscard]] TerminalVerdict judge_terminal(const Scene& scene, int path, const Trajectory& trajectory,
                                              const Parameters& parameters);
 

@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include "algo/core/math.hpp"
-#include "algo/safety/lane_change.hpp"
 #include "algo/trajectory/bicycle.hpp"
 #include "tests/support/driving_scenes.hpp"
 
@@ -359,112 +358,6 @@ TEST(Terminal, FollowersBeforeTheLanesStartCount) {
       trajectory.points[i].rear_axle.y_m = kLaneWidthM * static_cast<float>(i) / 30.0F;
     }
     EXPECT_EQ(judge_terminal(scene, 1, trajectory, Parameters{}).safe(), gap_m > 6.0F) << gap_m;
-  }
-}
-
-/// Two lanes or more along +x, we at s = 100 of the right one, and a drive at constant speed into the next.
-struct Change {
-  LaneMap map;
-  Scene scene;
-  TrajectoryPoint start;
-  Change(int lanes, float s_m, float speed_mps, float left_m, float heading_rad)
-      : map(straight_road(lanes, 400.0F)) {
-    add_way(scene, map, path_of(map, {0}));
-    add_way(scene, map, path_of(map, {1}), Manoeuvre::kLeft);
-    start = state_on(map, scene.ego_paths[0].path, s_m, speed_mps, left_m);
-    start.rear_axle.heading_rad = heading_rad;
-    put_ego(scene, start);
-  }
-  [[nodiscard]] Trajectory drive() const {
-    Trajectory trajectory;
-    trajectory.points[0] = start;
-    for (int i = 1; i < kTrajectoryPoints; ++i) {
-      const float part = static_cast<float>(i) / 30.0F;
-      TrajectoryPoint& point = trajectory.points[i];
-      point = start;
-      point.rear_axle.x_m += start.speed_mps * 3.0F * part;
-      point.rear_axle.y_m += (kLaneWidthM - start.rear_axle.y_m) * part;
-    }
-    return trajectory;
-  }
-  [[nodiscard]] TerminalCause cause() const { return judge_terminal(scene, 1, drive(), Parameters{}).cause; }
-};
-
-// TERM-017 The line is 1.6 m to our left, the corner 4 m ahead and 0.9 m beside the rear axle: at rest, 0.6 m
-// left of the centre and turned by 0.08, it is over the line by 0.2 m; not turned, 0.1 m short of it. From
-// 0.5 m and turned by 0.03 it is 0.08 m short at rest, and over it within half a second at 10 m/s.
-TEST(LaneChange, IsUnderWayWhenACornerIsOverTheLine) {
-  const auto under_way = [](float speed_mps, float left_m, float heading_rad) {
-    const Change change(2, 100.0F, speed_mps, left_m, heading_rad);
-    return change_under_way(change.scene, change.scene.ego_paths[1], change.start, Parameters{});
-  };
-  EXPECT_TRUE(under_way(0.0F, 0.6F, 0.08F));
-  EXPECT_FALSE(under_way(0.0F, 0.6F, 0.0F));
-  EXPECT_FALSE(under_way(0.0F, 0.5F, 0.03F));
-  EXPECT_TRUE(under_way(10.0F, 0.5F, 0.03F));
-}
-
-// TERM-018 The one behind, 3 m/s faster, comes 1.5 m nearer in half a second and 1.5 m more while he brakes:
-// with the half metre left he needs 3.5 m. One that we would meet at the end of the horizon only, from rest:
-// at 10 m/s he needs 5 + 100 / 6 = 21.7 m.
-TEST(LaneChange, WhoIsBehindBrakesGently) {
-  const Trajectory at_ten = Change(2, 100.0F, 10.0F, 0.0F, 0.0F).drive();
-  EXPECT_TRUE(can_stay_behind(3.7F, 13.0F, at_ten));
-  EXPECT_FALSE(can_stay_behind(3.3F, 13.0F, at_ten));
-  const Trajectory at_rest = Change(2, 100.0F, 0.0F, 0.0F, 0.0F).drive();
-  EXPECT_TRUE(can_stay_behind(22.5F, 10.0F, at_rest));
-  EXPECT_FALSE(can_stay_behind(21.5F, 10.0F, at_rest));
-}
-
-// TERM-018 At 10 m/s, one 10 m behind in the next lane at 13: he would be within a metre after 3 s, which a
-// start does not ask of him. A change under way is finished in front of him, but not of one 3 m behind.
-TEST(Terminal, AChangeUnderWayIsFinished) {
-  for (const float gap_m : {10.0F, 3.0F}) {
-    for (const bool begun : {false, true}) {
-      Change change(2, 100.0F, 10.0F, begun ? 0.6F : 0.0F, begun ? 0.08F : 0.0F);
-      add_vehicle(change.scene, change.map, change.scene.ego_paths[1].path, 99.0F - gap_m - 2.5F, 13.0F);
-      const bool safe = begun && gap_m > 5.0F;
-      EXPECT_EQ(change.cause(), safe ? TerminalCause::kNone : TerminalCause::kFollower) << gap_m << begun;
-    }
-  }
-}
-
-// TERM-019 Three lanes; one beside us, in the third, on his way into the second: we do not begin to change
-// into it. When he keeps to his lane, we do; and who has begun already does not fall back to his side.
-TEST(Terminal, WhoJoinsTheLaneFromItsOtherSideCounts) {
-  const auto cause = [](bool joins, bool begun) {
-    Change change(3, 100.0F, 10.0F, begun ? 0.6F : 0.0F, begun ? 0.08F : 0.0F);
-    Agent& beside = add_vehicle(change.scene, change.map, path_of(change.map, {2}), 101.0F, 10.0F, -0.3F);
-    if (joins) (void)beside.paths.push(path_of(change.map, {1}));
-    return change.cause();
-  };
-  EXPECT_EQ(cause(true, false), TerminalCause::kFollower);
-  EXPECT_EQ(cause(false, false), TerminalCause::kNone);
-  EXPECT_EQ(cause(true, true), TerminalCause::kNone);
-}
-
-// TERM-019 The same, his centre 12 m behind ours: 7 m from bumper to bumper are enough for one as fast (5.5
-// needed), not for one who comes 3 m/s faster.
-TEST(Terminal, WhoJoinsTheLaneBehindUsFollowsThere) {
-  for (const float speed_mps : {10.0F, 13.0F}) {
-    Change change(3, 100.0F, 10.0F, 0.0F, 0.0F);
-    Agent& behind =
-        add_vehicle(change.scene, change.map, path_of(change.map, {2}), 101.5F - 12.0F, speed_mps);
-    (void)behind.paths.push(path_of(change.map, {1}));
-    EXPECT_EQ(change.cause(), speed_mps > 11.0F ? TerminalCause::kFollower : TerminalCause::kNone);
-  }
-}
-
-// TERM-020 At 6 m/s from s = 350 the plan ends at 368 and stops at 374.5: past 371, from where one more
-// change would fit before the road ends. Not to be begun, but to be finished.
-TEST(Terminal, AChangeUnderWayIsFinishedBeforeTheNext) {
-  for (const bool begun : {false, true}) {
-    Change change(2, 350.0F, 6.0F, begun ? 0.6F : 0.0F, begun ? 0.08F : 0.0F);
-    for (Lane& lane : change.map.lanes) {
-      lane.on_route = false;
-      lane.changes_needed = 1;
-    }
-    EXPECT_EQ(change.cause(), begun ? TerminalCause::kNone : TerminalCause::kLaneEnd);
   }
 }
 
