@@ -24,6 +24,7 @@ constexpr float kStretch = 1.7F;
 constexpr int kStretches = 3;
 constexpr float kInLaneM = 0.6F;    // nearer to a lane's centre we are in it for good
 constexpr float kWayAcross = 5.0F;  // way along the lane for each metre to its centre
+constexpr float kSoftestMps2 = 0.3F;
 constexpr float kNoticeS = 0.5F;    // until the one behind brakes
 constexpr float kBesideUsM = 1e3F;  // short of the safe distance by more than anybody behind
 
@@ -112,7 +113,7 @@ float braking_into_lane(const Scene& scene, const EgoPath& path, float speed_mps
         follower.speed_mps * kNoticeS + square(follower.speed_mps) / (2.0F * kFollowerBrakingMps2);
     way_m = max(way_m, its_way_m + kGapM - follower.gap_m);
   }
-  return min(braking_mps2, square(speed_mps) / (2.0F * way_m));
+  return clamp(square(speed_mps) / (2.0F * way_m), kSoftestMps2, braking_mps2);
 }
 
 /// Whether everybody lets us drive on by `way_m`, through all zones we touch on it.

@@ -180,15 +180,14 @@ TerminalVerdict judge_terminal(const Scene& scene, int path_index, const Traject
       along.start_s_m() + square(along.start_mps) / (2.0F * parameters.comfort.braking_mps2);
   if (!stops_before(along, max(end_of_road_m, at_once_m), parameters)) return blame(TerminalCause::kRoadEnd);
   const bool changes = changes_lane(scene, path);
-  const bool under_way = change_under_way(scene, path, trajectory.points[0], parameters);
+  const bool under_way = changes && change_under_way(scene, path, trajectory.points[0], parameters);
   // Where the road ends in the wrong lane, room is left to change lanes from rest. Who is past that stops at
   // once, for what is left is better than nothing; but a change under way is finished before: nobody is to
   // stand astride two lanes.
   const float astride = min(1.0F, abs(path.frenet.d_m) / kUsualLaneM);
   const float finished_m = along.start_s_m() + astride * kChangeWayM;
   const float last_change_m = max(end_of_road_m - change_room_m(scene, path), finished_m);
-  const bool finishes = changes && under_way;
-  if (!finishes && !stops_before(along, max(last_change_m, at_once_m), parameters)) {
+  if (!under_way && !stops_before(along, max(last_change_m, at_once_m), parameters)) {
     return blame(TerminalCause::kLaneEnd);
   }
   const bool inside_one = starts_inside(path, along, parameters);

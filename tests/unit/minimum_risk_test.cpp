@@ -230,6 +230,18 @@ TEST(MinimumRisk, DoesNotStopBetweenTwoLanes) {
   EXPECT_LT(aside_m, 0.75F);
 }
 
+// MRM-005 At rest astride, before a zone: the pose stays.
+TEST(MinimumRisk, StaysAtRestAstride) {
+  Astride astride(0.0F);
+  ConflictZone zone;
+  zone.entry_s_m = 110.0F;
+  zone.exit_s_m = 120.0F;
+  for (EgoPath& path : astride.scene.ego_paths) (void)path.zones.push(zone);
+  const TrajectoryPoint end = end_of(manoeuvre(astride.scene, astride.start));
+  EXPECT_EQ(end.rear_axle.x_m, astride.start.rear_axle.x_m);
+  EXPECT_EQ(end.speed_mps, 0.0F);
+}
+
 // MRM-008 Coming into the left lane, 10 m in front of one at 14 m/s, one 3 m behind us in the right one: he
 // takes 7 m to notice and 32.7 m to stop with 3 m/s^2. We leave him those with 100 / (2 * (39.7 + 1 - 10)) =
 // 1.63 m/s^2.
