@@ -54,6 +54,13 @@ TEST(LaneChange, IsUnderWayWhenACornerIsOverTheLine) {
   EXPECT_TRUE(under_way(10.0F, 0.5F, 0.03F));
 }
 
+// TERM-017 Heading out of our own lane, 1.5 m from its centre, at 10 m/s: while a corner is in it, it is a
+// lane we are in.
+TEST(LaneChange, TheLaneLeftIsStillOurs) {
+  const Change change(2, 100.0F, 10.0F, 1.5F, 0.2F);
+  EXPECT_TRUE(change_under_way(change.scene, change.scene.ego_paths[0], change.start, Parameters{}));
+}
+
 // TERM-018 The one behind, 3 m/s faster, comes 1.5 m nearer in half a second and 1.5 m more while he brakes:
 // with the half metre left he needs 3.5 m. One that we would meet at the end of the horizon only, from rest:
 // at 10 m/s he needs 5 + 100 / 6 = 21.7 m.
