@@ -15,8 +15,8 @@ constexpr float kOverlapS = 0.3F;      // of one leaving and one who stands, sta
 constexpr int kGivenUpMs = 2000;       // who stands for longer with nobody to wait for does not use his right
 constexpr float kStartS = 0.5F;        // until somebody who stands is under way
 constexpr float kGentlyMps2 = 2.0F;    // easily braked with
-constexpr float kQueueingMps = 5.0F;   // faster behind one who stands may be about to pass him
-constexpr float kSlowMps = 5.0F;       // who is no faster is easily stopped
+constexpr float kSlowMps = 5.0F;       // who is no faster is easily stopped; a faster one may pass who stands
+constexpr float kFollowingS = 1.0F;    // from one who sets off to the next
 constexpr float kAtLineM = 2.0F;       // this near before a stop line is at it
 constexpr float kLikely = 0.1F;        // less probable ways are not expected to be taken
 constexpr float kWaitingPlaceM = 2.5F;  // between two zones there is room to wait, clear of both
@@ -32,28 +32,6 @@ bool can_stop(const Agent& agent, float way_m, float braking_mps2) {
   return way_m > 0.0F && square(agent.track.speed_mps) <= 2.0F * braking_mps2 * way_m;
 }
 
-/// Who decides when the vehicle comes to the zone: who stands before it in its own lane, or itself.
-int head_of_queue(const Scene& scene, int index, Approach& approach) {
-  const Agent& agent = scene.agents[index];
-  if (agent.track.speed_mps > kQueueingMps) return index;
-  const LanePath& path = agent.paths[approach.path];
-  const float own_s_m = agent.frenet[approach.path].s_m;
-  const float entry_s_m = own_s_m + approach.to_entry_m;
-  int head = index;
-  float nearest_s_m = own_s_m;
-  for (int i = 0; i < scene.agents.size(); ++i) {
-    float s_m = 0.0F;
-    if (i == index || scene.agents[i].idle_ms < kGivenUpMs) continue;
-    if (!arc_length_on(path, scene.agents[i], s_m)) continue;
-    if (s_m <= nearest_s_m || s_m >= entry_s_m) continue;
-    head = i;
-    nearest_s_m = s_m;
-  }
-  approach.to_exit_m = approach.to_exit_m - (nearest_s_m - own_s_m);
-  approach.to_entry_m = entry_s_m - nearest_s_m;
-  return head;
-}
-
 /// Whether it has stood for a second.
 bool stands(const Agent& agent) {
   for (int i = 0; i < kHistorySamples; ++i) {
@@ -62,28 +40,55 @@ bool stands(const Agent& agent) {
   return true;
 }
 
+/// The head of the queue the vehicle is in or comes to: who stands nearest to the zone on its way there, or
+/// itself.
+struct Head {
+  int agent;
+  float to_entry_m;  ///< of the head
+};
+Head head_of_queue(const Scene& scene, int index, const Approach& approach) {
+  const Agent& agent = scene.agents[index];
+  const LanePath& path = agent.paths[approach.path];
+  const float entry_s_m = agent.frenet[approach.path].s_m + approach.to_entry_m;
+  Head head{index, approach.to_entry_m};
+  for (int i = 0; i < scene.agents.size(); ++i) {
+    const Agent& other = scene.agents[i];
+    if (i == index || !(other.idle_ms >= kGivenUpMs || stands(other))) continue;
+    float s_m = 0.0F;
+    if (!arc_length_on(path, other, s_m)) continue;
+    const float to_entry_m = entry_s_m - s_m;
+    if (to_entry_m > 0.0F && to_entry_m < head.to_entry_m) head = {i, to_entry_m};
+  }
+  return head;
+}
+
 /// Whether it, though it has the right of way and could come while we are there, will let us.
 bool is_trusted(const Scene& scene, int index, const ConflictZone& zone, const Approach& approach, float in_s,
                 float out_s, Resolve resolve, const Parameters& parameters) {
   const Agent& agent = scene.agents[index];
-  Approach first = approach;
-  const Agent& head = scene.agents[head_of_queue(scene, index, first)];
+  const Head first = head_of_queue(scene, index, approach);
+  const Agent& head = scene.agents[first.agent];
   const float start_s = earliest_time_s(scene, head, zone, first.to_entry_m, parameters);
-  if (head.idle_ms >= kGivenUpMs && in_s < start_s + kStartS) return true;
-  if (stands(head) && out_s < start_s + kOverlapS) return true;
-
   const bool waited = scene.waited_s > parameters.safety.patience_s;
-  if (!waited && resolve != Resolve::kUnderWay) return false;
+  if (first.agent == index || agent.track.speed_mps < kSlowMps) {
+    if (head.idle_ms >= kGivenUpMs && in_s < start_s + kStartS) return true;
+    if (stands(head) && (out_s < start_s + kOverlapS || (waited && in_s + kFirstInS < start_s))) return true;
+  }
+
+  const bool under_way = resolve != Resolve::kConsidering;
+  if (!waited && !under_way) return false;
   if (!can_stop(agent, approach.to_entry_m, kGentlyMps2)) return false;
-  const bool under_way = resolve == Resolve::kUnderWay;
   const bool slow = agent.track.speed_mps < kSlowMps;
   if (under_way && slow &&
       in_s + kFirstInS < earliest_time_s(scene, agent, zone, approach.to_entry_m, parameters))
     return true;
   const Approach expected = approach_to(agent, zone, kLikely);
   if (!expected.reaches) return true;
-  const float meeting_m = zone.merging ? expected.to_exit_m : expected.to_entry_m;
-  return expected_time_s(scene, agent, zone, meeting_m) > out_s + zone_margin_s(scene, resolve, parameters);
+  const float needed_s = out_s + zone_margin_s(scene, resolve, parameters);
+  if (first.agent != index)  // not before the one in front of it
+    return expected_time_s(scene, head, zone, first.to_entry_m) + kFollowingS > needed_s;
+  return expected_time_s(scene, agent, zone, zone.merging ? expected.to_exit_m : expected.to_entry_m) >
+         needed_s;
 }
 
 }  // namespace
@@ -143,19 +148,19 @@ Passage judge_passage(const Scene& scene, int index, const ConflictZone& zone, f
   const float arrival_s = earliest_arrival_s(scene, index, zone, parameters);
   const bool we_yield =
       zone.priority == Priority::kFirstYields || (zone.priority == Priority::kFirstCome && arrival_s < in_s);
-  if (we_yield && resolve != Resolve::kCommitted) {
-    // Who comes after us into the same lane may be on the ground shared while we are: not when we leave it.
-    const float meeting_s =
-        zone.merging ? earliest_time_s(scene, agent, zone, approach.to_exit_m, parameters) : arrival_s;
-    if (meeting_s > out_s + zone_margin_s(scene, resolve, parameters)) return Passage::kFree;
-    const bool trusted = is_trusted(scene, index, zone, approach, in_s, out_s, resolve, parameters);
-    return trusted ? Passage::kTrusted : Passage::kRefused;
-  }
-  // It owes us the way, or we can no longer stop: will it, at its present speed, be there while we are?
   if (!we_yield && can_stop_for_us(agent, approach)) return Passage::kFree;
   const float speed_mps = agent.track.speed_mps;
   const bool later = speed_mps < kMovingMps || approach.to_entry_m / speed_mps > out_s + kBesideS;
-  return later ? Passage::kFree : Passage::kRefused;
+  if (!we_yield) return later ? Passage::kFree : Passage::kRefused;  // it should yield, but will not
+
+  // Who comes after us into the same lane may be on the ground shared while we are: not when we leave it.
+  const float meeting_s =
+      zone.merging ? earliest_time_s(scene, agent, zone, approach.to_exit_m, parameters) : arrival_s;
+  const bool clearly_later = meeting_s > out_s + zone_margin_s(scene, resolve, parameters);
+  if (resolve == Resolve::kConsidering && clearly_later) return Passage::kFree;
+  if (clearly_later || (resolve == Resolve::kCommitted && later)) return Passage::kTrusted;
+  const bool trusted = is_trusted(scene, index, zone, approach, in_s, out_s, resolve, parameters);
+  return trusted ? Passage::kTrusted : Passage::kRefused;
 }
 
 }  // namespace s4tp
