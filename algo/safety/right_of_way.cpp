@@ -11,14 +11,16 @@ constexpr float kStandsMps = 0.3F;     // all that a standing car's measured spe
 constexpr float kPassedFirstS = 0.1F;  // others who clear a zone this long before we enter it went first
 constexpr float kBesideS = 0.5F;       // between us and one who should yield but will not
 constexpr float kFirstInS = 0.3F;      // before another we are plainly first
-constexpr float kOverlapS = 0.3F;      // of one leaving and one who stands, starting now: less than he needs
-constexpr int kGivenUpMs = 2000;       // who stands for longer with nobody to wait for does not use his right
-constexpr float kStartS = 0.5F;        // until somebody who stands is under way
-constexpr float kGentlyMps2 = 2.0F;    // easily braked with
-constexpr float kSlowMps = 5.0F;       // who is no faster is easily stopped; a faster one may pass who stands
-constexpr float kFollowingS = 1.0F;    // from one who sets off to the next
-constexpr float kAtLineM = 2.0F;       // this near before a stop line is at it
-constexpr float kLikely = 0.1F;        // less probable ways are not expected to be taken
+constexpr float kWellFirstS = 1.0F;    // before one who is setting off, and may not see that we do, too
+constexpr float kSettingOffMps2 = 1.0F;
+constexpr float kOverlapS = 0.3F;    // of one leaving and one who stands, starting now: less than he needs
+constexpr int kGivenUpMs = 2000;     // who stands for longer with nobody to wait for does not use his right
+constexpr float kStartS = 0.5F;      // until somebody who stands is under way
+constexpr float kGentlyMps2 = 2.0F;  // easily braked with
+constexpr float kSlowMps = 5.0F;     // who is no faster is easily stopped; a faster one may pass who stands
+constexpr float kFollowingS = 1.0F;  // from one who sets off to the next
+constexpr float kAtLineM = 2.0F;     // this near before a stop line is at it
+constexpr float kLikely = 0.1F;      // less probable ways are not expected to be taken
 constexpr float kWaitingPlaceM = 2.5F;  // between two zones there is room to wait, clear of both
 
 /// Whether its present braking, kept up, ends before the zone.
@@ -77,11 +79,14 @@ bool is_trusted(const Scene& scene, int index, const ConflictZone& zone, const A
 
   const bool under_way = resolve != Resolve::kConsidering;
   if (!waited && !under_way) return false;
-  if (!can_stop(agent, approach.to_entry_m, kGentlyMps2)) return false;
-  const bool slow = agent.track.speed_mps < kSlowMps;
-  if (under_way && slow &&
-      in_s + kFirstInS < earliest_time_s(scene, agent, zone, approach.to_entry_m, parameters))
-    return true;
+  // Who finds us on the ground shared brakes as hard as it takes.
+  const float braking_mps2 = in_s > 0.0F ? kGentlyMps2 : kTrustedBrakingMps2;
+  if (!can_stop(agent, approach.to_entry_m, braking_mps2)) return false;
+  if (under_way && agent.track.speed_mps < kSlowMps) {
+    const bool sets_off = agent.track.acceleration_mps2 > kSettingOffMps2 && in_s > 0.0F;
+    const float first_s = in_s + (sets_off ? kWellFirstS : kFirstInS);
+    if (first_s < earliest_time_s(scene, agent, zone, approach.to_entry_m, parameters)) return true;
+  }
   const Approach expected = approach_to(agent, zone, kLikely);
   if (!expected.reaches) return true;
   const float needed_s = out_s + zone_margin_s(scene, resolve, parameters);
