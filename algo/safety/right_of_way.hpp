@@ -51,13 +51,17 @@ enum class Passage : std::uint8_t {
 /// - who has stood for 2 s though nobody it gives way to is coming, if we are there half a second after it
 ///   could be at the latest: waiting for each other would not end;
 /// - who has stood for 1 s, if it comes 0.3 s before we have left at the earliest: it may start when we do,
-///   for it may have waited for the same gap, but takes that long to get under way. The same for who queues
-///   behind one who stands (TERM-015);
-/// - who is slow when our crossing is under way, if we are there 0.3 s before it and it can stop gently
-///   (TERM-016);
-/// - for who has waited safety.patience_s, or is under way: who can stop gently and, going on as it does on
-///   ways of some likelihood, comes zone_margin_s() after us. One who brakes or stands is expected to set off
-///   (TERM-021).
+///   for it may have waited for the same gap, but takes that long to get under way. To who has waited
+///   safety.patience_s it is enough to be there 0.3 s before it. The same for who queues behind one who
+///   stands (TERM-015);
+/// - who is slow when our crossing is under way, if it can stop gently and we are there 0.3 s before it, or a
+///   second where it is setting off as we are (TERM-016);
+/// - for who has waited so long, or is under way: who can stop gently and, going on as it does on ways of
+/// some
+///   likelihood, comes zone_margin_s() after us. One who brakes or stands is expected to set off, and nobody
+///   before the one in front (TERM-021).
+/// Once we are in the zone, who can still stop with kTrustedBrakingMps2 is as good as who can gently. A
+/// crossing under way turns free into trusted: who comes after us may have to see that he does.
 [[nodiscard]] Passage judge_passage(const Scene& scene, int index, const ConflictZone& zone, float in_s,
                                     float out_s, Resolve resolve, const Parameters& parameters);
 

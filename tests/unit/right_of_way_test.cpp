@@ -159,6 +159,53 @@ TEST(RightOfWay, ACrossingIsUnderWayToItsLastExit) {
   EXPECT_FLOAT_EQ(under_way_until_s_m(path, 100.0F, 1.0F, road.parameters), 104.0F);
 }
 
+// TERM-016 At 3 m/s inside one zone, 4.5 m before the next (there after 1.5 s). The other, 9 m before that at
+// 2 m/s (2.2 s), is trusted while it goes on; not when it sets off with 2 m/s^2 as we did: then a second is
+// asked for, and from 12 m (2.6 s) there is one.
+TEST(RightOfWay, WhoSetsOffWhenWeDoMayNotSeeUs) {
+  const auto crossing = [](float way_m, float acceleration_mps2) {
+    Crossing road(Priority::kFirstYields);
+    ConflictZone next = road.zone();
+    next.entry_s_m = 106.0F;
+    next.exit_s_m = 112.0F;
+    next.stop_s_m = 95.0F;
+    (void)road.scene.ego_paths[0].zones.push(next);
+    road.other(96.0F - way_m, 2.0F).track.acceleration_mps2 = acceleration_mps2;
+    return road.safe(100.0F, 3.0F, 0.0F);
+  };
+  EXPECT_TRUE(crossing(9.0F, 0.0F));
+  EXPECT_FALSE(crossing(9.0F, 2.0F));
+  EXPECT_TRUE(crossing(12.0F, 2.0F));
+}
+
+// TERM-015 One comes at 9 m/s, 27 m before the zone, behind one who has stood for a second 5 m before it: he
+// cannot be there before that one, who is expected after 0.5 + sqrt(10 / 1.5) = 3.1 s, and he a second later.
+// From 93 with 3 m/s^2 we are in the zone after 1 s and out after 2.5 s. Alone he is there after 3 s: too
+// soon.
+TEST(RightOfWay, NobodyPassesTheOneInFront) {
+  for (const bool queue : {true, false}) {
+    Crossing road(Priority::kFirstYields);
+    road.scene.waited_s = 9.0F;
+    road.other(96.0F - 27.0F, 9.0F);
+    if (queue) {
+      Agent& head = road.other(96.0F - 5.0F, 0.0F);
+      head.history.valid = (1U << kHistorySamples) - 1U;
+    }
+    EXPECT_EQ(road.safe(93.0F, 0.0F, 3.0F), queue);
+  }
+}
+
+// TERM-016 0.1 m before the zone at 2 m/s nobody can stop any more (20 m/s^2): who could be trusted by one
+// who still might stop is trusted now as well. The other, 12 m away at 6 m/s, comes at its present speed
+// after 2 s, while we are there; but he brakes with 3 m/s^2, and is expected only after 3 s.
+TEST(RightOfWay, BoundToGoIsNoStricterThanUnderWay) {
+  Crossing road(Priority::kFirstYields);
+  Agent& other = road.other(96.0F - 12.0F, 6.0F);
+  other.track.acceleration_mps2 = -3.0F;
+  other.path_probability[0] = 0.05F;  // he is likely to turn off
+  EXPECT_TRUE(road.safe(94.4F, 2.0F, 1.0F));
+}
+
 // TERM-004 Who owes us the way and needs less than 4 m/s^2 (10 m/s: 12.5 m) is trusted; who needs more is
 // not.
 TEST(RightOfWay, OthersAreTrustedWhileTheyCanStop) {
