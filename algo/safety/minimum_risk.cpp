@@ -128,7 +128,8 @@ bool may_leave(const Scene& scene, const EgoPath& path, float s_m, float way_m, 
     const float in_s = driving_time_s(max(to_entry_m, 0.0F), speed_mps);
     const float out_s = driving_time_s(min(to_exit_m, way_m), speed_mps);
     for (int i = 0; i < scene.agents.size(); ++i) {
-      if (!leaves_zone_to_us(scene, i, zone, in_s, out_s, Resolve::kCommitted, parameters)) return false;
+      const Passage passage = judge_passage(scene, i, zone, in_s, out_s, Resolve::kCommitted, parameters);
+      if (passage == Passage::kRefused) return false;
     }
   }
   return true;

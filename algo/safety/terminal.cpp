@@ -11,7 +11,6 @@ namespace {
 
 constexpr float kHorizonS = static_cast<float>(kHorizonSteps) * kStepS;
 constexpr float kLineToleranceM = 0.3F;  // standing this far over a stop line still counts as before it
-constexpr float kClearOfZoneM = 0.7F;    // who waits keeps this far from the zone: others must see it is free
 constexpr float kRestToleranceM = 0.02F;
 constexpr float kComfortTolerance = 1.1F;  // a stop under way may ask for a little more than comfort
 constexpr float kHardMps2 = 6.0F;          // the most a plan may count on to stop
@@ -76,55 +75,74 @@ TerminalVerdict blame(TerminalCause cause, int agent = 255) {
   return {cause, static_cast<std::uint8_t>(agent)};
 }
 
-/// Whether the start is in others' way already: to wait for the next zone there is no place to wait.
-bool starts_inside(const EgoPath& path, const Along& along, const Parameters& parameters) {
-  const float centre_s_m = along.start_s_m() + rear_axle_to_centre_m(parameters);
-  for (const ConflictZone& zone : path.zones) {
-    if (centre_s_m > zone.entry_s_m && centre_s_m < zone.exit_s_m) return true;
-  }
-  return false;
+/// Everything the zones of one path are judged by.
+struct Passing {
+  const Scene& scene;
+  const EgoPath& path;
+  const Along& along;
+  const Parameters& parameters;
+  float centre_m;             ///< from our rear axle to our box centre
+  float under_way_until_s_m;  ///< of our box centre
+  TerminalVerdict& verdict;
+};
+
+Resolve resolve_for(const Passing& passing, const ConflictZone& zone) {
+  const float centre_s_m = passing.along.start_s_m() + passing.centre_m;
+  const float to_entry_m = max(zone.entry_s_m - centre_s_m, 0.0F);
+  const bool inside = centre_s_m > zone.entry_s_m;
+  if (!inside && square(passing.along.start_mps) > 2.0F * kCommittedMps2 * to_entry_m)
+    return Resolve::kCommitted;
+  return zone.entry_s_m < passing.under_way_until_s_m ? Resolve::kUnderWay : Resolve::kConsidering;
 }
 
-TerminalVerdict judge_zone(const Scene& scene, const ConflictZone& zone, const Along& along, bool inside_one,
-                           const Parameters& parameters) {
-  const float centre_m = rear_axle_to_centre_m(parameters);
-  const float entry_s_m = zone.entry_s_m - centre_m;
-  const float exit_s_m = zone.exit_s_m - centre_m;
-  if (along.start_s_m() >= exit_s_m) return {};
-  if (along.start_s_m() > entry_s_m) return {};  // inside already
-  const float line_s_m = zone.stop_s_m - rear_axle_to_front_m(parameters);
+/// Where our rear axle may come to rest before the zone.
+float hold_s_m(const Passing& passing, const ConflictZone& zone) {
+  const Along& along = passing.along;
+  const float entry_s_m = zone.entry_s_m - passing.centre_m;
+  const float line_s_m = zone.stop_s_m - rear_axle_to_front_m(passing.parameters);
   const float edge_s_m = entry_s_m - kClearOfZoneM;
-  float hold_s_m = min(line_s_m + kLineToleranceM, edge_s_m);
+  const float before_line_s_m = min(line_s_m + kLineToleranceM, edge_s_m);
+  if (along.start_s_m() <= before_line_s_m && !waits_beyond_line(passing.scene, line_s_m, along.start_s_m()))
+    return before_line_s_m;
   // Over the line there is still the zone to wait for.
-  if (along.start_s_m() > hold_s_m || waits_beyond_line(scene, line_s_m, along.start_s_m()))
-    hold_s_m = edge_s_m;
-  if (along.start_s_m() > hold_s_m) {  // nearer than that: at once, no creeping
-    hold_s_m = min(along.start_s_m() + square(along.start_mps) / (2.0F * parameters.comfort.braking_mps2),
-                   entry_s_m);
-  }
-  if (stops_before(along, hold_s_m, parameters)) return {};
-  if (along.end_s_m() < exit_s_m && along.end_mps < kMovingMps) return blame(TerminalCause::kStopsInZone);
+  if (along.start_s_m() <= edge_s_m) return edge_s_m;
+  // Nearer than that: at once, no creeping.
+  return min(along.start_s_m() + square(along.start_mps) / (2.0F * passing.parameters.comfort.braking_mps2),
+             entry_s_m);
+}
 
-  const float to_entry_m = max(entry_s_m - along.start_s_m(), 0.0F);
-  const auto needs_more_than = [&](float braking_mps2) {
-    return square(along.start_mps) > 2.0F * braking_mps2 * to_entry_m;
-  };
-  const Resolve resolve = needs_more_than(kCommittedMps2) ? Resolve::kCommitted
-                          : inside_one || needs_more_than(parameters.comfort.braking_mps2)
-                              ? Resolve::kUnderWay
-                              : Resolve::kConsidering;
-  const float in_s = time_at(along, entry_s_m);
-  const float out_s = time_at(along, exit_s_m);
-  for (int i = 0; i < scene.agents.size(); ++i) {
-    if (!leaves_zone_to_us(scene, i, zone, in_s, out_s, resolve, parameters)) {
-      TerminalVerdict verdict = blame(TerminalCause::kZone, i);
-      verdict.arrives_s = earliest_arrival_s(scene, i, zone, parameters);
-      const bool we_wait = zone.priority != Priority::kFirstHasPriority && resolve != Resolve::kCommitted;
-      verdict.needed_s = out_s + (we_wait ? zone_margin_s(scene, resolve, parameters) : 0.0F);
-      return verdict;
-    }
+/// Whom we would meet in the zone, and who is trusted to leave it to us. \return false: somebody would be
+/// there
+bool pass_zone(Passing& passing, const ConflictZone& zone, float in_s, float out_s, bool refuses) {
+  const Resolve resolve = resolve_for(passing, zone);
+  for (int i = 0; i < passing.scene.agents.size(); ++i) {
+    const Passage passage = judge_passage(passing.scene, i, zone, in_s, out_s, resolve, passing.parameters);
+    if (passage == Passage::kTrusted) passing.verdict.trusted |= static_cast<std::uint16_t>(1U << i);
+    if (passage != Passage::kRefused || !refuses) continue;
+    passing.verdict.cause = TerminalCause::kZone;
+    passing.verdict.agent = static_cast<std::uint8_t>(i);
+    passing.verdict.arrives_s = earliest_arrival_s(passing.scene, i, zone, passing.parameters);
+    const bool we_wait = zone.priority != Priority::kFirstHasPriority && resolve != Resolve::kCommitted;
+    passing.verdict.needed_s =
+        out_s + (we_wait ? zone_margin_s(passing.scene, resolve, passing.parameters) : 0.0F);
+    return false;
   }
-  return {};
+  return true;
+}
+
+bool judge_zone(Passing& passing, const ConflictZone& zone) {
+  const Along& along = passing.along;
+  const float entry_s_m = zone.entry_s_m - passing.centre_m;
+  const float exit_s_m = zone.exit_s_m - passing.centre_m;
+  if (along.start_s_m() >= exit_s_m) return true;
+  const float out_s = time_at(along, exit_s_m);
+  if (along.start_s_m() > entry_s_m) return pass_zone(passing, zone, 0.0F, out_s, false);  // inside already
+  if (stops_before(along, hold_s_m(passing, zone), passing.parameters)) return true;
+  if (along.end_s_m() < exit_s_m && along.end_mps < kMovingMps) {
+    passing.verdict.cause = TerminalCause::kStopsInZone;
+    return false;
+  }
+  return pass_zone(passing, zone, time_at(along, entry_s_m), out_s, true);
 }
 
 /// Way left between us and the leader when both have stopped, it at b_max from the horizon's end on.
@@ -190,14 +208,19 @@ TerminalVerdict judge_terminal(const Scene& scene, int path_index, const Traject
   if (!under_way && !stops_before(along, max(last_change_m, at_once_m), parameters)) {
     return blame(TerminalCause::kLaneEnd);
   }
-  const bool inside_one = starts_inside(path, along, parameters);
+  TerminalVerdict verdict;
+  const float centre_m = rear_axle_to_centre_m(parameters);
+  Passing passing{
+      scene,    path,
+      along,    parameters,
+      centre_m, under_way_until_s_m(path, along.start_s_m() + centre_m, along.start_mps, parameters),
+      verdict};
   for (const ConflictZone& zone : path.zones) {
-    const TerminalVerdict verdict = judge_zone(scene, zone, along, inside_one, parameters);
-    if (!verdict.safe()) return verdict;
+    if (!judge_zone(passing, zone)) return verdict;
   }
   if (!changes) {
     const Leader leader = find_leader(scene, path, path.frenet.s_m, parameters);
-    return leader_safe(path, leader, along, false, parameters) ? TerminalVerdict{}
+    return leader_safe(path, leader, along, false, parameters) ? verdict
                                                                : blame(TerminalCause::kLeader, leader.agent);
   }
   const auto [leader, follower, joins_beside] = find_neighbours(scene, path, parameters);
@@ -208,7 +231,7 @@ TerminalVerdict judge_terminal(const Scene& scene, int path_index, const Traject
   const bool follower_stays = under_way && can_stay_behind(follower.gap_m, follower.speed_mps, trajectory);
   if (!follower_stays && !follower_safe(follower, along, parameters))
     return blame(TerminalCause::kFollower, follower.agent);
-  return {};
+  return verdict;
 }
 
 }  // namespace s4tp

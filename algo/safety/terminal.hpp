@@ -23,9 +23,10 @@ enum class TerminalCause : std::uint8_t {
 
 struct TerminalVerdict {
   TerminalCause cause = TerminalCause::kNone;
-  std::uint8_t agent = 255;  ///< who is in the way; 255: nobody
-  float arrives_s = 0.0F;    ///< kZone: how soon it can be there; 0: is there; 1e3: not by accelerating
-  float needed_s = 0.0F;     ///< kZone: to have left the zone, with the margin due
+  std::uint8_t agent = 255;   ///< who is in the way; 255: nobody
+  float arrives_s = 0.0F;     ///< kZone: how soon it can be there; 0: is there; 1e3: not by accelerating
+  float needed_s = 0.0F;      ///< kZone: to have left the zone, with the margin due
+  std::uint16_t trusted = 0;  ///< bit i: agent i is counted on to leave us a zone (Passage::kTrusted)
   [[nodiscard]] bool safe() const { return cause == TerminalCause::kNone; }
 };
 
@@ -37,7 +38,7 @@ struct TerminalVerdict {
 ///   it owes us the way, it can stop with 4 m/s^2 or less, or comes later (TERM-004); or it has plainly gone
 ///   before we come (TERM-005). First come: the other has right of way when it can be there first. Who could
 ///   stop only with more than 5 m/s^2 is bound to go, and counts on others' present speeds; what waiting and
-///   a crossing under way change stands at leaves_zone_to_us();
+///   a crossing under way change stands at judge_passage();
 /// - the end does not stand in it (TERM-006). Who is inside already has to leave, unless a leader blocks the
 /// way
 ///   (TERM-007).

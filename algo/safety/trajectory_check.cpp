@@ -54,26 +54,21 @@ bool lets_us_in(const Scene& scene, const EgoPath& path, const Trajectory& traje
   return can_stay_behind(rear_s_m - seen.centre_s_m - seen.half_length_m, seen.along_mps, trajectory);
 }
 
-bool lets_us_finish(const Scene& scene, int index, const Trajectory& trajectory, const Agent& agent,
-                    const Parameters& parameters) {
-  const EgoPath& path = scene.ego_paths[index];
-  const TrajectoryPoint& start = trajectory.points[0];
-  const Point centre = position(ego_box(start.rear_axle, parameters).centre);
-  const float s_m = project(*scene.map, path.path, centre, path.frenet.s_m, 15.0F).s_m;
-  return lets_us_finish(scene, path, s_m, start.speed_mps, agent, parameters);
+bool has(std::uint16_t agents, int index) {
+  return (agents >> index & 1U) != 0;
 }
 
 /// Looks through the futures of the watched vehicles.
 bool clear_of(const Scene& scene, int path, const Trajectory& trajectory, const PredictionSet& prediction,
-              const Parameters& parameters, CheckReport& report) {
+              std::uint16_t trusted, const Parameters& parameters, CheckReport& report) {
   for (const AgentPrediction& predicted : prediction.agents) {
+    if (has(trusted, predicted.agent)) continue;
     const Agent& agent = scene.agents[predicted.agent];
     for (const Mode& mode : predicted.modes) {
       const int step = first_collision(trajectory, mode, agent.track, kHorizonSteps,
                                        parameters.safety.margin_m, parameters);
       if (step < 0) continue;
       if (!mode.yields && will_yield(scene.ego_paths[path], agent)) continue;
-      if (lets_us_finish(scene, path, trajectory, agent, parameters)) continue;
       if (lets_us_in(scene, scene.ego_paths[path], trajectory, agent, parameters)) break;
       if (follows_us(scene, path, agent, parameters)) break;
       report = {CheckResult::kCollision, predicted.agent, static_cast<std::uint8_t>(step)};
@@ -84,15 +79,15 @@ bool clear_of(const Scene& scene, int path, const Trajectory& trajectory, const 
 }
 
 bool clear_of(const Scene& scene, int path, const Trajectory& trajectory, const KinematicSet& keep_going,
-              const Parameters& parameters, CheckReport& report) {
+              std::uint16_t trusted, const Parameters& parameters, CheckReport& report) {
   const int count =
       keep_going.agents.size() < scene.agents.size() ? keep_going.agents.size() : scene.agents.size();
   for (int i = 0; i < count; ++i) {
+    if (has(trusted, i)) continue;
     const Agent& agent = scene.agents[i];
     const int step = first_collision(trajectory, keep_going.agents[i], agent.track, kKeepGoingSteps,
                                      parameters.safety.margin_m, parameters);
     if (step < 0 || will_yield(scene.ego_paths[path], agent) ||
-        lets_us_finish(scene, path, trajectory, agent, parameters) ||
         lets_us_in(scene, scene.ego_paths[path], trajectory, agent, parameters) ||
         follows_us(scene, path, agent, parameters))
       continue;
@@ -131,13 +126,17 @@ CheckReport check_trajectory(const Scene& scene, int ego_path, const Trajectory&
   CheckReport report;
   if (!finite(trajectory)) {
     report.result = CheckResult::kNotFinite;
-  } else if (!feasible(trajectory, parameters)) {
+    return report;
+  }
+  if (!feasible(trajectory, parameters)) {
     report.result = CheckResult::kInfeasible;
-  } else if (ego_path < 0 || ego_path >= scene.ego_paths.size() ||  // then nothing is known of the end
-             (clear_of(scene, ego_path, trajectory, keep_going, parameters, report) &&
-              clear_of(scene, ego_path, trajectory, unconditioned, parameters, report) &&
-              clear_of(scene, ego_path, trajectory, conditioned, parameters, report))) {
-    const TerminalVerdict verdict = judge_terminal(scene, ego_path, trajectory, parameters);
+    return report;
+  }
+  const TerminalVerdict verdict = judge_terminal(scene, ego_path, trajectory, parameters);
+  if (ego_path < 0 || ego_path >= scene.ego_paths.size() ||  // then nothing is known of the end
+      (clear_of(scene, ego_path, trajectory, keep_going, verdict.trusted, parameters, report) &&
+       clear_of(scene, ego_path, trajectory, unconditioned, verdict.trusted, parameters, report) &&
+       clear_of(scene, ego_path, trajectory, conditioned, verdict.trusted, parameters, report))) {
     if (!verdict.safe()) {
       report = {CheckResult::kTerminal, verdict.agent, 0, verdict.cause, verdict.arrives_s, verdict.needed_s};
     }

@@ -66,6 +66,7 @@ inline Agent& add_vehicle(Scene& scene, const LaneMap& map, const LanePath& path
   agent.track.width_m = 1.8F;
   agent.lane = path_point(map, path, s_m).lane;
   (void)agent.paths.push(path);
+  agent.path_probability[0] = 1.0F;
   agent.frenet[0] = {s_m, d_m, agent.track.centre.heading_rad};
   (void)scene.agents.push(agent);
   return scene.agents[scene.agents.size() - 1];

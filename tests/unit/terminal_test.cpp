@@ -6,51 +6,12 @@
 
 #include "algo/core/math.hpp"
 #include "algo/trajectory/bicycle.hpp"
-#include "tests/support/driving_scenes.hpp"
+#include "tests/support/crossing.hpp"
 
 namespace s4tp {
 namespace {
 
 using namespace test;  // NOLINT: the map builders are the language of these tests
-
-/// We drive along +x towards a lane that crosses at x = 0 from south to north; the zone is 8 m long on both.
-///   our path: s = x + 100; zone from s = 96 to 104, stop line (front bumper) at s = 95
-///   their path: s = y + 100; zone from s = 96 to 104
-struct Crossing {
-  LaneMap map;
-  LanePath ours;
-  LanePath theirs;
-  Scene scene;
-  Parameters parameters;
-
-  explicit Crossing(Priority priority) {
-    const LaneIndex a = add_lane(map, {{-100.0F, 0.0F}, {300.0F, 0.0F}});
-    const LaneIndex b = add_lane(map, {{0.0F, -100.0F}, {0.0F, 300.0F}});
-    ours = path_of(map, {a});
-    theirs = path_of(map, {b});
-    EgoPath& way = add_way(scene, map, ours);
-    ConflictZone zone;
-    zone.entry_s_m = zone.other_entry_m = 96.0F;
-    zone.exit_s_m = zone.other_exit_m = 104.0F;
-    zone.stop_s_m = 95.0F;
-    zone.other_lane = b;
-    zone.priority = priority;
-    (void)way.zones.push(zone);
-  }
-
-  /// Constant acceleration from rear axle position `s_m`.
-  [[nodiscard]] bool safe(float s_m, float speed_mps, float acceleration_mps2) {
-    TrajectoryPoint start = state_on(map, ours, s_m, speed_mps);
-    put_ego(scene, start);
-    Trajectory trajectory;
-    trajectory.points[0] = start;
-    for (int i = 1; i < kTrajectoryPoints; ++i)
-      trajectory.points[i] = bicycle_step(trajectory.points[i - 1], acceleration_mps2, 0.0F, kStepS);
-    return judge_terminal(scene, 0, trajectory, parameters).safe();
-  }
-  Agent& other(float s_m, float speed_mps) { return add_vehicle(scene, map, theirs, s_m, speed_mps); }
-  [[nodiscard]] const ConflictZone& zone() const { return scene.ego_paths[0].zones[0]; }
-};
 
 // TERM-001 Whoever comes: at 10 m/s after 3 s at s = 70 the front is 21 m before the line; v^2 / 2b = 20 m
 // fit. From 5 m further on they do not.
@@ -80,31 +41,6 @@ TEST(Terminal, GapMustLastUntilWeAreGone) {
   EXPECT_TRUE(far.safe(80.0F, 8.0F, 0.0F));
 }
 
-// TERM-013 The same drive, the other 56 m away: there after 56 / 15.28 = 3.7 s, 0.8 s after we have left. Too
-// little, but not for one who has stood 9 s; 47 m (3.1 s) is too little for him as well.
-TEST(Terminal, WhoHasWaitedTakesASmallerGap) {
-  Crossing crossing(Priority::kFirstYields);
-  crossing.other(96.0F - 56.0F, 15.0F);
-  EXPECT_FALSE(crossing.safe(80.0F, 8.0F, 0.0F));
-  crossing.scene.waited_s = 9.0F;
-  EXPECT_TRUE(crossing.safe(80.0F, 8.0F, 0.0F));
-  Crossing near(Priority::kFirstYields);
-  near.other(96.0F - 47.0F, 15.0F);
-  near.scene.waited_s = 9.0F;
-  EXPECT_FALSE(near.safe(80.0F, 8.0F, 0.0F));
-}
-
-// TERM-013 6.5 m before the zone at 8 m/s, stopping takes 4.9 m/s^2, and we leave after 1.9 s. The other, 38
-// m away, comes after 2.5 s: not enough to begin with, but enough to go through with. 26 m (1.7 s) are not.
-TEST(Terminal, ACrossingUnderWayIsFinished) {
-  Crossing crossing(Priority::kFirstYields);
-  crossing.other(96.0F - 38.0F, 15.0F);
-  EXPECT_TRUE(crossing.safe(88.0F, 8.0F, 0.0F));
-  Crossing near(Priority::kFirstYields);
-  near.other(96.0F - 26.0F, 15.0F);
-  EXPECT_FALSE(near.safe(88.0F, 8.0F, 0.0F));
-}
-
 // TERM-014 From 91, at the line, at 2 m/s and braking with 1 m/s^2, we come to rest at 93: 1.5 m before the
 // zone. Who has stood may wait there. Whoever comes along does not stop 6 m before the line only to roll over
 // it.
@@ -116,103 +52,6 @@ TEST(Terminal, WhoHasStoodMayWaitBeyondTheLine) {
   EXPECT_TRUE(crossing.safe(91.0F, 2.0F, -1.0F));
   EXPECT_FALSE(crossing.safe(85.0F, 3.0F, -0.5625F));
   EXPECT_FALSE(crossing.safe(91.0F, 2.0F, -0.6F));  // 3.3 m: into the zone
-}
-
-// TERM-015 From 93 with 3 m/s^2 we are in the zone after 1 s and out after 2.5 s. The other stands 9 m before
-// it: starting now it is there after 3 s. That is enough once it has stood for 2 s with nobody to wait for;
-// so with one who comes up behind it. Half a metre before the zone (0.7 s, and 0.5 s to start) it goes first,
-// when we come from 91 (1.6 s).
-TEST(Terminal, WhoStandsForNothingDoesNotUseHisRightOfWay) {
-  Crossing crossing(Priority::kFirstYields);
-  crossing.other(96.0F - 9.0F, 0.0F).idle_ms = 1900;
-  EXPECT_FALSE(crossing.safe(93.0F, 0.0F, 3.0F));
-  crossing.scene.agents[0].idle_ms = 2000;
-  EXPECT_TRUE(crossing.safe(93.0F, 0.0F, 3.0F));
-  (void)crossing.other(96.0F - 16.0F, 3.0F);
-  EXPECT_TRUE(crossing.safe(93.0F, 0.0F, 3.0F));
-  crossing.scene.agents[0].idle_ms = 0;
-  EXPECT_FALSE(crossing.safe(93.0F, 0.0F, 3.0F));
-
-  Crossing near(Priority::kFirstYields);
-  near.other(96.0F - 0.5F, 0.0F).idle_ms = 10'000;
-  EXPECT_FALSE(near.safe(91.0F, 0.0F, 3.0F));
-}
-
-// TERM-015 From 93 with 3 m/s^2 we are out of the zone after 2.5 s. One who has stood for a second 7.5 m
-// before it could be there after 2.7 s: without the usual margin, for he stands. 3.6 m before it (1.9 s) he
-// goes first. So does who stood for less than a second.
-TEST(Terminal, WhoStandsNeedsTimeToStart) {
-  const auto crossing = [](float way_m, int samples_standing) {
-    Crossing road(Priority::kFirstYields);
-    Agent& other = road.other(96.0F - way_m, 0.0F);
-    other.history.valid = (1U << kHistorySamples) - 1U;
-    for (int i = 0; i < kHistorySamples - samples_standing; ++i) other.history.samples[i].speed_mps = 1.0F;
-    return road.safe(93.0F, 0.0F, 3.0F);
-  };
-  EXPECT_TRUE(crossing(7.5F, kHistorySamples));
-  EXPECT_FALSE(crossing(7.5F, kHistorySamples - 1));
-  EXPECT_FALSE(crossing(3.6F, kHistorySamples));
-}
-
-// TERM-015 Four where the right goes before the left: the one on our right stands 3.3 m before the zone, and
-// could be there after 1.8 s, we after 1.6 s. He waits for his right, who waits for nobody that moves: one
-// has to begin.
-TEST(Terminal, AStandOffIsEnded) {
-  Crossing crossing(Priority::kFirstYields);
-  crossing.other(96.0F - 3.3F, 0.0F);
-  EXPECT_FALSE(crossing.safe(91.0F, 0.0F, 3.0F));
-  crossing.scene.agents[0].idle_ms = 2500;
-  EXPECT_TRUE(crossing.safe(91.0F, 0.0F, 3.0F));
-}
-
-// TERM-016 At 3 m/s inside one zone, 4.5 m before the next (there after 1.5 s, out after 3.5 s). The other is
-// 9 m before that, at 2 m/s there after sqrt(10) - 1 = 2.2 s at the earliest: we do not stop in the first
-// zone for it. Outside of any zone we would; and for one who comes at 13 m/s, too.
-TEST(Terminal, NobodyStopsInOneZoneForTheNext) {
-  const auto crossing = [](bool inside_one, float way_m, float speed_mps) {
-    Crossing road(Priority::kFirstYields);
-    ConflictZone next = road.zone();
-    next.entry_s_m = 106.0F;
-    next.exit_s_m = 112.0F;
-    next.stop_s_m = 95.0F;
-    if (!inside_one) road.scene.ego_paths[0].zones.clear();
-    (void)road.scene.ego_paths[0].zones.push(next);
-    road.other(96.0F - way_m, speed_mps);
-    return road.safe(100.0F, 3.0F, 0.0F);
-  };
-  EXPECT_TRUE(crossing(true, 9.0F, 2.0F));
-  EXPECT_FALSE(crossing(false, 9.0F, 2.0F));
-  EXPECT_FALSE(crossing(true, 40.0F, 13.0F));
-}
-
-// TERM-004 Who owes us the way and needs less than 4 m/s^2 (10 m/s: 12.5 m) is trusted; who needs more is
-// not.
-TEST(Terminal, OthersAreTrustedWhileTheyCanStop) {
-  Crossing can(Priority::kFirstHasPriority);
-  can.other(96.0F - 13.5F, 10.0F);
-  EXPECT_TRUE(can.safe(78.0F, 10.0F, 0.0F));
-  Crossing cannot(Priority::kFirstHasPriority);
-  cannot.other(96.0F - 11.5F, 10.0F);
-  EXPECT_FALSE(cannot.safe(78.0F, 10.0F, 0.0F));
-}
-
-// TERM-004 First come: at equal speeds and the other twice as far we go; the other way round we do not.
-TEST(Terminal, FirstComeFirstServed) {
-  Crossing first(Priority::kFirstCome);
-  first.other(96.0F - 60.0F, 8.0F);
-  EXPECT_TRUE(first.safe(80.0F, 8.0F, 0.0F));
-  Crossing second(Priority::kFirstCome);
-  second.other(96.0F - 8.0F, 8.0F);
-  EXPECT_FALSE(second.safe(80.0F, 8.0F, 0.0F));
-}
-
-// TERM-005 The other leaves the zone in 4 m at 10 m/s; we come in 1.8 s: nothing to wait for.
-TEST(Terminal, WhoIsGoneBeforeWeComeDoesNotCount) {
-  Crossing crossing(Priority::kFirstYields);
-  crossing.other(100.0F, 10.0F);
-  EXPECT_TRUE(crossing.safe(80.0F, 8.0F, 0.0F));
-  crossing.scene.agents[0].track.speed_mps = 0.5F;  // it crawls: in 4 m it is not gone
-  EXPECT_FALSE(crossing.safe(80.0F, 8.0F, 0.0F));
 }
 
 // TERM-006 Braking so as to come to rest at s = 80 + 64 / 6 = 90.7 is before the zone; 97 would be in it.
@@ -284,18 +123,6 @@ TEST(Terminal, NobodyLeavesTheRoadForBeingAtItsEnd) {
   EXPECT_TRUE(crossing.safe(s_m, 0.0F, 0.0F));
 }
 
-// TERM-003 Who comes after us into the same lane may meet us on the way in: he must not be at the zone's exit
-// 1 s after we have left it. From s = 80 at 8 m/s we leave after 2.8 s; he, at 13 m/s gaining 2 m/s^2 up
-// to 15.28, needs 3.6 s for the 54 m to the entry and 4.1 s for the 62 m to the exit: enough when he merges,
-// too near when he crosses.
-TEST(Terminal, AMergeIsLeftBehind) {
-  Crossing crossing(Priority::kFirstYields);
-  crossing.other(96.0F - 54.0F, 13.0F);
-  EXPECT_FALSE(crossing.safe(80.0F, 8.0F, 0.0F));
-  crossing.scene.ego_paths[0].zones[0].merging = true;
-  EXPECT_TRUE(crossing.safe(80.0F, 8.0F, 0.0F));
-}
-
 // TERM-009 Behind a leader at 10 m/s we drive 10.1: it needs 100 / 16 = 6.25 m to stop, we 102 / 12 = 8.5 m.
 // Of a gap of 3 m, 0.3 m are used up in 3 s and 0.45 m are left when both stand (0.3 needed); of 1 m nothing.
 // Behind one that brakes with 4 m/s^2, keeping on is not safe from 10 m, braking likewise is.
@@ -359,30 +186,6 @@ TEST(Terminal, FollowersBeforeTheLanesStartCount) {
     }
     EXPECT_EQ(judge_terminal(scene, 1, trajectory, Parameters{}).safe(), gap_m > 6.0F) << gap_m;
   }
-}
-
-// TERM-011 10 m before the entry at the top speed of 1.1 * 13.89 = 15.28 m/s: 0.654 s. From rest with 2
-// m/s^2: sqrt(2 * 10 / 2) = 3.16 s. Inside 0; past it or elsewhere 1000.
-TEST(EarliestArrival, FreeToAccelerate) {
-  Crossing crossing(Priority::kFirstYields);
-  crossing.other(86.0F, 15.279F);
-  crossing.other(86.0F, 0.0F);
-  crossing.other(100.0F, 5.0F);
-  crossing.other(105.0F, 5.0F);
-  add_vehicle(crossing.scene, crossing.map, crossing.ours, 50.0F, 10.0F);
-  const float expected[] = {0.654F, 3.162F, 0.0F, 1000.0F, 1000.0F};
-  for (int i = 0; i < 5; ++i)
-    EXPECT_NEAR(earliest_arrival_s(crossing.scene, i, crossing.zone(), crossing.parameters), expected[i],
-                0.01F)
-        << i;
-}
-
-// TERM-011 Who brakes with 4 m/s^2 goes on for half a second: from 10 m/s to 8 in 4.5 m, and then 15.5 m from
-// there in (sqrt(64 + 62) - 8) / 2 = 1.61 s.
-TEST(EarliestArrival, BrakesAreNotDriveAtOnce) {
-  Crossing crossing(Priority::kFirstYields);
-  crossing.other(96.0F - 20.0F, 10.0F).track.acceleration_mps2 = -4.0F;
-  EXPECT_NEAR(earliest_arrival_s(crossing.scene, 0, crossing.zone(), crossing.parameters), 2.11F, 0.01F);
 }
 
 // TERM-002 Without a map or path nothing can be promised.
