@@ -29,7 +29,7 @@ struct Road {
   void look() {
     KinematicSet keep_going;
     for (const Agent& agent : scene.agents) (void)keep_going.agents.push(steady_future(map, agent));
-    outlook.look(scene, keep_going, Parameters{});
+    outlook.look(scene, keep_going, 0.0F, Parameters{});
   }
 };
 
