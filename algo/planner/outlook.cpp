@@ -1,6 +1,8 @@
 #include "algo/planner/outlook.hpp"
 
 #include "algo/core/inline.hpp"
+#include "algo/safety/change_gaps.hpp"
+#include "algo/trajectory/along_path.hpp"
 #include "algo/trajectory/bicycle.hpp"
 
 namespace s4tp {
@@ -8,12 +10,9 @@ namespace {
 
 constexpr float kFarM = 150.0F;  // the map's horizon
 constexpr float kHorizonS = static_cast<float>(kHorizonSteps) * kStepS;
-constexpr float kCrawlMps = 3.0F;     // who stands or crawls will not do so all the way
-constexpr float kRoomM = 60.0F;       // for each lane change left to do; with no more, nothing else counts
-constexpr float kReturnS = 2.0F;      // of driving: room a lane change back takes
-constexpr float kGapReachM = 50.0F;   // beyond this nobody is in the way of a lane change
-constexpr float kGapHeadwayS = 0.6F;  // between the two that a gap opens for
-constexpr float kGapClosingS = 1.0F;  // more for each m/s the rear one is faster
+constexpr float kCrawlMps = 3.0F;  // who stands or crawls will not do so all the way
+constexpr float kRoomM = 60.0F;    // for each lane change left to do; with no more, nothing else counts
+constexpr float kInsideM = 1.0F;   // aimed at within a gap that has room for it
 
 /// Time over `way_m` from `speed_mps`, accelerating to the limit.
 float driving_time_s(float way_m, float speed_mps, float limit_mps, float acceleration_mps2) {
@@ -26,15 +25,19 @@ float driving_time_s(float way_m, float speed_mps, float limit_mps, float accele
   return (sqrt(square(speed_mps) + 2.0F * acceleration_mps2 * way_m) - speed_mps) / acceleration_mps2;
 }
 
+/// Where our rear axle must have come to rest if the lane changes due have not been made.
+float room_end_s_m(const Scene& scene, const EgoPath& path, const Parameters& parameters) {
+  const float end_s_m = min(path.route_end_s_m, dead_end_s_m(scene, path));
+  return end_s_m - rear_axle_to_front_m(parameters) - change_room_m(scene, path);
+}
+
 }  // namespace
 
-void Outlook::look(const Scene& scene, const KinematicSet& keep_going, const Parameters& parameters) {
+void Outlook::look(const Scene& scene, const KinematicSet& keep_going, float lead_s,
+                   const Parameters& parameters) {
   lanes_.clear();
-  length_m_ = parameters.vehicle.length_m;
+  parameters_ = &parameters;
   centre_m_ = rear_axle_to_centre_m(parameters);
-  acceleration_mps2_ = parameters.comfort.acceleration_mps2;
-  standstill_gap_m_ = parameters.comfort.standstill_gap_m;
-  headway_s_ = parameters.comfort.headway_s;
   if (scene.ego_paths.empty()) return;
   const EgoPath& own = scene.ego_paths[0];
   const int changes = own.changes_needed < 0 ? -own.changes_needed : own.changes_needed;
@@ -48,7 +51,7 @@ void Outlook::look(const Scene& scene, const KinematicSet& keep_going, const Par
     Lane lane;
     lane.target_s_m = path.frenet.s_m + way_m_;
     lane.limit_mps = max(here.speed_limit_mps, kCrawlMps);
-    lane.return_s_m = path.route_end_s_m - kReturnS * lane.limit_mps;
+    lane.room_s_m = room_end_s_m(scene, path, parameters);
     const float half_lane_m = 0.5F * here.width_m;
     const float to_route_m = static_cast<float>(path.changes_needed) * here.width_m;
     for (int i = 0; i < count; ++i) {
@@ -62,48 +65,113 @@ void Outlook::look(const Scene& scene, const KinematicSet& keep_going, const Par
                                                : frenet.d_m < 0.0F && frenet.d_m > to_route_m - half_lane_m;
       if (!in_lane && (path.changes_needed == 0 || !to_return)) continue;
       (void)lane.seen.push({frenet.s_m, track.length_m, along * track.speed_mps, in_lane});
+      lane.returns = lane.returns || !in_lane;
     }
+    put_in_order(lane.seen, parameters);
     (void)lanes_.push(lane);
   }
+  find_gaps(scene, lead_s);
+}
+
+void Outlook::find_gaps(const Scene& scene, float lead_s) {
+  const EgoPath& own = scene.ego_paths[0];
+  our_s_m_ = own.frenet.s_m + lead_s * scene.ego.speed_mps;
+  GapSeeker us;
+  us.speed_mps = scene.ego.speed_mps;
+  us.limit_mps = lanes_[0].limit_mps;
+  for (const LaneVehicle& other : lanes_[0].seen) {
+    const float touch_s_m =
+        other.s_m - other.speed_mps * kHorizonS - 0.5F * other.length_m - rear_axle_to_front_m(*parameters_);
+    if (!other.in_lane || touch_s_m < our_s_m_) continue;
+    if (us.has_leader && touch_s_m > us.leader_s_m) continue;
+    us.has_leader = true;
+    us.leader_s_m = touch_s_m;
+    us.leader_mps = other.speed_mps;
+  }
+  us.change_due = own.changes_needed != 0;
+  const float leader_s_m = us.leader_s_m;
+  for (int i = 1; i < lanes_.size(); ++i) {
+    const float shift_m = scene.ego_paths[i].frenet.s_m - own.frenet.s_m;
+    us.s_m = our_s_m_ + shift_m;
+    us.room_s_m = lanes_[0].room_s_m + shift_m;
+    us.leader_s_m = leader_s_m + shift_m;
+    lanes_[i].gap = find_lane_gap(lanes_[i].seen, us, *parameters_);
+  }
+}
+
+float Outlook::behind_s(const LaneVehicle& other, float to_s_m) const {
+  const float speed = max(other.speed_mps, kCrawlMps);
+  const float gap_m = 0.5F * (parameters_->vehicle.length_m + other.length_m) +
+                      parameters_->comfort.standstill_gap_m + parameters_->comfort.headway_s * speed;
+  return (to_s_m + centre_m_ + gap_m - other.s_m) / speed;
+}
+
+float Outlook::arrival_s(const Lane& lane, float to_s_m, float s_m, float& speed_mps) const {
+  float longest_s =
+      driving_time_s(to_s_m - s_m, speed_mps, lane.limit_mps, parameters_->comfort.acceleration_mps2);
+  speed_mps = lane.limit_mps;
+  for (const LaneVehicle& other : lane.seen) {
+    if (!other.in_lane || other.s_m < s_m + centre_m_) continue;
+    const float time_s = behind_s(other, to_s_m);
+    if (time_s <= longest_s) continue;
+    longest_s = time_s;
+    speed_mps = min(lane.limit_mps, max(other.speed_mps, kCrawlMps));
+  }
+  return longest_s;
 }
 
 float Outlook::delay_s(int path, float s_m, float speed_mps) const {
   const Lane& lane = lanes_[path];
   const float ideal_s = way_m_ / lane.limit_mps;
-  const float free_s = driving_time_s(lane.target_s_m - s_m, speed_mps, lane.limit_mps, acceleration_mps2_);
-  const float back_s = driving_time_s(lane.return_s_m - s_m, speed_mps, lane.limit_mps, acceleration_mps2_);
-  const float centre_s_m = s_m + centre_m_;
-  float longest_s = free_s;
-  for (const Seen& other : lane.seen) {
-    if (other.s_m < centre_s_m) continue;
-    const float speed = max(other.speed_mps, kCrawlMps);
-    const float lengths_m = 0.5F * (length_m_ + other.length_m) + standstill_gap_m_;
-    if (!other.in_lane) {
-      const float ahead_m = max(lane.return_s_m, s_m) + centre_m_ - (other.s_m + speed * back_s);
-      if (ahead_m > lengths_m) continue;  // passed by then
-    }
-    // Behind him we are at the target when he is a gap beyond it.
-    const float gap_m = lengths_m + headway_s_ * speed;
-    longest_s = max(longest_s, (lane.target_s_m + centre_m_ + gap_m - other.s_m) / speed);
+  float target_mps = speed_mps;
+  float longest_s = arrival_s(lane, lane.target_s_m, s_m, target_mps);
+  if (!lane.returns) return weight_ * max(0.0F, kHorizonS + longest_s - ideal_s);
+  // Where the way back begins we can just stop before the room for it ends.
+  const float per_braking = 0.5F / parameters_->comfort.braking_mps2;
+  float back_mps = speed_mps;
+  (void)arrival_s(lane, lane.room_s_m, s_m, back_mps);
+  float back_s_m = lane.room_s_m - per_braking * square(back_mps);
+  if (back_s_m < s_m) {
+    back_s_m = s_m;
+    back_mps = min(speed_mps, sqrt(max(0.0F, lane.room_s_m - s_m) / per_braking));
+  }
+  float meanwhile_mps = speed_mps;
+  const float back_s = arrival_s(lane, back_s_m, s_m, meanwhile_mps);
+  bool behind = false;  // the one ahead of him
+  for (const LaneVehicle& other : lane.seen) {
+    if (other.in_lane) continue;
+    // While we brake to his speed we get ahead of him still.
+    const float ahead_m = back_s_m + centre_m_ + per_braking * square(max(0.0F, back_mps - other.speed_mps)) -
+                          (other.s_m + other.speed_mps * back_s);
+    const float needed_m = 0.5F * (parameters_->vehicle.length_m + other.length_m) +
+                           change_gap_to_follower_m(other.speed_mps, other.speed_mps);
+    if (ahead_m >= needed_m && !(behind && other.tight)) break;  // there is room in front of him
+    behind = true;
+    longest_s = max(longest_s, behind_s(other, lane.target_s_m));
   }
   return weight_ * max(0.0F, kHorizonS + longest_s - ideal_s);
 }
 
-float Outlook::gap_shortage_m(int path, float s_m, float speed_mps) const {
-  const float centre_s_m = s_m + centre_m_;
-  float shortage_m = 0.0F;
-  for (const Seen& other : lanes_[path].seen) {
-    if (!other.in_lane) continue;
-    const float ahead_m = other.s_m - centre_s_m;
-    if (abs(ahead_m) > kGapReachM) continue;
-    const float gap_m = abs(ahead_m) - 0.5F * (other.length_m + length_m_);
-    const bool in_front = ahead_m > 0.0F;
-    const float rear_mps = in_front ? speed_mps : other.speed_mps;
-    const float closing_mps = max(0.0F, rear_mps - (in_front ? other.speed_mps : speed_mps));
-    const float needed_m = standstill_gap_m_ + kGapHeadwayS * rear_mps + kGapClosingS * closing_mps;
-    shortage_m = shortage_m + max(0.0F, needed_m - gap_m);
-  }
-  return shortage_m;
+float Outlook::time_to_gap_s(int path, float s_m, float speed_mps) const {
+  const Lane& lane = lanes_[path];
+  if (!lane.gap.found) return 0.0F;
+  return time_to_meet_s(lane.gap, 0.0F, s_m, speed_mps, lane.limit_mps, *parameters_);
+}
+
+GapAim Outlook::gap_aim(const Scene& scene, int path) const {
+  const LaneGap& gap = lanes_[path].gap;
+  GapAim aim;
+  if (!gap.found) return aim;
+  const float shift_m = scene.ego_paths[path].frenet.s_m - scene.ego_paths[0].frenet.s_m;
+  const float back_m = gap.speed_mps * kHorizonS + shift_m;
+  aim.path = static_cast<std::uint8_t>(path);
+  aim.speed_mps = gap.speed_mps;
+  aim.s_m = our_s_m_;
+  const bool bounded = gap.bounded_behind && gap.bounded_ahead;
+  const float inside_m = bounded ? min(kInsideM, 0.5F * (gap.front_s_m - gap.rear_s_m)) : kInsideM;
+  if (gap.bounded_behind) aim.s_m = max(aim.s_m, gap.rear_s_m + inside_m - back_m);
+  if (gap.bounded_ahead) aim.s_m = min(aim.s_m, gap.front_s_m - inside_m - back_m);
+  return aim;
 }
 
 }  // namespace s4tp

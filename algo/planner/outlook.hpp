@@ -5,15 +5,18 @@
 
 #include "algo/core/bounded.hpp"
 #include "algo/core/parameters.hpp"
+#include "algo/planner/lane_gap.hpp"
 #include "algo/satp/prediction.hpp"
 #include "algo/scene/scene.hpp"
+#include "algo/trajectory/candidates.hpp"
 
 namespace s4tp {
 
 class Outlook {
  public:
-  /// Looks at every path of the scene, once a cycle. \param keep_going  where the others are meanwhile
-  void look(const Scene& scene, const KinematicSet& keep_going, const Parameters& parameters);
+  /// Looks at every path of the scene, once a cycle. \param keep_going  where the others are meanwhile, from
+  /// plan start, `lead_s` after the scene's time
+  void look(const Scene& scene, const KinematicSet& keep_going, float lead_s, const Parameters& parameters);
 
   /// Time lost [s] against driving at the limit, until the goal or 150 m from here, by whoever is at `s_m`
   /// with `speed_mps` at the horizon's end and then stays in the lane of `path`: behind the slower ones in
@@ -21,32 +24,35 @@ class Outlook {
   /// Counts less, then nothing, as the room for lane changes that we have to make shortens.
   [[nodiscard]] float delay_s(int path, float s_m, float speed_mps) const;
 
-  /// How much the gaps to the vehicles of the path's lane fall short of what a change into it takes, at the
-  /// horizon's end [m].
-  [[nodiscard]] float gap_shortage_m(int path, float s_m, float speed_mps) const;
+  /// Time [s] from the horizon's end until who is at `s_m` of `path` with `speed_mps` then is in the gap
+  /// there that we can meet; 0 when there is none, or no need of one.
+  [[nodiscard]] float time_to_gap_s(int path, float s_m, float speed_mps) const;
+
+  /// Where to be for the gap of `path` that we can meet, along the keep path at plan start.
+  [[nodiscard]] GapAim gap_aim(const Scene& scene, int path) const;
 
  private:
-  /// A vehicle at the horizon's end, along a path.
-  struct Seen {
-    float s_m = 0.0F;  ///< of its box centre
-    float length_m = 0.0F;
-    float speed_mps = 0.0F;
-    bool in_lane = false;  ///< of the path; else in a lane we have to return to
-  };
   struct Lane {
-    BoundedVector<Seen, kMaxTracks> seen;
+    LaneVehicles seen;
+    bool returns = false;     ///< somebody is in a lane we have to return to
+    LaneGap gap;              ///< that we can meet, in a lane beside ours
     float target_s_m = 0.0F;  ///< how far the outlook goes
-    float return_s_m = 0.0F;  ///< where a way back to the route's lane must have begun
+    float room_s_m = 0.0F;    ///< where we must have come to rest if a change due has not been made
     float limit_mps = 1.0F;
   };
+
+  /// When we are at `to_s_m`, behind him.
+  [[nodiscard]] float behind_s(const LaneVehicle& other, float to_s_m) const;
+  /// When we are at `to_s_m`, from `s_m`, alone or behind somebody in the lane. \param speed_mps  ours; then
+  float arrival_s(const Lane& lane, float to_s_m, float s_m, float& speed_mps) const;
+  void find_gaps(const Scene& scene, float lead_s);
+
   BoundedVector<Lane, decltype(Scene::ego_paths)::kCapacity> lanes_;
+  const Parameters* parameters_ = nullptr;
   float way_m_ = 0.0F;
   float weight_ = 1.0F;    ///< of time: 1 while there is ample room for the lane changes left to do
-  float length_m_ = 0.0F;  ///< ours
   float centre_m_ = 0.0F;  ///< from our rear axle
-  float acceleration_mps2_ = 1.0F;
-  float standstill_gap_m_ = 0.0F;
-  float headway_s_ = 0.0F;
+  float our_s_m_ = 0.0F;   ///< along the keep path, at plan start
 };
 
 }  // namespace s4tp

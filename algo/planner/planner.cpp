@@ -181,10 +181,13 @@ void Planner::predict(Explanation& explanation) {
 
 void Planner::rank(bool careful, Explanation& explanation) {
   int left_out = 0;
+  Outlook outlook;
   {
     const StageScope scope(probe, Stage::kCandidates);
+    const float lead_s = 0.001F * static_cast<float>(static_cast<std::int32_t>(start_ms_ - scene_.time_ms));
+    outlook.look(scene_, keep_going_, lead_s, parameters_);
     generate_candidates(scene_, start_, running_, start_ms_, parameters_, allowance.candidates, lines_,
-                        candidates_, left_out);
+                        candidates_, left_out, gap_to_aim_at(scene_, outlook, parameters_));
     explanation.left_out = static_cast<std::uint8_t>(to_int(static_cast<float>(left_out), 0, 255));
     explanation.candidate_count = static_cast<std::uint8_t>(candidates_.size());
     count(explanation, Stage::kCandidates, candidates_.size());
@@ -194,8 +197,6 @@ void Planner::rank(bool careful, Explanation& explanation) {
   const int shortlisted = allowance.decisions > 1 ? allowance.decisions : 1;
   decisions_.clear();
   keeps_plan_ = false;
-  Outlook outlook;
-  outlook.look(scene_, keep_going_, parameters_);
   const int plan_path = path_of_plan();
   CheckReport report;
   for (int i = 0; i < candidates_.size(); ++i) {

@@ -8,7 +8,9 @@ namespace {
 
 constexpr float kCarefulSpeedShare = 0.6F;  // of the limit, while a source of ours is stale
 constexpr float kChangeRoomM = 60.0F;  // a lane change left to do starts to press when its room is this short
-constexpr float kGapShare = 0.25F;     // of lane_route, per metre of a gap missing
+constexpr float kGapShare = 0.5F;      // of what the lane beside gains, for each second until its gap is met
+constexpr float kLongestS = 8.0F;
+constexpr float kLookS = static_cast<float>(kHorizonSteps) * kStepS;
 constexpr float kMissedRoute = 10.0F;  // times lane_route: driving past the last place to change lanes
 
 /// Price of the lane: how many changes are left, more pressing as the room for them shortens.
@@ -28,23 +30,44 @@ float lane_cost(const Scene& scene, const Outlook& outlook, int path, float s_m,
          route_cost(scene.ego_paths[path], s_m, parameters);
 }
 
-/// Price of the gap missing in the lane beside that we had rather be in, if there is one.
-float gap_cost(const Scene& scene, const Outlook& outlook, int path, float s_m, float speed_mps,
-               float cost_here, const Parameters& parameters) {
-  float gain = 0.0F;
-  float shortage_m = 0.0F;
+/// The lane beside that we had rather be in, or -1. \param gain  receives what it saves, 0: nothing
+int better_lane(const Scene& scene, const Outlook& outlook, int path, float s_m, float speed_mps,
+                float cost_here, const Parameters& parameters, float& gain) {
+  gain = 0.0F;
+  int best = -1;
   for (int i = 0; i < scene.ego_paths.size(); ++i) {
     if (i == path) continue;
     const float there_s_m = s_m + scene.ego_paths[i].frenet.s_m - scene.ego_paths[path].frenet.s_m;
     const float cost = lane_cost(scene, outlook, i, there_s_m, speed_mps, parameters);
     if (cost_here - cost <= gain) continue;
     gain = cost_here - cost;
-    shortage_m = outlook.gap_shortage_m(i, there_s_m, speed_mps);
+    best = i;
   }
-  return kGapShare * min(gain, parameters.scoring.lane_route) * shortage_m;
+  return best;
+}
+
+/// Price of the time until we are in the gap of the lane beside that we had rather be in, if there is one.
+float gap_cost(const Scene& scene, const Outlook& outlook, int path, float s_m, float speed_mps,
+               float cost_here, const Parameters& parameters) {
+  float gain = 0.0F;
+  const int lane = better_lane(scene, outlook, path, s_m, speed_mps, cost_here, parameters, gain);
+  if (lane < 0) return 0.0F;
+  const float there_s_m = s_m + scene.ego_paths[lane].frenet.s_m - scene.ego_paths[path].frenet.s_m;
+  return kGapShare * min(gain, parameters.scoring.lane_route) *
+         min(outlook.time_to_gap_s(lane, there_s_m, speed_mps), kLongestS);
 }
 
 }  // namespace
+
+GapAim gap_to_aim_at(const Scene& scene, const Outlook& outlook, const Parameters& parameters) {
+  if (scene.ego_paths.empty()) return {};
+  const float speed_mps = scene.ego.speed_mps;
+  const float s_m = scene.ego_paths[0].frenet.s_m + kLookS * speed_mps;
+  const float here = lane_cost(scene, outlook, 0, s_m, speed_mps, parameters);
+  float gain = 0.0F;
+  const int lane = better_lane(scene, outlook, 0, s_m, speed_mps, here, parameters, gain);
+  return lane < 0 ? GapAim{} : outlook.gap_aim(scene, lane);
+}
 
 CostBreakdown score_motion(const Scene& scene, const Outlook& outlook, int path_index,
                            const Trajectory& trajectory, bool other_lane, bool careful,

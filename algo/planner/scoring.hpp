@@ -9,10 +9,13 @@
 
 namespace s4tp {
 
-/// All terms but risk. From the lane we are in, one we had rather be in also asks how well the end fits a gap
-/// there: a driver who has to merge looks for his gap before he signals. \param path  index of the ego path
-/// the trajectory follows \param other_lane  than the running plan's: starting a lane change has its price,
-/// and so has dropping one \param careful  degraded driving: the speed wanted is lower
+/// The gap to drive for of the lane beside that we had rather be in, if driving on as we do there is one.
+[[nodiscard]] GapAim gap_to_aim_at(const Scene& scene, const Outlook& outlook, const Parameters& parameters);
+
+/// All terms but risk. From the lane we are in, one we had rather be in also asks how soon the end leads into
+/// a gap there: a driver who has to merge looks for his gap before he signals. \param path  index of the ego
+/// path the trajectory follows \param other_lane  than the running plan's: starting a lane change has its
+/// price, and so has dropping one \param careful  degraded driving: the speed wanted is lower
 [[nodiscard]] CostBreakdown score_motion(const Scene& scene, const Outlook& outlook, int path,
                                          const Trajectory& trajectory, bool other_lane, bool careful,
                                          const Parameters& parameters);

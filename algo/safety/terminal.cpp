@@ -1,6 +1,7 @@
 #include "algo/safety/terminal.hpp"
 
 #include "algo/core/inline.hpp"
+#include "algo/safety/change_gaps.hpp"
 #include "algo/safety/lane_change.hpp"
 #include "algo/safety/right_of_way.hpp"
 #include "algo/trajectory/along_path.hpp"
@@ -20,9 +21,6 @@ constexpr float kCrawlMps = 2.0F;          // way beyond the horizon is driven n
 constexpr float kLeaderGapM = 0.3F;        // left when both have stopped
 constexpr float kChangeWayM = 15.0F;       // of a slow lane change
 constexpr float kUsualLaneM = 3.2F;
-constexpr float kChangeGapM = 1.0F;  // the same, to a leader we choose ourselves
-constexpr float kFollowerHeadwayS = 0.3F;
-constexpr float kFollowerGapM = 2.5F;
 
 /// A trajectory seen along its path: arc lengths of the rear axle.
 struct Along {
@@ -154,13 +152,10 @@ bool leader_safe(const EgoPath& path, const Leader& leader, const Along& along, 
   const float its_way_m = later_mps > 0.0F || leader.speed_mps <= 0.0F
                               ? 0.5F * (leader.speed_mps + later_mps) * kHorizonS
                               : square(leader.speed_mps) / (-2.0F * braking);
-  const float stop_m = square(later_mps) / (2.0F * parameters.rss.braking_max_mps2);
-  // Into a gap of our own choice only where the proper response (rss.hpp) would still be less than b_min.
-  const float own_braking = begins ? parameters.rss.braking_min_mps2 : kHardMps2;
-  const float own_stop_m = square(along.end_mps) / (2.0F * own_braking);
-  const float own_way_m = along.end_s_m() - path.frenet.s_m;
-  const float left_m = leader.gap_m + its_way_m + stop_m - own_way_m - own_stop_m;
-  if (begins) return left_m >= kChangeGapM;
+  const float end_gap_m = leader.gap_m + its_way_m - (along.end_s_m() - path.frenet.s_m);
+  if (begins) return end_gap_m >= change_gap_to_leader_m(along.end_mps, later_mps, parameters);
+  const float left_m = end_gap_m + square(later_mps) / (2.0F * parameters.rss.braking_max_mps2) -
+                       square(along.end_mps) / (2.0F * kHardMps2);
   // A leader who cut in may have left less than that already: then it only must not get worse.
   const float now_m = leader.gap_m + square(leader.speed_mps) / (2.0F * parameters.rss.braking_max_mps2) -
                       square(along.start_mps) / (2.0F * kHardMps2);
@@ -176,9 +171,7 @@ bool follower_safe(const Leader& follower, const Along& along, const Parameters&
   const float way_m =
       min(along.end_s_m() - along.start_s_m(), 0.5F * (along.start_mps + end_mps) * kHorizonS);
   const float gap_m = follower.gap_m + way_m - follower.speed_mps * kHorizonS;
-  if (gap_m < kFollowerGapM + kFollowerHeadwayS * follower.speed_mps) return false;
-  const float faster_mps = max(0.0F, follower.speed_mps - end_mps);
-  return square(faster_mps) <= 2.0F * kFollowerBrakingMps2 * (gap_m - kFollowerGapM);
+  return gap_m >= change_gap_to_follower_m(end_mps, follower.speed_mps);
 }
 
 }  // namespace

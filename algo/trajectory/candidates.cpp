@@ -13,16 +13,17 @@ namespace {
 struct Trial {
   Intent intent;
   float acceleration_mps2;  ///< kAccelerate
-  int line;                 ///< kStop: which stopping place, by nearness
+  int line;                 ///< kStop: which stopping place, by nearness; kFollow: 1 in a gap
 };
 constexpr Trial kTrials[] = {
-    {Intent::kPrevious, 0.0F, 0},    {Intent::kFollow, 0.0F, 0},      {Intent::kStop, 0.0F, 0},
-    {Intent::kAccelerate, 2.0F, 0},  {Intent::kAccelerate, -3.0F, 0}, {Intent::kAccelerate, 0.0F, 0},
-    {Intent::kAccelerate, -1.0F, 0}, {Intent::kAccelerate, -5.0F, 0}, {Intent::kAccelerate, 1.0F, 0},
-    {Intent::kAccelerate, 4.0F, 0},  {Intent::kStop, 0.0F, 1},        {Intent::kStop, 0.0F, 2},
+    {Intent::kPrevious, 0.0F, 0},   {Intent::kFollow, 0.0F, 0},      {Intent::kStop, 0.0F, 0},
+    {Intent::kFollow, 0.0F, 1},     {Intent::kAccelerate, 2.0F, 0},  {Intent::kAccelerate, -3.0F, 0},
+    {Intent::kAccelerate, 0.0F, 0}, {Intent::kAccelerate, -1.0F, 0}, {Intent::kAccelerate, -5.0F, 0},
+    {Intent::kAccelerate, 1.0F, 0}, {Intent::kAccelerate, 4.0F, 0},  {Intent::kStop, 0.0F, 1},
+    {Intent::kStop, 0.0F, 2},
 };
 constexpr int kTrialCount = static_cast<int>(sizeof(kTrials) / sizeof(kTrials[0]));
-constexpr int kFirstRound = 6;
+constexpr int kFirstRound = 7;
 constexpr int kMaxStops = 3;
 
 constexpr float kStretch = 1.7F;  // a lateral motion that is infeasible is tried longer, three times
@@ -35,6 +36,7 @@ constexpr float kPassedM = 0.5F;          // a stopping place this far behind us
 constexpr float kPlanOnPathM = 1.5F;      // the running plan belongs to the path its end is this near to
 constexpr float kOnPlanM = 0.01F;         // from where we start exactly on it
 
+constexpr float kHorizonS = static_cast<float>(kHorizonSteps) * kStepS;
 constexpr float kMaxLeadS = 0.5F;  // plan start after the scene's time
 
 /// One path with all that its candidates share.
@@ -133,10 +135,29 @@ bool has_twin(const Reach* reaches, int count, const Reach& reach) {
   return false;
 }
 
+/// The gap's place; in our own lane one behind our leader where that is nearer, now or at the horizon's end.
+bool aim_at_gap(const Scene& scene, const Course& course, float lead_s, const GapAim& aim,
+                const Parameters& parameters, Candidate& candidate) {
+  if (aim.path == 0 || (candidate.path != 0 && candidate.path != aim.path)) return false;
+  candidate.in_gap = true;
+  candidate.target_s_m = aim.s_m + scene.ego_paths[candidate.path].frenet.s_m - scene.ego_paths[0].frenet.s_m;
+  candidate.target_speed_mps = aim.speed_mps;
+  if (candidate.path != 0 || course.leader.agent < 0) return true;
+  const float leader_mps = course.leader.speed_mps;
+  const float distance_m = parameters.comfort.standstill_gap_m + parameters.comfort.headway_s * leader_mps;
+  const float behind_s_m = course.leader_touch_s_m + lead_s * leader_mps - distance_m;
+  const float end_s_m =
+      min(aim.s_m + kHorizonS * aim.speed_mps, max(course.where.s_m, behind_s_m + kHorizonS * leader_mps));
+  candidate.target_s_m = min(aim.s_m, behind_s_m);
+  candidate.target_speed_mps = (end_s_m - candidate.target_s_m) / kHorizonS;
+  return true;
+}
+
 /// The longitudinal half of a recipe. \return false when this path has no such thing
-bool shape_longitudinal(const Trial& trial, const ReferenceLine& line, const Course& course,
-                        const TrajectoryPoint& start, const Plan& running, std::uint32_t start_ms,
-                        float lead_s, const Parameters& parameters, Candidate& candidate) {
+bool shape_longitudinal(const Scene& scene, const Trial& trial, const ReferenceLine& line,
+                        const Course& course, const TrajectoryPoint& start, const Plan& running,
+                        std::uint32_t start_ms, float lead_s, const GapAim& aim, const Parameters& parameters,
+                        Candidate& candidate) {
   candidate.intent = trial.intent;
   candidate.acceleration_mps2 = parameters.comfort.acceleration_mps2;
   switch (trial.intent) {
@@ -150,6 +171,7 @@ bool shape_longitudinal(const Trial& trial, const ReferenceLine& line, const Cou
       return square(start.speed_mps) <=
              2.0F * parameters.vehicle.braking_max_mps2 * max(0.1F, candidate.target_s_m - course.where.s_m);
     case Intent::kFollow:
+      if (trial.line == 1) return aim_at_gap(scene, course, lead_s, aim, parameters, candidate);
       if (course.leader.agent < 0) return false;
       candidate.target_s_m = course.leader_touch_s_m + lead_s * course.leader.speed_mps;
       candidate.target_speed_mps = course.leader.speed_mps;
@@ -181,7 +203,7 @@ bool make_feasible(const ReferenceLine& line, const TrajectoryPoint& start, cons
 
 void generate_candidates(const Scene& scene, const TrajectoryPoint& start, const Plan& running,
                          std::uint32_t start_ms, const Parameters& parameters, int most,
-                         ReferenceLines& lines, CandidateList& candidates, int& left_out) {
+                         ReferenceLines& lines, CandidateList& candidates, int& left_out, const GapAim& aim) {
   candidates.clear();
   left_out = 0;
   if (scene.map == nullptr) return;
@@ -205,8 +227,8 @@ void generate_candidates(const Scene& scene, const TrajectoryPoint& start, const
       for (int k = first; k < last; ++k) {
         Candidate candidate;
         candidate.path = static_cast<std::uint8_t>(path);
-        if (!shape_longitudinal(kTrials[k], line, course, start, running, start_ms, lead_s, parameters,
-                                candidate))
+        if (!shape_longitudinal(scene, kTrials[k], line, course, start, running, start_ms, lead_s, aim,
+                                parameters, candidate))
           continue;
         if (candidates.size() >= most && !candidates.full()) {
           ++left_out;

@@ -21,19 +21,27 @@ enum class Intent : std::uint8_t {
   kPrevious = 3,    ///< the running plan, shifted
 };
 
+/// A gap of a lane beside (lane_gap.hpp), as a place that moves on.
+struct GapAim {
+  std::uint8_t path = 0;  ///< of that lane; 0, the keep path: there is none
+  float s_m = 0.0F;       ///< of the rear axle along the keep path, at plan start
+  float speed_mps = 0.0F;
+};
+
 /// Relative to the smoothed centre line (reference_line.hpp) of `path` of the scene's ego_paths; s is that of
 /// our rear axle. Speed never exceeds [0, limit and curves ahead] on purpose: a start above is braked down.
 struct Candidate {
   std::uint8_t path = 0;  ///< index into Scene::ego_paths
   Intent intent = Intent::kAccelerate;
-  float acceleration_mps2 = 0.0F;  ///< kAccelerate: held after a bounded jerk; kStop, kFollow: at most this
+  float acceleration_mps2 = 0.0F;  ///< kAccelerate: held after a bounded jerk; else: at most this
   float target_s_m = 0.0F;         ///< kStop: where the rear axle comes to rest, not beyond (CAND-006);
-                                   ///< kFollow: where it would touch the leader, at plan start
-  float target_speed_mps = 0.0F;   ///< kFollow: the leader's, held
+                                   ///< kFollow: where it would touch the leader, or in_gap, at plan start
+  float target_speed_mps = 0.0F;   ///< kFollow: the leader's or the gap's, held
   float lateral[6] = {};          ///< d = sum lateral[i] u^i, u = (s - start_s) / length in [0, 1], then d(1)
   float lateral_length_m = 1.0F;  ///< > 0
   bool steered = false;           ///< no quintic fits: steered back to the line (steering.hpp)
-  float start_s_m = 0.0F;         ///< at plan start
+  bool in_gap = false;     ///< kFollow: settles at a gap's place, or beside it in our own lane (CAND-015)
+  float start_s_m = 0.0F;  ///< at plan start
 };
 
 /// Why a candidate was dropped; kNone: it was not.
@@ -62,10 +70,12 @@ using ReferenceLines = ReferenceLine[decltype(Scene::ego_paths)::kCapacity];
 /// Feasible candidates from `start`, at most `most` and kMaxCandidates (CAND-009): diversity over (path,
 /// intent) first, then progress; two that move alike count once. The keep path's hard braking and stops are
 /// always among those tried first. \param lines  receives what the candidates are rolled out on \param
-/// left_out  receives how many feasible ones did not fit, and how many `most` left untried
+/// left_out  receives how many feasible ones did not fit, and how many `most` left untried \param aim  adds
+/// a candidate that settles there, and one beside it in our own lane, behind our own leader (CAND-015)
 void generate_candidates(const Scene& scene, const TrajectoryPoint& start, const Plan& running,
                          std::uint32_t start_ms, const Parameters& parameters, int most,
-                         ReferenceLines& lines, CandidateList& candidates, int& left_out);
+                         ReferenceLines& lines, CandidateList& candidates, int& left_out,
+                         const GapAim& aim = {});
 
 /// Rolls a candidate out on the line of its path. points[0] is `start` itself; speeds >= 0; each point lies
 /// where its speed leads (CAND-010). For kPrevious `running` is shifted and continued along the path at its

@@ -13,6 +13,7 @@ constexpr float kShortM = 0.15F;         // stops aim this much short: the last 
 constexpr float kHoldMps = 0.15F;        // slower than this and near the target: come to rest
 constexpr float kHoldM = 0.5F;
 constexpr float kRestMps2 = 1.0F;        // braking of the last crawl
+constexpr float kSettleS = 0.8F;         // a gap's place is settled at exponentially with this
 constexpr float kFollowGapM = 0.5F;      // beyond the RSS distance: clipping stays rare
 constexpr float kDriveJerkMps3 = 8.0F;   // building up drive
 constexpr float kBrakeJerkMps3 = 12.0F;  // ordinary braking and its release
@@ -48,6 +49,17 @@ float for_leader(float gap_m, float speed_mps, float leader_mps, const Parameter
   return comfort.acceleration_mps2 * (1.0F - square(wanted_m / max(gap_m, 0.5F)));
 }
 
+/// Closes on a place that moves at `place_mps`: fast as long as comfortable braking (or, from ahead, drive)
+/// still settles there.
+float for_place(float ahead_m, float speed_mps, float place_mps, const Parameters& parameters) {
+  const auto& comfort = parameters.comfort;
+  const float change = kBegin * (ahead_m > 0.0F ? comfort.braking_mps2 : comfort.acceleration_mps2);
+  const float closing_mps =
+      sqrt(2.0F * change * abs(ahead_m) + square(change * kSettleS)) - change * kSettleS;
+  const float wanted_mps = place_mps + (ahead_m > 0.0F ? closing_mps : -closing_mps);
+  return max(-comfort.braking_mps2, (wanted_mps - speed_mps) / kReactS);
+}
+
 }  // namespace
 
 float wanted_acceleration(const ReferenceLine& line, const Candidate& candidate,
@@ -58,8 +70,10 @@ float wanted_acceleration(const ReferenceLine& line, const Candidate& candidate,
     const float left_m = candidate.target_s_m - state.s_m;
     wanted = min(wanted, for_stop(left_m, state.speed_mps, parameters.comfort.braking_mps2));
   } else if (candidate.intent == Intent::kFollow) {
-    const float gap_m = candidate.target_s_m + candidate.target_speed_mps * time_s - state.s_m;
-    wanted = min(wanted, for_leader(gap_m, state.speed_mps, candidate.target_speed_mps, parameters));
+    const float ahead_m = candidate.target_s_m + candidate.target_speed_mps * time_s - state.s_m;
+    wanted = min(wanted, candidate.in_gap
+                             ? for_place(ahead_m, state.speed_mps, candidate.target_speed_mps, parameters)
+                             : for_leader(ahead_m, state.speed_mps, candidate.target_speed_mps, parameters));
   }
   return wanted;
 }

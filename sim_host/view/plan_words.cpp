@@ -219,7 +219,8 @@ const char* manoeuvre_name(Manoeuvre manoeuvre) {
 
 std::string candidate_text(const Candidate& candidate, Manoeuvre manoeuvre) {
   static constexpr const char* kIntents[] = {"accelerate", "stop", "follow", "previous plan"};
-  return format("%s, %s, %.1f m/s2", manoeuvre_name(manoeuvre), kIntents[static_cast<int>(candidate.intent)],
+  const char* const intent = candidate.in_gap ? "beside a gap" : kIntents[static_cast<int>(candidate.intent)];
+  return format("%s, %s, %.1f m/s2", manoeuvre_name(manoeuvre), intent,
                 static_cast<double>(candidate.acceleration_mps2));
 }
 

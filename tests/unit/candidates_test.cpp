@@ -355,6 +355,53 @@ TEST(Candidates, FollowSettlesBehindTheLeader) {
   EXPECT_GT(least_gap, 11.0F);
 }
 
+// CAND-015 From 13 m/s and 10 m behind: beside a gap at 8 m/s we settle in its place, without braking over
+// comfort; with our own leader at 6 m/s we stay 2.5 + 1.2 * 6 = 9.7 m behind him instead, though the gap goes
+// on.
+TEST(Candidates, SettlesBesideAGap) {
+  for (const bool leader : {false, true}) {
+    LaneMap map = straight_road(2, 1000.0F);
+    Scene scene;
+    scene.time_ms = kNow;
+    add_way(scene, map, path_of(map, {0}));
+    add_way(scene, map, path_of(map, {1}), Manoeuvre::kLeft);
+    TrajectoryPoint state = state_on(map, scene.ego_paths[0].path, 20.0F, 13.0F);
+    GapAim aim{1, 30.0F, 8.0F};
+    float leader_s_m = 70.0F;
+    float hardest_mps2 = 0.0F;
+    for (int i = 0; i < 200; ++i) {
+      scene.agents.clear();
+      if (leader) add_vehicle(scene, map, scene.ego_paths[0].path, leader_s_m, 6.0F);
+      put_ego(scene, state);
+      ReferenceLines lines;
+      CandidateList list;
+      int left_out = 0;
+      generate_candidates(scene, state, Plan{}, kNow, Parameters{}, kMaxCandidates, lines, list, left_out,
+                          aim);
+      const Candidate* beside = nullptr;
+      bool changes = false;
+      for (const Candidate& candidate : list) {
+        if (candidate.in_gap && candidate.path == 0) beside = &candidate;
+        changes = changes || (candidate.in_gap && candidate.path == 1);
+      }
+      if (beside == nullptr) beside = find(list, 0, Intent::kFollow);  // it moves alike by then
+      ASSERT_NE(beside, nullptr) << i;
+      EXPECT_TRUE(changes) << i;
+      state = rolled(scene, *beside, state).points[1];
+      hardest_mps2 = std::min(hardest_mps2, state.acceleration_mps2);
+      aim.s_m += kStepS * aim.speed_mps;
+      leader_s_m += kStepS * 6.0F;
+    }
+    if (leader) {
+      EXPECT_NEAR(leader_s_m - 2.5F - (state.rear_axle.x_m + 4.0F), 9.7F, 0.5F);
+    } else {
+      EXPECT_NEAR(state.rear_axle.x_m, aim.s_m, 0.5F);
+      EXPECT_NEAR(state.speed_mps, 8.0F, 0.1F);
+      EXPECT_GE(hardest_mps2, -2.6F);
+    }
+  }
+}
+
 // CAND-010 The running plan, shifted by one step, is a candidate: its old points to the bit, and one more.
 TEST(Candidates, RunningPlanGoesOn) {
   Roads roads(50.0F, 10.0F);

@@ -29,7 +29,7 @@ struct Road {
   void look() {
     KinematicSet keep_going;
     for (const Agent& agent : scene.agents) (void)keep_going.agents.push(steady_future(map, agent));
-    outlook.look(scene, keep_going, Parameters{});
+    outlook.look(scene, keep_going, 0.0F, Parameters{});
   }
 };
 
@@ -61,8 +61,8 @@ TEST(Outlook, OvertakingPays) {
 }
 
 // One at 9 m/s, 15 m nearer, costs (171.5 + 18.3 - 72) / 9 = 13.1 s: 1.1 s lost. We gain 1 m/s on him: where
-// the way back has to begin, 20 m before the end at 300, we are 2.5 m ahead, centre to centre: not past him.
-// So the lane beside is as slow as ours.
+// the way back has to begin, 20 m of braking before our front is at 300, we are 2.3 m ahead, centre to
+// centre: not past him. So the lane beside is as slow as ours.
 TEST(Outlook, NoOvertakingWithoutRoomToReturn) {
   Road road;
   road.vehicle(0, 45.0F, 9.0F);
@@ -99,14 +99,37 @@ TEST(Outlook, DeadlinesComeBeforeTime) {
   EXPECT_NEAR(delays_s[2], 10.0F, 0.05F);
 }
 
-// Beside a gap there is nothing missing; abreast of a car all of it is: 2.5 + 0.6 * 10 m plus 5 m of lengths,
-// less the 0.5 m by which the centres differ, at equal speeds.
-TEST(Outlook, GapsAreMeasured) {
+// Whom we could pass in time, but who leaves no room behind the one we cannot pass, is not passed either: 15
+// m behind that one, at 57 m at the horizon's end, he costs (171.5 + 18.3 - 57) / 9 = 14.8 s: 2.8 s lost. At
+// 25 m there is room: 5 + 5 m of lengths, 1 + 81/10 - 81/16 in front, 2.5 + 0.3 * 9 behind, 0.4 m to spare
+// are 19.6 m.
+TEST(Outlook, NoReturnIntoATightColumn) {
+  float delays_s[2] = {};
+  const float centres_m[2] = {30.0F, 20.0F};
+  for (int i = 0; i < 2; ++i) {
+    Road road;
+    road.vehicle(0, 45.0F, 9.0F);
+    road.vehicle(0, centres_m[i], 9.0F);
+    road.look();
+    delays_s[i] = road.outlook.delay_s(1, 50.0F, 10.0F);
+  }
+  EXPECT_NEAR(delays_s[0], 2.76F, 0.05F);
+  EXPECT_NEAR(delays_s[1], 1.1F, 0.05F);
+}
+
+// One abreast at our speed, the limit: we can only fall back behind him, 11.45 m behind his centre (see
+// lane_gap_test.cpp) and 1 m more: 22 - 12.45 m. From 50 m at the horizon's end 9.45 m have to be lost: 4.6
+// s.
+TEST(Outlook, GapsAreAimedAt) {
   Road road;
   road.vehicle(1, 22.0F, 10.0F);  // at 52 m at the horizon's end
   road.look();
-  EXPECT_NEAR(road.outlook.gap_shortage_m(1, 50.0F, 10.0F), 8.5F + 5.0F - 0.5F, 0.02F);
-  EXPECT_EQ(road.outlook.gap_shortage_m(1, 80.0F, 10.0F), 0.0F);
+  EXPECT_NEAR(road.outlook.time_to_gap_s(1, 50.0F, 10.0F), 4.6F, 0.05F);
+  EXPECT_EQ(road.outlook.time_to_gap_s(1, 40.0F, 10.0F), 0.0F);
+  const GapAim aim = road.outlook.gap_aim(road.scene, 1);
+  EXPECT_EQ(aim.path, 1);
+  EXPECT_NEAR(aim.s_m, 9.55F, 0.05F);
+  EXPECT_EQ(aim.speed_mps, 10.0F);
 }
 
 }  // namespace

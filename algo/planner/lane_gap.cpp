@@ -1,0 +1,113 @@
+#include "algo/planner/lane_gap.hpp"
+
+#include "algo/core/inline.hpp"
+#include "algo/safety/change_gaps.hpp"
+#include "algo/trajectory/bicycle.hpp"
+
+namespace s4tp {
+namespace {
+
+constexpr float kHorizonS = static_cast<float>(kHorizonSteps) * kStepS;
+constexpr float kPatienceS = 8.0F;
+constexpr float kDuePatienceS = 20.0F;
+constexpr float kInsetM = 0.2F;  // from both ends of a gap: vehicles do not keep their speeds exactly
+constexpr float kShare = 0.8F;   // of comfortable drive and braking
+constexpr float kNeverS = 1e3F;
+
+/// Time to gain `way_m` >= 0 and end with no speed, from `speed` (relative ones), with `up` while gaining
+/// speed, `down` while losing it, and `top` at most. \pre without more drive we end before that
+float time_to_gain_s(float way_m, float speed, float up, float down, float top) {
+  const float effort = 2.0F * way_m + square(speed) / up;
+  const float peak = sqrt(effort * up * down / (up + down));
+  if (peak <= top) return (peak - speed) / up + peak / down;
+  if (top < 0.1F) return kNeverS;
+  const float steady_m = way_m - (square(top) - square(speed)) / (2.0F * up) - square(top) / (2.0F * down);
+  return max(0.0F, top - speed) / up + top / down + steady_m / top;
+}
+
+LaneGap gap_between(const LaneVehicle* front, const LaneVehicle* rear, float limit_mps,
+                    const Parameters& parameters) {
+  LaneGap gap;
+  gap.speed_mps = limit_mps;
+  if (front != nullptr) gap.speed_mps = min(gap.speed_mps, front->speed_mps);
+  if (rear != nullptr) gap.speed_mps = min(gap.speed_mps, rear->speed_mps);
+  gap.bounded_ahead = front != nullptr;
+  gap.bounded_behind = rear != nullptr;
+  if (front != nullptr) {
+    const float distance_m =
+        max(kInsetM, change_gap_to_leader_m(gap.speed_mps, front->speed_mps, parameters) + kInsetM);
+    gap.front_s_m = front->s_m - 0.5F * front->length_m - distance_m - rear_axle_to_front_m(parameters);
+  }
+  if (rear != nullptr) {
+    const float distance_m = change_gap_to_follower_m(gap.speed_mps, rear->speed_mps) + kInsetM;
+    gap.rear_s_m = rear->s_m + 0.5F * rear->length_m + distance_m + parameters.vehicle.rear_overhang_m;
+  }
+  gap.found = front == nullptr || rear == nullptr || gap.front_s_m >= gap.rear_s_m;
+  return gap;
+}
+
+}  // namespace
+
+void put_in_order(LaneVehicles& vehicles, const Parameters& parameters) {
+  for (int i = 1; i < vehicles.size(); ++i) {
+    const LaneVehicle moving = vehicles[i];
+    int j = i;
+    for (; j > 0 && vehicles[j - 1].s_m < moving.s_m; --j) vehicles[j] = vehicles[j - 1];
+    vehicles[j] = moving;
+  }
+  const LaneVehicle* front[2] = {nullptr, nullptr};
+  for (LaneVehicle& vehicle : vehicles) {
+    const LaneVehicle*& ahead = front[vehicle.in_lane ? 1 : 0];
+    const float limit_mps = vehicle.speed_mps;
+    vehicle.tight = ahead != nullptr && !gap_between(ahead, &vehicle, limit_mps, parameters).found;
+    ahead = &vehicle;
+  }
+}
+
+float time_to_meet_s(const LaneGap& gap, float ahead_s, float s_m, float speed_mps, float limit_mps,
+                     const Parameters& parameters) {
+  const float drive = kShare * parameters.comfort.acceleration_mps2;
+  const float braking = kShare * parameters.comfort.braking_mps2;
+  // In a frame that moves with the gap.
+  const float now_m = s_m + gap.speed_mps * ahead_s;
+  const float speed = speed_mps - gap.speed_mps;
+  const float matched_m =
+      now_m + (speed > 0.0F ? square(speed) / (2.0F * braking) : -square(speed) / (2.0F * drive));
+  if (gap.bounded_behind && matched_m < gap.rear_s_m) {
+    return time_to_gain_s(gap.rear_s_m - now_m, speed, drive, braking, limit_mps - gap.speed_mps);
+  }
+  if (gap.bounded_ahead && matched_m > gap.front_s_m) {
+    return time_to_gain_s(now_m - gap.front_s_m, -speed, braking, drive, gap.speed_mps);
+  }
+  if (speed > 0.0F) return gap.bounded_ahead ? speed / braking : 0.0F;
+  return gap.bounded_behind ? -speed / drive : 0.0F;
+}
+
+LaneGap find_lane_gap(const LaneVehicles& vehicles, const GapSeeker& us, const Parameters& parameters) {
+  LaneVehicles lane;
+  for (const LaneVehicle& vehicle : vehicles) {
+    if (vehicle.in_lane) (void)lane.push(vehicle);
+  }
+  if (lane.empty()) return {};
+  for (int i = 0; i <= lane.size(); ++i) {
+    const LaneVehicle* front = i > 0 ? &lane[i - 1] : nullptr;
+    const LaneVehicle* rear = i < lane.size() ? &lane[i] : nullptr;
+    const LaneGap gap = gap_between(front, rear, us.limit_mps, parameters);
+    if (!gap.found) continue;
+    const float time_s = time_to_meet_s(gap, kHorizonS, us.s_m, us.speed_mps, us.limit_mps, parameters);
+    if (time_s > (us.change_due ? kDuePatienceS : kPatienceS)) continue;
+    // Where we are in it then: at its nearer end, or where matching its speed takes us.
+    float place_m = us.s_m + 0.5F * (us.speed_mps + gap.speed_mps) * time_s;
+    const float moved_m = gap.speed_mps * (time_s - kHorizonS);
+    if (gap.bounded_behind) place_m = max(place_m, gap.rear_s_m + moved_m);
+    if (gap.bounded_ahead) place_m = min(place_m, gap.front_s_m + moved_m);
+    const float stop_m = square(gap.speed_mps) / (2.0F * parameters.comfort.braking_mps2);
+    if (us.change_due && place_m + stop_m > us.room_s_m) continue;
+    const float leader_s_m = us.leader_s_m + us.leader_mps * time_s - parameters.comfort.standstill_gap_m;
+    if (us.has_leader && place_m > leader_s_m) continue;
+    return gap;
+  }
+  return {};
+}
+
+}  // namespace s4tp

@@ -1,0 +1,58 @@
+#pragma once
+/// Gaps between the vehicles of a lane beside: which one we can be in, and how soon. A driver who has to
+/// change lanes looks for his gap early and takes on its speed before he signals.
+
+#include "algo/core/bounded.hpp"
+#include "algo/core/config.hpp"
+#include "algo/core/parameters.hpp"
+
+namespace s4tp {
+
+/// A vehicle at the horizon's end, along a path; it keeps its speed before and after.
+struct LaneVehicle {
+  float s_m = 0.0F;  ///< of its box centre
+  float length_m = 0.0F;
+  float speed_mps = 0.0F;
+  bool in_lane = false;  ///< of the path; else in a lane we have to return to
+  bool tight = false;    ///< no car of ours fits between it and the next one ahead in its lane
+};
+using LaneVehicles = BoundedVector<LaneVehicle, kMaxTracks>;
+
+/// Places of our rear axle at the horizon's end, along the path, where a lane change to it keeps the
+/// distances of change_gaps.hpp to the one in front and the one behind; they move on at `speed_mps`.
+struct LaneGap {
+  bool found = false;
+  bool bounded_ahead = false;   ///< somebody is in front
+  bool bounded_behind = false;  ///< somebody is behind
+  float front_s_m = 0.0F;
+  float rear_s_m = 0.0F;
+  float speed_mps = 0.0F;
+};
+
+/// Us, along the path of the gap's lane.
+struct GapSeeker {
+  float s_m = 0.0F;  ///< of our rear axle, at plan start
+  float speed_mps = 0.0F;
+  float limit_mps = 0.0F;
+  bool change_due = false;
+  float room_s_m = 0.0F;    ///< then: where we must have come to rest if there was no gap
+  bool has_leader = false;  ///< in the lane we are in
+  float leader_s_m = 0.0F;  ///< where our rear axle would touch it, at plan start
+  float leader_mps = 0.0F;
+};
+
+/// Foremost first; and says who is tight behind whom.
+void put_in_order(LaneVehicles& vehicles, const Parameters& parameters);
+
+/// Time [s] until we are in the gap at its speed, by comfortable drive and braking. 1e3: never.
+/// \param ahead_s  when we are at `s_m`, before (positive) the horizon's end
+[[nodiscard]] float time_to_meet_s(const LaneGap& gap, float ahead_s, float s_m, float speed_mps,
+                                   float limit_mps, const Parameters& parameters);
+
+/// GAP-001 The foremost gap that takes a car of ours and can be met within 8 s, or 20 s when the change is
+/// due, not by running into our own leader (GAP-002), and where we can still stop from its speed before the
+/// room to change ends (GAP-003). Not found: none, or the lane is free. \pre vehicles are in order
+[[nodiscard]] LaneGap find_lane_gap(const LaneVehicles& vehicles, const GapSeeker& us,
+                                    const Parameters& parameters);
+
+}  // namespace s4tp
