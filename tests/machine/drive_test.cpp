@@ -85,14 +85,23 @@ Drive drive(const std::string& name, const std::string& options = "", int second
   return result;
 }
 
+/// Waits until somebody listens on vcan0, 60 s at most. \param list  the kernel's: "all", or "sff" by 11-bit
+/// id
+void until_heard(const std::string& list) {
+  const fs::path listeners = "/proc/net/can/rcvlist_" + list;
+  for (int i = 0; i < 600 && content(listeners).find("vcan0 ") == std::string::npos; ++i) usleep(100'000);
+}
+
 /// candump of all that passes, from now until it is asked for.
 class Listener {
  public:
-  Listener() {
-    usleep(500'000);  // until it listens
-  }
+  Listener() { until_heard("all"); }
   [[nodiscard]] std::vector<wire::Frame> frames() {
-    usleep(500'000);  // the last frames are on their way to it
+    std::uintmax_t size = 0;
+    do {  // it is done with what has come when it writes no more
+      size = fs::file_size("seen.log");
+      usleep(500'000);
+    } while (fs::file_size("seen.log") != size);
     candump_.end(SIGTERM);
     return frames_of_log("seen.log");
   }
@@ -125,6 +134,7 @@ bool is_of_world(const wire::Frame& frame) {
 ecu::CommandCheck check_of(const std::vector<wire::Frame>& frames) {
   ecu::CommandCheck check;
   for (const wire::Frame& frame : frames) check.take(frame);
+  check.end();
   return check;
 }
 
@@ -186,8 +196,8 @@ TEST_F(DriveOnVcan, CanplayerGivesTheSamePlans) {
     }
   }
   Listener listener;
-  Program ecu("exec " + kPrograms + "s4tp_ecu_process --bus vcan0 --silence 2 >ecu.txt 2>&1");
-  usleep(1'000'000);
+  Program ecu("exec " + kPrograms + "s4tp_ecu_process --bus vcan0 --silence 10 >ecu.txt 2>&1");
+  until_heard("sff");
   EXPECT_EQ(Program("exec timeout 100 canplayer -I world.log >/dev/null").wait(), 0);
   EXPECT_EQ(ecu.wait(), 0) << content("ecu.txt");
   const auto decided = [](const wire::Frame& frame) {
