@@ -62,8 +62,7 @@ class CommandCheck {
   };
 
   [[nodiscard]] bool answers(const wire::Command& command) const {
-    if (commands_ == 0 && !held_) return tick_ > 0;
-    return ((static_cast<unsigned>(tick_) - command.tick) & 0xFFFU) <= kOldestEcho;
+    return tick_ > 0 && ((static_cast<unsigned>(tick_) - command.tick) & 0xFFFU) <= kOldestEcho;
   }
 
   /// What came up to the tick that is answered is what the ECU knew; in real time others may have begun.

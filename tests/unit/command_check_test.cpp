@@ -80,6 +80,25 @@ TEST(CommandCheck, LeavesOutWhatAnswersNoTick) {
   EXPECT_EQ(check.commands(), check.ticks() - 1);
 }
 
+// Full braking with an echo of no tick there is, right after the first TICK frame, before the ECU has said
+// anything.
+TEST(CommandCheck, LeavesOutAForgedFirstCommand) {
+  CommandCheck check;
+  bool forged = false;
+  for (const wire::Frame& frame : recorded_drive()) {
+    check.take(frame);
+    if (forged || check.ticks() == 0) continue;
+    wire::Frame other;
+    ASSERT_TRUE(wire::encode(wire::Command{.acceleration_mps2 = -8.0F, .mode = 3, .tick = 2000}, other));
+    wire::e2e_seal(other);
+    check.take(other);
+    forged = true;
+  }
+  check.end();
+  EXPECT_EQ(check.findings(), std::vector<std::string>{});
+  EXPECT_EQ(check.commands(), check.ticks());
+}
+
 // Before or after the command of every tenth tick comes a forged one: a CRC that fits, the ECU's own echo,
 // full braking; its counter is anything but the next one, 5 or 11 further than the ECU's.
 TEST(CommandCheck, LeavesOutWhatStandsBetweenTwoInSequence) {
