@@ -14,8 +14,8 @@ PARTS = {
     "builtin": "The built-in traffic",
     "sumo": "SUMO's traffic",
     "long": "More episodes, the built-in traffic",
-    "real": "Perception as it is: noise, 100 ms latency, dropouts, occlusion; the built-in traffic",
     "raw": "`smarts_raw`: the left turn entered at 13.89 m/s, as published; the built-in traffic",
+    "real": "Perception as it is: noise, 100 ms latency, dropouts, occlusion; the built-in traffic",
 }
 SIGNIFICANT = 5  # digits
 
@@ -28,7 +28,8 @@ command gate alone; guarded: with check, RSS and minimum-risk manoeuvre, whoever
 rates, gaps, comfort, the competition's own metrics) are in the JSON beside this page, a line a run.
 
 A comparison is of the same episodes, driven by both: `3 : 11` are the episodes in which only s4tp failed and only the other did.
-Better and worse: McNemar's exact test, p < 0.05; no worse: the failure rates differ by less than 1 % (upper end of the 95 % interval).
+Better and worse: McNemar's exact test, p < 0.05; no worse: the failure rates differ by less than 1 % (upper end of the 95 % interval); without a word none of
+them is shown.
 """
 
 
@@ -113,7 +114,8 @@ def comparisons(against):
     scenarios.sort(key=lambda scenario: scenario == "all scenarios")
 
     def words(cell):
-        return f"{cell['only_first_fails']} : {cell['only_second_fails']} {cell['first_is']}"
+        said = "" if cell["first_is"] == "open" else f" {cell['first_is']}"
+        return f"{cell['only_first_fails']} : {cell['only_second_fails']}{said}"
 
     return table(["s4tp beside", *scenarios],
                  [[other, *(beside([cell for cell in own if cell["scenario"] == scenario], flavours, words)
@@ -144,6 +146,8 @@ def main():
     sections = ""
     for name in PARTS:
         folder = arguments.folder / name
+        if not (folder / "results.json").exists():
+            continue
         document = json.loads((folder / "results.json").read_text(encoding="utf-8"))
         against = {planner: json.loads((folder / f"against_{planner}.json").read_text(encoding="utf-8"))
                    for planner in distinct(document["runs"], "planner") if planner != "s4tp"}
