@@ -106,6 +106,7 @@ Status Planner::plan(const PlannerInput& input, Plan& plan, Explanation& explana
   if (status != Status::kOk) {
     minimum_risk(scene_, start_, running_, start_ms_, parameters_, chosen_);
   } else if (guarded) {
+    const StageScope scope(probe, Stage::kCheck);
     const RssEnvelope envelope = rss_envelope(scene_, parameters_);
     explanation.rss_clipped = clip_to_envelope(envelope, parameters_, chosen_);
     explanation.rss = envelope;
@@ -228,7 +229,10 @@ Status Planner::choose(Explanation& explanation) {
 
 bool Planner::evaluate(int index, Explanation& explanation) {
   const Candidate& candidate = candidates_[index];
-  roll_out(lines_[candidate.path], candidate, start_, running_, start_ms_, parameters_, chosen_);
+  {
+    const StageScope scope(probe, Stage::kCandidates);
+    roll_out(lines_[candidate.path], candidate, start_, running_, start_ms_, parameters_, chosen_);
+  }
   explanation.risk = RiskProfile{};
   if (allowance.decisions <= 0) return true;  // it has passed with the predictions without plan
   {
