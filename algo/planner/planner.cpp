@@ -4,8 +4,7 @@
 
 #include "algo/core/inline.hpp"
 #include "algo/core/self_test.hpp"
-#include "algo/planner/outlook.hpp"
-#include "algo/planner/scoring.hpp"
+#include "algo/planner/stage_scope.hpp"
 #include "algo/safety/minimum_risk.hpp"
 #include "algo/safety/rss.hpp"
 #include "algo/safety/terminal.hpp"
@@ -18,23 +17,6 @@ namespace {
 constexpr std::uint32_t kMaxLeadMs = 200;  // plan start after the snapshot
 constexpr std::uint8_t kNobody = 255;
 constexpr float kCrashCost = 1000.0F;  // a certain crash outweighs all other terms of a score together
-
-/// Tells the probe about one stage, from construction to the end of the scope.
-class StageScope {
- public:
-  StageScope(Probe* probe, Stage stage) : probe_(probe), stage_(stage) {
-    if (probe_ != nullptr) probe_->stage_begin(stage_);
-  }
-  ~StageScope() {
-    if (probe_ != nullptr) probe_->stage_end(stage_);
-  }
-  StageScope(const StageScope&) = delete;
-  StageScope& operator=(const StageScope&) = delete;
-
- private:
-  Probe* probe_;
-  Stage stage_;
-};
 
 bool within(float x, float low, float high) {
   return is_finite(x) && x >= low && x <= high;
@@ -74,11 +56,6 @@ void let_others_stand(Scene& scene) {
     agent.paths.clear();
     for (History::Sample& sample : agent.history.samples) sample = {agent.track.centre, 0.0F};
   }
-}
-
-void count(Explanation& explanation, Stage stage, int work) {
-  std::uint16_t& total = explanation.work[static_cast<int>(stage)];
-  total = static_cast<std::uint16_t>(total + work);
 }
 
 }  // namespace
@@ -129,6 +106,7 @@ Status Planner::plan(const PlannerInput& input, Plan& plan, Explanation& explana
   if (status != Status::kOk) {
     minimum_risk(scene_, start_, running_, start_ms_, parameters_, chosen_);
   } else if (guarded) {
+    const StageScope scope(probe, Stage::kCheck);
     const RssEnvelope envelope = rss_envelope(scene_, parameters_);
     explanation.rss_clipped = clip_to_envelope(envelope, parameters_, chosen_);
     explanation.rss = envelope;
@@ -177,78 +155,6 @@ void Planner::predict(Explanation& explanation) {
   arena_.predictor.decode(nullptr, allowance.prediction, unconditioned_);
   arena_.predictor.keep_going(keep_going_);
   count(explanation, Stage::kPredict, arena_.predictor.work());
-}
-
-void Planner::rank(bool careful, Explanation& explanation) {
-  int left_out = 0;
-  Outlook outlook;
-  {
-    const StageScope scope(probe, Stage::kCandidates);
-    const float lead_s = 0.001F * static_cast<float>(static_cast<std::int32_t>(start_ms_ - scene_.time_ms));
-    outlook.look(scene_, keep_going_, lead_s, parameters_);
-    generate_candidates(scene_, start_, running_, start_ms_, parameters_, allowance.candidates, lines_,
-                        candidates_, left_out, gap_to_aim_at(scene_, outlook, parameters_));
-    explanation.left_out = static_cast<std::uint8_t>(to_int(static_cast<float>(left_out), 0, 255));
-    explanation.candidate_count = static_cast<std::uint8_t>(candidates_.size());
-    count(explanation, Stage::kCandidates, candidates_.size());
-  }
-
-  const StageScope scope(probe, Stage::kRank);
-  const int shortlisted = allowance.decisions > 1 ? allowance.decisions : 1;
-  decisions_.clear();
-  keeps_plan_ = false;
-  const int plan_path = path_of_plan();
-  CheckReport report;
-  for (int i = 0; i < candidates_.size(); ++i) {
-    const Candidate& candidate = candidates_[i];
-    const bool leaves_lane = scene_.ego_paths[candidate.path].manoeuvre != Manoeuvre::kKeep;
-    const bool previous = candidate.intent == Intent::kPrevious;
-    if (careful && leaves_lane && !previous) {
-      explanation.rejections[i] = Rejection::kLeftOut;
-      continue;
-    }
-    roll_out(lines_[candidate.path], candidate, start_, running_, start_ms_, parameters_, chosen_);
-    explanation.rejections[i] = judge(candidate.path, conditioned_, report);
-    if (explanation.rejections[i] != Rejection::kNone) {
-      note_held_up(candidate.path, report, explanation);
-      continue;
-    }
-    const bool other_lane = candidate.path != plan_path;
-    costs_[i] = score_motion(scene_, outlook, candidate.path, chosen_, other_lane, careful, parameters_);
-    count(explanation, Stage::kRank, 1);
-    const DecisionKey key = decision_key(scene_, candidate.path, chosen_, unconditioned_);
-    if (previous) {
-      keeps_plan_ = true;
-      plan_key_ = key;
-    }
-    // Risk only adds to the score: who is beaten without it needs none computed. The plan's own decision
-    // stays anyway.
-    const int places = keeps_plan_ && key == plan_key_ ? kMaxCandidates : shortlisted;
-    if (!decisions_.open_to(key, costs_[i].total(), places)) continue;
-    costs_[i].risk = parameters_.scoring.risk *
-                         rank_risk(scene_, drivable_, unconditioned_, keep_going_, chosen_, parameters_) +
-                     crash_cost(unconditioned_);
-    decisions_.offer(key, i, costs_[i].total());
-  }
-  decisions_.shortlist(shortlisted, keeps_plan_, plan_key_);
-}
-
-int Planner::path_of_plan() const {
-  for (const Candidate& candidate : candidates_) {
-    if (candidate.intent == Intent::kPrevious) return candidate.path;
-  }
-  return 0;
-}
-
-void Planner::note_held_up(int path, const CheckReport& report, Explanation& explanation) const {
-  // What the car itself cannot do holds nobody up.
-  if (report.result != CheckResult::kCollision && report.result != CheckResult::kTerminal) return;
-  const Manoeuvre manoeuvre = scene_.ego_paths[path].manoeuvre;
-  HeldUp& held_up = manoeuvre == Manoeuvre::kKeep ? explanation.held_up : explanation.beside;
-  float way_m = 0.0F;
-  for (const TrajectoryPoint& point : chosen_.points) way_m = way_m + kStepS * point.speed_mps;
-  if (held_up.report.result != CheckResult::kPassed && way_m <= held_up.way_m) return;
-  held_up = {report, track_id(report.agent), manoeuvre, way_m};
 }
 
 std::uint8_t Planner::track_id(int agent) const {
@@ -323,7 +229,10 @@ Status Planner::choose(Explanation& explanation) {
 
 bool Planner::evaluate(int index, Explanation& explanation) {
   const Candidate& candidate = candidates_[index];
-  roll_out(lines_[candidate.path], candidate, start_, running_, start_ms_, parameters_, chosen_);
+  {
+    const StageScope scope(probe, Stage::kCandidates);
+    roll_out(lines_[candidate.path], candidate, start_, running_, start_ms_, parameters_, chosen_);
+  }
   explanation.risk = RiskProfile{};
   if (allowance.decisions <= 0) return true;  // it has passed with the predictions without plan
   {

@@ -70,15 +70,14 @@ class Planner {
  private:
   void forget_scene();
   void predict(Explanation& explanation);
-  /// Scores every candidate against the predictions without plan and shortlists the decisions.
+  class Ranking;
+  /// Generates the candidates, scores each against the predictions without plan and shortlists the decisions.
   void rank(bool careful, Explanation& explanation);
   /// Evaluates the shortlisted decisions with the predictions they bring about; leaves the best in chosen_.
   [[nodiscard]] Status choose(Explanation& explanation);
   /// Rolls candidate `index` out into chosen_, predicts for it, checks it and computes its exact risk.
   [[nodiscard]] bool evaluate(int index, Explanation& explanation);
-  /// Where the running plan leads, as far as it can go on: our own lane's path else.
-  [[nodiscard]] int path_of_plan() const;
-  void note_held_up(int path, const CheckReport& report, Explanation& explanation) const;
+  [[nodiscard]] int shortlisted() const;  ///< decisions that get a prediction of their own
   [[nodiscard]] std::uint8_t track_id(int agent) const;
   void explain_risk(Status status, Explanation& explanation);
   [[nodiscard]] Rejection judge(int path, const PredictionSet& conditioned, CheckReport& report) const;

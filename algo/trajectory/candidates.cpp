@@ -9,7 +9,7 @@
 namespace s4tp {
 namespace {
 
-/// What is tried, in this order, on every path: first one of each intent, then what adds most.
+/// What is tried, in this order, on every path: the running plan, one of each intent, then what adds most.
 struct Trial {
   Intent intent;
   float acceleration_mps2;  ///< kAccelerate
@@ -23,7 +23,9 @@ constexpr Trial kTrials[] = {
     {Intent::kStop, 0.0F, 2},
 };
 constexpr int kTrialCount = static_cast<int>(sizeof(kTrials) / sizeof(kTrials[0]));
-constexpr int kFirstRound = 7;
+/// Rounds over the paths: what matters most finds room first. Each ends where the next one begins.
+constexpr int kRounds[] = {0, 1, 7, kTrialCount};
+constexpr int kRoundCount = static_cast<int>(sizeof(kRounds) / sizeof(kRounds[0])) - 1;
 constexpr int kMaxStops = 3;
 
 constexpr float kStretch = 1.7F;  // a lateral motion that is infeasible is tried longer, three times
@@ -199,11 +201,27 @@ bool make_feasible(const ReferenceLine& line, const TrajectoryPoint& start, cons
   return feasible(trajectory, parameters);
 }
 
+class NobodyLooks final : public CandidateVisitor {
+ public:
+  using CandidateVisitor::CandidateVisitor;
+  void visit(int /*index*/) override {}
+};
+
 }  // namespace
 
 void generate_candidates(const Scene& scene, const TrajectoryPoint& start, const Plan& running,
                          std::uint32_t start_ms, const Parameters& parameters, int most,
                          ReferenceLines& lines, CandidateList& candidates, int& left_out, const GapAim& aim) {
+  Trajectory trajectory;
+  NobodyLooks nobody(trajectory);
+  generate_candidates(scene, start, running, start_ms, parameters, most, lines, candidates, left_out, nobody,
+                      aim);
+}
+
+void generate_candidates(const Scene& scene, const TrajectoryPoint& start, const Plan& running,
+                         std::uint32_t start_ms, const Parameters& parameters, int most,
+                         ReferenceLines& lines, CandidateList& candidates, int& left_out,
+                         CandidateVisitor& visitor, const GapAim& aim) {
   candidates.clear();
   left_out = 0;
   if (scene.map == nullptr) return;
@@ -213,18 +231,15 @@ void generate_candidates(const Scene& scene, const TrajectoryPoint& start, const
   for (int path = 0; path < scene.ego_paths.size(); ++path) {
     prepare(scene, scene.ego_paths[path], start, lead_s, parameters, lines[path], courses[path]);
   }
-  Trajectory trajectory;
+  Trajectory& trajectory = visitor.rolled_out;
   Reach reaches[kMaxCandidates];
-  // Two rounds over the paths: what matters most finds room first.
-  for (int round = 0; round < 2; ++round) {
-    const int first = round == 0 ? 0 : kFirstRound;
-    const int last = round == 0 ? kFirstRound : kTrialCount;
+  for (int round = 0; round < kRoundCount; ++round) {
     for (int path = 0; path < scene.ego_paths.size(); ++path) {
       const ReferenceLine& line = lines[path];
       Course& course = courses[path];
       course.lateral_length_m = lateral_length_m(line, start, course.where, parameters);
       course.attempts = kStretches;
-      for (int k = first; k < last; ++k) {
+      for (int k = kRounds[round]; k < kRounds[round + 1]; ++k) {
         Candidate candidate;
         candidate.path = static_cast<std::uint8_t>(path);
         if (!shape_longitudinal(scene, kTrials[k], line, course, start, running, start_ms, lead_s, aim,
@@ -238,11 +253,12 @@ void generate_candidates(const Scene& scene, const TrajectoryPoint& start, const
           continue;
         const Reach reach = reach_of(candidate, trajectory);
         if (candidate.intent != Intent::kPrevious && has_twin(reaches, candidates.size(), reach)) continue;
-        if (candidates.push(candidate)) {
-          reaches[candidates.size() - 1] = reach;
-        } else {
+        if (!candidates.push(candidate)) {
           ++left_out;
+          continue;
         }
+        reaches[candidates.size() - 1] = reach;
+        visitor.visit(candidates.size() - 1);
       }
     }
   }

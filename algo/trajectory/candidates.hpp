@@ -67,11 +67,30 @@ using ReferenceLines = ReferenceLine[decltype(Scene::ego_paths)::kCapacity];
 [[nodiscard]] TrajectoryPoint plan_start(const EgoState& ego, std::uint32_t now_ms, const Plan& running,
                                          std::uint32_t start_ms, const Parameters& parameters);
 
+/// Who looks at each candidate as soon as it is kept, while its roll-out is at hand.
+class CandidateVisitor {
+ public:
+  /// \param trajectory  what candidates are rolled out into
+  explicit CandidateVisitor(Trajectory& trajectory) : rolled_out(trajectory) {}
+  /// `rolled_out` is the roll-out of candidate `index` of the list, its last one so far. The running plan
+  /// comes first.
+  virtual void visit(int index) = 0;
+  Trajectory& rolled_out;
+
+ protected:
+  ~CandidateVisitor() = default;
+};
+
 /// Feasible candidates from `start`, at most `most` and kMaxCandidates (CAND-009): diversity over (path,
 /// intent) first, then progress; two that move alike count once. The keep path's hard braking and stops are
 /// always among those tried first. \param lines  receives what the candidates are rolled out on \param
 /// left_out  receives how many feasible ones did not fit, and how many `most` left untried \param aim  adds
 /// a candidate that settles there, and one beside it in our own lane, behind our own leader (CAND-015)
+void generate_candidates(const Scene& scene, const TrajectoryPoint& start, const Plan& running,
+                         std::uint32_t start_ms, const Parameters& parameters, int most,
+                         ReferenceLines& lines, CandidateList& candidates, int& left_out,
+                         CandidateVisitor& visitor, const GapAim& aim = {});
+/// The same without a visitor.
 void generate_candidates(const Scene& scene, const TrajectoryPoint& start, const Plan& running,
                          std::uint32_t start_ms, const Parameters& parameters, int most,
                          ReferenceLines& lines, CandidateList& candidates, int& left_out,

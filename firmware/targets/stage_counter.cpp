@@ -21,15 +21,18 @@ void StageCounter::Row::close() {
 
 void StageCounter::stage_begin(Stage) {
   began_ = counts_now();
+  if (in_cycle_) return;
+  in_cycle_ = true;
+  cycle_began_ = began_;
 }
 
 void StageCounter::stage_end(Stage stage) {
-  const std::uint32_t counts = counts_now() - began_;
-  rows_[static_cast<int>(stage)].running += counts;
-  rows_[kStageCount].running += counts;
+  rows_[static_cast<int>(stage)].running += counts_now() - began_;
 }
 
 void StageCounter::cycle_done(const Scene&, const PredictionSet&, const RiskProfile&) {
+  if (in_cycle_) rows_[kStageCount].running = counts_now() - cycle_began_;
+  in_cycle_ = false;
   for (Row& row : rows_) row.close();
 }
 

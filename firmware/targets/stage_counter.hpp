@@ -21,7 +21,7 @@ class StageCounter final : public Probe {
     std::uint32_t running = 0;  ///< counts so far in the cycle that is running
     void close();
   };
-  static constexpr int kRows = kStageCount + 1;  ///< the last is all stages together
+  static constexpr int kRows = kStageCount + 1;  ///< the last is the whole cycle, what is between stages too
   [[nodiscard]] static const char* name(int row);
   /// \pre 0 <= index < kRows
   [[nodiscard]] const Row& row(int index) const { return rows_[index]; }
@@ -29,6 +29,8 @@ class StageCounter final : public Probe {
  private:
   Row rows_[kRows];
   std::uint32_t began_ = 0;
+  std::uint32_t cycle_began_ = 0;
+  bool in_cycle_ = false;
 };
 
 }  // namespace s4tp::targets

@@ -11,6 +11,7 @@
 
 #include "sim_host/campaign/digest.hpp"
 #include "sim_host/campaign/planner_registry.hpp"
+#include "sim_host/world/sumo/sumo_routes.hpp"
 
 namespace s4tp::campaign {
 namespace {
@@ -34,6 +35,10 @@ std::string digest_of(const world::Scenario& scenario) {
 
 Campaign load_campaign(const CampaignPlan& plan, const std::filesystem::path& scenario_root) {
   Campaign campaign{plan, {}};
+  const auto is_sumo = [](const std::string& traffic) {
+    return world::engine_of(traffic) == world::Engine::kSumo;
+  };
+  const bool with_sumo = std::any_of(plan.traffic.begin(), plan.traffic.end(), is_sumo);
   std::map<std::string, std::string> argument_of;  // scenario name -> argument
   std::map<std::pair<std::string, std::string>, std::shared_ptr<const CampaignScenario>> loaded;
   for (const std::string& flavour : plan.flavours) {
@@ -41,6 +46,7 @@ Campaign load_campaign(const CampaignPlan& plan, const std::filesystem::path& sc
       auto one = std::make_shared<CampaignScenario>();
       one->argument = argument;
       one->scenario = world::load_scenario(world::scenario_path(scenario_root, argument), flavour);
+      if (with_sumo) world::check_names(one->scenario);
       one->digest = digest_of(one->scenario);
       const auto [known, fresh] = argument_of.emplace(one->scenario.name, argument);
       if (!fresh && known->second != argument) {
@@ -52,10 +58,7 @@ Campaign load_campaign(const CampaignPlan& plan, const std::filesystem::path& sc
   }
   for (const std::string& planner : plan.planners) {
     const bool by_sumo = find_planner(planner).drives_in_sumo;  // in its traffic only, and nothing to guard
-    const auto is_sumo = [](const std::string& traffic) {
-      return world::engine_of(traffic) == world::Engine::kSumo;
-    };
-    if (by_sumo && std::none_of(plan.traffic.begin(), plan.traffic.end(), is_sumo)) {
+    if (by_sumo && !with_sumo) {
       throw std::invalid_argument(planner + " drives in SUMO's traffic only: --traffic sumo");
     }
     for (const bool guarded : by_sumo ? std::vector<bool>{false} : plan.guards) {

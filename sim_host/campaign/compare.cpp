@@ -16,14 +16,14 @@ void count(const Outcomes& first, const Outcomes& second, metrics::Paired& paire
   }
 }
 
+}  // namespace
+
 const char* verdict(const metrics::Paired& paired) {
   const metrics::Paired swapped{paired.pairs, paired.only_second_fails, paired.only_first_fails};
   if (metrics::first_is_better(paired)) return "better";
   if (metrics::first_is_better(swapped)) return "worse";
   return metrics::first_is_no_worse(paired) ? "no worse" : "open";
 }
-
-}  // namespace
 
 Outcomes outcomes_of(const CellResult& cell) {
   Outcomes outcomes{cell.cell, {}};
@@ -72,7 +72,7 @@ std::vector<ComparedCell> pair_up(const std::vector<Outcomes>& first, const std:
       like.scenario = "all scenarios";
       if (groups.empty() || groups.back().like != like) groups.push_back({like, {}, {}});
       Group& group = groups.back();
-      group.cells.push_back({words(one.cell), paired});
+      group.cells.push_back({one.cell, paired});
       group.all.pairs += paired.pairs;
       group.all.only_first_fails += paired.only_first_fails;
       group.all.only_second_fails += paired.only_second_fails;
@@ -80,10 +80,29 @@ std::vector<ComparedCell> pair_up(const std::vector<Outcomes>& first, const std:
   }
   std::vector<ComparedCell> compared;
   for (Group& group : groups) {
-    if (group.cells.size() > 1) group.cells.push_back({words(group.like), group.all});
+    if (group.cells.size() > 1) group.cells.push_back({group.like, group.all});
     compared.insert(compared.end(), group.cells.begin(), group.cells.end());
   }
   return compared;
+}
+
+nlohmann::ordered_json comparison_json(const std::vector<ComparedCell>& cells) {
+  auto list = nlohmann::ordered_json::array();
+  for (const auto& [cell, paired] : cells) {
+    list.push_back({{"planner", cell.planner},
+                    {"scenario", cell.scenario},
+                    {"flavour", cell.flavour},
+                    {"traffic", cell.traffic},
+                    {"guarded", cell.guarded},
+                    {"perception", cell.perception},
+                    {"pairs", paired.pairs},
+                    {"only_first_fails", paired.only_first_fails},
+                    {"only_second_fails", paired.only_second_fails},
+                    {"mcnemar_p", metrics::mcnemar_p(paired)},
+                    {"difference_upper", metrics::difference_upper(paired)},
+                    {"first_is", verdict(paired)}});
+  }
+  return list;
 }
 
 void print_comparison(std::ostream& out, const std::vector<ComparedCell>& cells, const std::string& first,
@@ -96,7 +115,7 @@ void print_comparison(std::ostream& out, const std::vector<ComparedCell>& cells,
                 "only 2nd fails", "McNemar p", "upper bound", "1st is");
   out << line;
   for (const ComparedCell& cell : cells) {
-    std::snprintf(line, sizeof line, "%-56.55s%7d%16d%16d%11.4f%11.2f %%  %s\n", cell.name.c_str(),
+    std::snprintf(line, sizeof line, "%-56.55s%7d%16d%16d%11.4f%11.2f %%  %s\n", words(cell.cell).c_str(),
                   cell.paired.pairs, cell.paired.only_first_fails, cell.paired.only_second_fails,
                   metrics::mcnemar_p(cell.paired), 100.0 * metrics::difference_upper(cell.paired),
                   verdict(cell.paired));

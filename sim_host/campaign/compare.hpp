@@ -25,16 +25,23 @@ struct Outcomes {
 [[nodiscard]] std::vector<Outcomes> outcomes_of(const nlohmann::ordered_json& document);
 
 struct ComparedCell {
-  std::string name;
+  Cell cell;  ///< of the first planner
   metrics::Paired paired;
 };
 
 /// Cells of the first planner with those of the second that are alike in all else, on the seeds both have;
-/// after those that differ in scenario only comes their sum. Empty names: every planner with itself.
+/// after those that differ in scenario only comes their sum, the scenario of which is "all scenarios". Empty
+/// names: every planner with itself.
 [[nodiscard]] std::vector<ComparedCell> pair_up(const std::vector<Outcomes>& first,
                                                 const std::string& first_planner,
                                                 const std::vector<Outcomes>& second,
                                                 const std::string& second_planner);
+
+/// As McNemar's test has it: the first is better, worse, no worse, or it is open.
+[[nodiscard]] const char* verdict(const metrics::Paired& paired);
+
+/// A list of cells with counts, McNemar's p and the verdict.
+[[nodiscard]] nlohmann::ordered_json comparison_json(const std::vector<ComparedCell>& cells);
 
 void print_comparison(std::ostream& out, const std::vector<ComparedCell>& cells, const std::string& first,
                       const std::string& second);

@@ -46,6 +46,7 @@ struct CompareOptions {
   fs::path second;
   std::string planner;
   std::string against;
+  fs::path json;
 };
 
 campaign::Shard shard_of(const std::string& text) {
@@ -201,6 +202,7 @@ int compare(const CompareOptions& options) {
   };
   campaign::print_comparison(std::cout, cells, name(options.first, options.planner),
                              name(one ? options.first : options.second, options.against));
+  if (!options.json.empty()) campaign::write_json(options.json, campaign::comparison_json(cells));
   return kDone;
 }
 
@@ -250,6 +252,8 @@ Command add_eval(CLI::App& tool) {
   comparing->add_option("second", compare_options->second, "another one (default: the same)");
   comparing->add_option("--planner", compare_options->planner, "whose runs of the first (default: all)");
   comparing->add_option("--against", compare_options->against, "whose of the second (default: the same)");
+
+  comparing->add_option("--json", compare_options->json, "the same numbers");
 
   const Command reporting = add_eval_report(*eval);
   eval->require_subcommand(0, 1);

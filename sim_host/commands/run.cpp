@@ -98,8 +98,7 @@ int run_on_bus(const RunOptions& run) {
   options.world.engine = world::engine_of(run.common.traffic);
   options.world.perception = world::perception_preset(run.perception);
   options.world.realtime = run.realtime;
-  options.world.answer_within_ms = 1000 * run.patience_s;
-  options.world.dead_after_ms = 2000 * run.patience_s;
+  options.world.wait_for_answers(run.patience_s);
   if (!run.log.empty()) options.world.log = run.log;
   options.out = run.common.out;
   if (starts) {

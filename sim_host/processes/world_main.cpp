@@ -15,6 +15,7 @@ int main(int argc, char** argv) {
   std::string scenario = "left_turn";
   std::string flavour = "smarts";
   std::string traffic = "builtin";
+  int patience_s = 1;
   CLI::App app{"s4tp's virtual world on a CAN bus"};
   app.add_option(
          "--bus", options.world.bus,
@@ -29,6 +30,8 @@ int main(int argc, char** argv) {
       ->check(CLI::IsMember(world::engine_names()));
   app.add_option("--wait-ecu", options.world.wait_s,
                  "seconds for a sign of the ECU (default 10; 0: begin at once)");
+  app.add_option("--patience", patience_s, "seconds for each of the ECU's answers (default 1)")
+      ->check(CLI::Range(1, 600));
   app.add_option("--log", log, "write every frame on the bus here, in candump's format");
   app.add_option("--out", options.out, "folder for run.json");
   app.add_flag("--realtime", options.world.realtime, "10 ms of host time a tick, whatever the ECU does");
@@ -40,6 +43,7 @@ int main(int argc, char** argv) {
   try {
     if (!log.empty()) options.world.log = log;
     options.world.engine = world::engine_of(traffic);
+    options.world.wait_for_answers(patience_s);
     const world::Scenario loaded =
         world::load_scenario(world::scenario_path(scenario_root, scenario), flavour);
     return processes::drive_on_bus(loaded, options, std::cout);

@@ -31,6 +31,11 @@ struct WorldProcessOptions {
   int dead_after_ms = 2000;                  ///< lock-step: without any answer
   std::function<bool()> ecu_lives;           ///< may be empty; false ends the wait for it
   hal::linux_host::RealtimeKernel* kernel = nullptr;  ///< realtime: null is the one we run on
+  /// Lock-step with an ECU that is given little time: so long for each answer, twice that before it is dead.
+  void wait_for_answers(int seconds) {
+    answer_within_ms = 1000 * seconds;
+    dead_after_ms = 2000 * seconds;
+  }
 };
 
 struct WorldProcessResult {

@@ -136,14 +136,11 @@ std::string paired_table(const Cells& cells) {
   std::string body;
   for (const std::string& other : distinct(cells, [](const Cell& cell) { return cell.planner; })) {
     if (other == "s4tp") continue;
-    for (const auto& [name, paired] : campaign::pair_up(outcomes, "s4tp", outcomes, other)) {
-      const char* const verdict = metrics::first_is_better(paired)     ? "better"
-                                  : metrics::first_is_no_worse(paired) ? "no worse"
-                                                                       : "open";
-      body += row({escaped(name), escaped(other), std::to_string(paired.pairs),
+    for (const auto& [cell, paired] : campaign::pair_up(outcomes, "s4tp", outcomes, other)) {
+      body += row({escaped(words(cell)), escaped(other), std::to_string(paired.pairs),
                    std::to_string(paired.only_first_fails), std::to_string(paired.only_second_fails),
                    format("%.4f", metrics::mcnemar_p(paired)),
-                   format("%+.2f", 100.0 * metrics::difference_upper(paired)), verdict});
+                   format("%+.2f", 100.0 * metrics::difference_upper(paired)), campaign::verdict(paired)});
     }
   }
   if (body.empty()) return {};

@@ -106,7 +106,7 @@ TEST(Campaign, KilledGoesOnToTheSameBytes) {
 
   const fs::path record = folder / "killed" / "episodes.jsonl";
   const pid_t child = start(campaign(folder / "killed", {"--jobs", "1"}), folder / "said");
-  for (int i = 0; i < 3000 && (!fs::exists(record) || lines(record) < 4); ++i) usleep(2'000);
+  for (int i = 0; i < 30'000 && (!fs::exists(record) || lines(record) < 4); ++i) usleep(2'000);
   kill(child, SIGKILL);
   (void)wait_for(child);
   ASSERT_GE(lines(record), 4U);
@@ -124,7 +124,7 @@ TEST(Campaign, InterruptedSaysHowToGoOn) {
   const fs::path record = folder / "out" / "episodes.jsonl";
   const std::vector<std::string> arguments = campaign(folder / "out", {"--jobs", "1", "--first-seed", "7"});
   const pid_t child = start(arguments, folder / "said");
-  for (int i = 0; i < 3000 && (!fs::exists(record) || lines(record) < 2); ++i) usleep(2'000);
+  for (int i = 0; i < 30'000 && (!fs::exists(record) || lines(record) < 2); ++i) usleep(2'000);
   kill(child, SIGINT);
   const int code = wait_for(child);
   if (lines(record) < 25U) {  // it was not too fast for us

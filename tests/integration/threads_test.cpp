@@ -139,6 +139,7 @@ struct SideBySide {
     world_options.bus = "memory";
     world_options.seed = kSeed;
     world_options.realtime = realtime;
+    world_options.wait_for_answers(20);  // lock-step: this machine may be busy
     world_options.kernel = &kernel;
     processes::EcuProcessOptions ecu_options;
     ecu_options.bus = "memory";

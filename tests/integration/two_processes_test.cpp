@@ -53,6 +53,19 @@ class Process {
     kill(process_, signal);
     return wait();
   }
+  /// Waits until it has said what it does when it is told to stop, 60 s at most.
+  void until_it_can_be_told() const {
+    const std::string file = "/proc/" + std::to_string(process_) + "/status";
+    for (int i = 0; i < 1200; ++i) {
+      std::ifstream status(file);
+      for (std::string line; std::getline(status, line);) {
+        if (line.rfind("SigCgt:", 0) == 0 &&
+            (std::stoull(line.substr(7), nullptr, 16) >> (SIGTERM - 1) & 1U) != 0U)
+          return;
+      }
+      usleep(50'000);
+    }
+  }
 
  private:
   pid_t process_ = -1;
@@ -146,8 +159,9 @@ class Cable {
 TEST(TwoProcesses, TcpGivesTheSameFrames) {
   for (const std::string scenario : {"left_turn", "merge", "cruise", "overtake"}) {
     const fs::path log = scratch("tcp.log");
-    Process run("s4tp_tool", {"run", "--bus", "slcan:tcp:127.0.0.1:" + test::free_port(), "--scenario",
-                              scenario, "--seed", "3", "--log", log, "--out", scratch("out")});
+    Process run("s4tp_tool",
+                {"run", "--bus", "slcan:tcp:127.0.0.1:" + test::free_port(), "--scenario", scenario, "--seed",
+                 "3", "--log", log, "--out", scratch("out"), "--patience", "20"});
     EXPECT_LE(run.wait(), 1) << scenario;
     EXPECT_EQ(content(log), content(in_process(scenario, 3))) << scenario;
   }
@@ -158,9 +172,9 @@ TEST(TwoProcesses, TcpGivesTheSameFrames) {
 TEST(TwoProcesses, TerminalsGiveTheSameFrames) {
   const Cable cable;
   const fs::path log = scratch("pty.log");
-  Process ecu("s4tp_ecu_process", {"--bus", "slcan:pty:" + cable.ports[0], "--silence", "1"});
+  Process ecu("s4tp_ecu_process", {"--bus", "slcan:pty:" + cable.ports[0], "--silence", "5"});
   Process world("s4tp_world_process", {"--bus", "slcan:tty:" + cable.ports[1] + "@2000000", "--scenario",
-                                       "cruise", "--seed", "3", "--log", log});
+                                       "cruise", "--seed", "3", "--log", log, "--patience", "20"});
   EXPECT_LE(world.wait(), 1);
   EXPECT_EQ(ecu.wait(), 0);
   EXPECT_EQ(frames_of(log), frames_of(in_process("cruise", 3)));
@@ -171,10 +185,10 @@ TEST(TwoProcesses, TerminalsGiveTheSameFrames) {
 TEST(TwoProcesses, KilledEcuIsReported) {
   const std::string port = test::free_port();
   const fs::path log = scratch("killed.log");
-  Process world("s4tp_world_process", {"--bus", "slcan:listen:127.0.0.1:" + port, "--realtime", "--log", log,
-                                       "--out", scratch("out")});
+  Process world("s4tp_world_process", {"--bus", "slcan:listen:127.0.0.1:" + port, "--realtime", "--wait-ecu",
+                                       "60", "--log", log, "--out", scratch("out")});
   Process ecu("s4tp_ecu_process", {"--bus", "slcan:tcp:127.0.0.1:" + port, "--realtime"});
-  for (int i = 0; i < 200 && (!fs::exists(log) || fs::file_size(log) < 1000); ++i) usleep(50'000);
+  for (int i = 0; i < 1200 && (!fs::exists(log) || fs::file_size(log) < 1000); ++i) usleep(50'000);
   EXPECT_EQ(ecu.end(SIGKILL), 128 + SIGKILL);
   EXPECT_EQ(world.wait(), 1);
   EXPECT_NE(content(scratch("out") / "run.json").find("\"ending\": \"dead ECU\""), std::string::npos);
@@ -185,7 +199,7 @@ TEST(TwoProcesses, RealtimeIsReported) {
   const fs::path log = scratch("realtime.log");
   Process run("s4tp_tool", {"run", "--bus", "slcan:tcp:127.0.0.1:" + test::free_port(), "--realtime", "--log",
                             log, "--out", scratch("realtime")});
-  for (int i = 0; i < 200 && (!fs::exists(log) || fs::file_size(log) < 10'000); ++i) usleep(50'000);
+  for (int i = 0; i < 1200 && (!fs::exists(log) || fs::file_size(log) < 10'000); ++i) usleep(50'000);
   EXPECT_EQ(run.end(SIGTERM), 1);
   const auto json = nlohmann::json::parse(content(scratch("realtime") / "run.json"));
   for (const char* const side : {"world", "ecu"})
@@ -207,7 +221,7 @@ TEST(TwoProcesses, EcuExitCodes) {
                 .wait(),
             1);
   Process ecu("s4tp_ecu_process", {"--bus", "slcan:tcp:127.0.0.1:" + test::free_port()});
-  usleep(500'000);
+  ecu.until_it_can_be_told();
   EXPECT_EQ(ecu.end(SIGTERM), 0);
 }
 

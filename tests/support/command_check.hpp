@@ -1,10 +1,12 @@
 #pragma once
 /// Judges the commands on a bus from outside, frame by frame: a gate of its own sees what the ECU's gate saw
-/// and must have nothing to change; modes change by the ECU's table only.
+/// and must have nothing to change; modes change by the ECU's table only. A command is taken for the ECU's
+/// if its CRC fits, it echoes a tick of late, and it does not stand between two that follow each other.
 
 #include <cmath>
 #include <cstdint>
 #include <deque>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -31,8 +33,13 @@ class CommandCheck {
       ticks_.push_back({tick_, std::move(arrived_)});
       arrived_.clear();
     } else if (wire::decode(frame, command) && answers(command)) {
-      judge(command);
+      hear({command, frame, tick_});
     }
+  }
+  /// After the last frame: the last command is judged, too.
+  void end() {
+    if (held_) judge(*held_);
+    held_.reset();
   }
 
   [[nodiscard]] int ticks() const { return tick_; }
@@ -48,9 +55,14 @@ class CommandCheck {
 
   static constexpr unsigned kOldestEcho = 10;  // others are not the ECU's
 
+  struct Heard {
+    wire::Command command;
+    wire::Frame frame;
+    std::uint16_t tick;  ///< the last one before it
+  };
+
   [[nodiscard]] bool answers(const wire::Command& command) const {
-    if (commands_ == 0) return tick_ > 0;
-    return ((static_cast<unsigned>(tick_) - command.tick) & 0xFFFU) <= kOldestEcho;
+    return tick_ > 0 && ((static_cast<unsigned>(tick_) - command.tick) & 0xFFFU) <= kOldestEcho;
   }
 
   /// What came up to the tick that is answered is what the ECU knew; in real time others may have begun.
@@ -65,12 +77,22 @@ class CommandCheck {
     }
   }
 
-  void judge(const wire::Command& command) {
+  /// The one before is judged now: its successor tells whether it was the ECU's.
+  void hear(const Heard& heard) {
+    wire::E2eReceiver without_held = protection_;
+    const bool forged = without_held.check(heard.frame) == wire::E2eState::kOk;
+    if (held_ && !forged) judge(*held_);
+    held_ = heard;
+  }
+
+  void judge(const Heard& heard) {
+    const wire::Command& command = heard.command;
+    static_cast<void>(protection_.check(heard.frame));
     begin_ticks_up_to(commands_ == 0 ? 1 : command.tick);
     ++commands_;
     const auto mode = static_cast<Mode>(command.mode);
     ++in_mode_[command.mode];
-    if (mode != mode_ && !in_table(mode_, mode)) find("mode", static_cast<float>(mode_), command.mode);
+    if (mode != mode_ && !in_table(mode_, mode)) find(heard, "mode", static_cast<float>(mode_), command.mode);
     const bool begins = may_command(mode) && !may_command(mode_);
     if (begins || !may_command(mode)) gate_.reset(steering_rad_);
     mode_ = mode;
@@ -78,9 +100,9 @@ class CommandCheck {
     static_cast<void>(gate_.apply(true, allowed));
     if (std::abs(allowed.acceleration_mps2 - command.acceleration_mps2) > kAccelerationTolerance &&
         may_command(mode))
-      find("acceleration", allowed.acceleration_mps2, command.acceleration_mps2);
+      find(heard, "acceleration", allowed.acceleration_mps2, command.acceleration_mps2);
     if (std::abs(allowed.steering_rad - command.steering_rad) > kSteeringTolerance && may_command(mode))
-      find("steering", allowed.steering_rad, command.steering_rad);
+      find(heard, "steering", allowed.steering_rad, command.steering_rad);
   }
 
   [[nodiscard]] static bool in_table(Mode from, Mode to) {
@@ -90,9 +112,9 @@ class CommandCheck {
     return false;
   }
 
-  void find(const char* what, float allowed, float found) {
+  void find(const Heard& heard, const char* what, float allowed, float found) {
     std::ostringstream text;
-    text << "tick " << tick_ << ": " << what << ' ' << found << " where " << allowed << " is allowed";
+    text << "tick " << heard.tick << ": " << what << ' ' << found << " where " << allowed << " is allowed";
     findings_.push_back(text.str());
   }
 
@@ -104,6 +126,8 @@ class CommandCheck {
   std::deque<Tick> ticks_;  ///< not answered yet
   std::vector<wire::Frame> arrived_;
   std::uint16_t tick_ = 0;
+  wire::E2eReceiver protection_;  ///< has seen the commands judged
+  std::optional<Heard> held_;     ///< the command that is to be judged next
   float steering_rad_ = 0.0F;
   Mode mode_ = Mode::kStandby;
   int commands_ = 0;

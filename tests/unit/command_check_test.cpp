@@ -11,8 +11,8 @@
 namespace s4tp::ecu {
 namespace {
 
-/// A real drive of 13 s; its commands pass through `change`, sealed again.
-CommandCheck check_drive(const std::function<void(int tick, wire::Command& command)>& change) {
+/// The frames of a real drive of 13 s.
+const std::vector<wire::Frame>& recorded_drive() {
   static const std::vector<wire::Frame> drive = [] {
     const std::filesystem::path log =
         std::filesystem::temp_directory_path() / ("check" + std::to_string(getpid()));
@@ -26,8 +26,13 @@ CommandCheck check_drive(const std::function<void(int tick, wire::Command& comma
     std::filesystem::remove(log);
     return frames;
   }();
+  return drive;
+}
+
+/// The drive's commands pass through `change`, sealed again.
+CommandCheck check_drive(const std::function<void(int tick, wire::Command& command)>& change) {
   CommandCheck check;
-  for (wire::Frame frame : drive) {
+  for (wire::Frame frame : recorded_drive()) {
     wire::Command command;
     if (wire::decode(frame, command)) {
       change(check.ticks(), command);
@@ -36,6 +41,7 @@ CommandCheck check_drive(const std::function<void(int tick, wire::Command& comma
     }
     check.take(frame);
   }
+  check.end();
   return check;
 }
 
@@ -72,6 +78,52 @@ TEST(CommandCheck, LeavesOutWhatAnswersNoTick) {
   });
   EXPECT_EQ(check.findings(), std::vector<std::string>{});
   EXPECT_EQ(check.commands(), check.ticks() - 1);
+}
+
+// Full braking with an echo of no tick there is, right after the first TICK frame, before the ECU has said
+// anything.
+TEST(CommandCheck, LeavesOutAForgedFirstCommand) {
+  CommandCheck check;
+  bool forged = false;
+  for (const wire::Frame& frame : recorded_drive()) {
+    check.take(frame);
+    if (forged || check.ticks() == 0) continue;
+    wire::Frame other;
+    ASSERT_TRUE(wire::encode(wire::Command{.acceleration_mps2 = -8.0F, .mode = 3, .tick = 2000}, other));
+    wire::e2e_seal(other);
+    check.take(other);
+    forged = true;
+  }
+  check.end();
+  EXPECT_EQ(check.findings(), std::vector<std::string>{});
+  EXPECT_EQ(check.commands(), check.ticks());
+}
+
+// Before or after the command of every tenth tick comes a forged one: a CRC that fits, the ECU's own echo,
+// full braking; its counter is anything but the next one, 5 or 11 further than the ECU's.
+TEST(CommandCheck, LeavesOutWhatStandsBetweenTwoInSequence) {
+  for (const bool before : {true, false}) {
+    CommandCheck check;
+    int forged = 0;
+    for (const wire::Frame& frame : recorded_drive()) {
+      wire::Command command;
+      const bool forge = wire::decode(frame, command) && check.ticks() % 10 == 9;
+      if (!forge || !before) check.take(frame);
+      if (!forge) continue;
+      command.acceleration_mps2 = -8.0F;
+      wire::Frame other;
+      ASSERT_TRUE(wire::encode(command, other));
+      const int counter = (frame.data[1] & 0x0F) + (++forged % 2 == 0 ? 5 : 11);
+      other.data[1] = static_cast<std::uint8_t>((other.data[1] & 0xF0) | counter % 15);
+      wire::e2e_seal(other);
+      check.take(other);
+      if (before) check.take(frame);
+    }
+    check.end();
+    EXPECT_GT(forged, 100);
+    EXPECT_EQ(check.findings(), std::vector<std::string>{});
+    EXPECT_EQ(check.commands(), check.ticks());
+  }
 }
 
 }  // namespace

@@ -120,6 +120,9 @@ TEST(Compare, PairsBySeed) {
   EXPECT_EQ(cells[0].paired.pairs, 3);
   EXPECT_EQ(cells[0].paired.only_first_fails, 1);
   EXPECT_EQ(cells[0].paired.only_second_fails, 0);
+  const auto json = comparison_json(cells);
+  EXPECT_EQ(json.at(0).at("only_first_fails"), 1);
+  EXPECT_EQ(json.at(0).at("first_is"), "open");
 }
 
 // A run of which episodes are missing does not say which: it cannot be paired.

@@ -91,5 +91,36 @@ TEST(SumoRoutes, SizeAndLaneKeeping) {
   EXPECT_DOUBLE_EQ(number(type, "lcSpeedGain"), 0.0);
 }
 
+// SUMO-004 A blank anywhere in the network, or what SUMO takes for one in the ego's way: named with its file.
+// The same letter off every way we tell SUMO of does no harm.
+TEST(SumoRoutes, NamesThatSumoTakesApartAreRefused) {
+  Scenario scenario;
+  scenario.network_file = "mine.net.xml";
+  scenario.network = road();
+  scenario.mission.edges = {"road"};
+  scenario.network.lanes[0].edge = "Stra\u00dfe";
+  EXPECT_NO_THROW(check_names(scenario));
+  for (const std::string edge : {"Stra\u00dfe", "two words"}) {
+    scenario.network.lanes[0].edge = edge;
+    if (edge != "two words") scenario.mission.edges = {edge};
+    try {
+      check_names(scenario);
+      ADD_FAILURE() << edge;
+    } catch (const std::runtime_error& error) {
+      EXPECT_EQ(std::string(error.what()).rfind("mine.net.xml: edge \"" + edge + "\": SUMO separates", 0),
+                0U);
+    }
+    scenario.mission.edges = {"road"};
+  }
+}
+
+// SUMO-004 strange_names holds such a way: the built-in traffic has loaded it, SUMO's is told no before it
+// starts.
+TEST(SumoRoutes, StrangeNamesAreRefused) {
+  const Scenario scenario =
+      load_scenario(std::filesystem::path(S4TP_SOURCE_DIR) / "tests/networks/strange_names.toml");
+  EXPECT_THROW(check_names(scenario), std::runtime_error);
+}
+
 }  // namespace
 }  // namespace s4tp::world

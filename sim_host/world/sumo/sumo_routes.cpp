@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <sstream>
+#include <stdexcept>
 
 #include "sim_host/world/social_value.hpp"
 
@@ -93,7 +94,38 @@ Element driver_definition(const std::string& id, const Departure& departure) {
   return type;
 }
 
+[[noreturn]] void refuse(const Scenario& scenario, const std::string& edge) {
+  throw std::runtime_error(scenario.network_file.string() + ": edge \"" + edge +
+                           "\": SUMO separates edges by blanks and takes every letter outside ASCII for one, "
+                           "so it cannot drive here; the "
+                           "built-in traffic can");
+}
+
+bool is_blank(unsigned char c) {
+  return c <= ' ';
+}
+
+bool is_blank_to_sumo(unsigned char c) {
+  return is_blank(c) || c >= 0x80;
+}
+
+void check_route(const Scenario& scenario, const std::vector<std::string>& edges) {
+  for (const std::string& edge : edges) {
+    if (std::any_of(edge.begin(), edge.end(), is_blank_to_sumo)) refuse(scenario, edge);
+  }
+}
+
 }  // namespace
+
+void check_names(const Scenario& scenario) {
+  for (const NetworkLane& lane : scenario.network.lanes) {  // its network files list them at each junction
+    if (std::any_of(lane.edge.begin(), lane.edge.end(), is_blank)) refuse(scenario, lane.edge);
+  }
+  check_route(scenario, scenario.mission.edges);
+  for (const FlowGroup& group : scenario.flows) {
+    for (const TrafficRoute& route : group.routes) check_route(scenario, route.edges);
+  }
+}
 
 std::string ego_definitions(const std::vector<std::string>& edges, double length_m, double width_m,
                             const std::string& driver) {

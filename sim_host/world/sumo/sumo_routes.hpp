@@ -4,11 +4,16 @@
 #include <string>
 #include <vector>
 
+#include "sim_host/world/scenario.hpp"
 #include "sim_host/world/traffic_flow.hpp"
 
 namespace s4tp::world {
 
 inline constexpr const char* kEgoName = "ego";  ///< of its vehicle, its type and its route
+
+/// SUMO-004 SUMO separates the names in a list by blanks, and takes every byte outside ASCII for one.
+/// \throws std::runtime_error naming file, edge and reason when a name of the scenario does not survive that
+void check_names(const Scenario& scenario);
 
 /// The ego's type and route: a car of our size, with SUMO's ordinary driver.
 [[nodiscard]] std::string ego_definitions(const std::vector<std::string>& edges, double length_m,

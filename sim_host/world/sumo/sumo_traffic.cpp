@@ -98,6 +98,7 @@ std::vector<std::string> arguments(const Scenario& scenario, const EngineOptions
 }
 
 std::string definitions(const Scenario& scenario, std::uint64_t seed, const std::string& driver) {
+  check_names(scenario);
   const CarState car;
   std::string text = ego_definitions(scenario.mission.edges, car.length_m, car.width_m, driver);
   if (scenario.route_files.empty()) {

@@ -1,0 +1,105 @@
+#include "algo/core/inline.hpp"
+#include "algo/planner/outlook.hpp"
+#include "algo/planner/planner.hpp"
+#include "algo/planner/scoring.hpp"
+#include "algo/planner/stage_scope.hpp"
+
+namespace s4tp {
+
+/// Looks at each candidate while its roll-out is in chosen_.
+class Planner::Ranking final : public CandidateVisitor {
+ public:
+  Ranking(Planner& planner, bool careful, Explanation& explanation)
+      : CandidateVisitor(planner.chosen_), planner_(planner), careful_(careful), explanation_(explanation) {
+    const std::int32_t lead_ms = static_cast<std::int32_t>(planner.start_ms_ - planner.scene_.time_ms);
+    outlook_.look(planner.scene_, planner.keep_going_, 0.001F * static_cast<float>(lead_ms),
+                  planner.parameters_);
+  }
+
+  /// The gap beside worth a candidate of its own.
+  [[nodiscard]] GapAim aim() const { return gap_to_aim_at(planner_.scene_, outlook_, planner_.parameters_); }
+
+  void visit(int index) override {
+    const InnerStageScope scope(planner_.probe, Stage::kCandidates, Stage::kRank);
+    const Candidate& candidate = planner_.candidates_[index];
+    const bool previous = candidate.intent == Intent::kPrevious;
+    if (previous && index == 0) plan_path_ = candidate.path;
+    const bool leaves_lane = planner_.scene_.ego_paths[candidate.path].manoeuvre != Manoeuvre::kKeep;
+    Rejection& rejection = explanation_.rejections[index];
+    if (careful_ && leaves_lane && !previous) {
+      rejection = Rejection::kLeftOut;
+      return;
+    }
+    CheckReport report;
+    rejection = planner_.judge(candidate.path, planner_.conditioned_, report);
+    if (rejection == Rejection::kNone) {
+      score(index, candidate, previous);
+    } else {
+      note_held_up(candidate.path, report);
+    }
+  }
+
+ private:
+  void score(int index, const Candidate& candidate, bool previous) {
+    const Scene& scene = planner_.scene_;
+    const Parameters& parameters = planner_.parameters_;
+    DecisionList& decisions = planner_.decisions_;
+    CostBreakdown& cost = planner_.costs_[index];
+    const bool other_lane = candidate.path != plan_path_;
+    cost = score_motion(scene, outlook_, candidate.path, rolled_out, other_lane, careful_, parameters);
+    count(explanation_, Stage::kRank, 1);
+    const DecisionKey key = decision_key(scene, candidate.path, rolled_out, planner_.unconditioned_);
+    if (previous) {
+      planner_.keeps_plan_ = true;
+      planner_.plan_key_ = key;
+    }
+    // Risk only adds to the score: who is beaten without it needs none computed. The plan's own decision
+    // stays anyway.
+    const bool stays = planner_.keeps_plan_ && key == planner_.plan_key_;
+    if (!decisions.open_to(key, cost.total(), stays ? kMaxCandidates : planner_.shortlisted())) return;
+    cost.risk = parameters.scoring.risk * rank_risk(scene, planner_.drivable_, planner_.unconditioned_,
+                                                    planner_.keep_going_, rolled_out, parameters) +
+                planner_.crash_cost(planner_.unconditioned_);
+    decisions.offer(key, index, cost.total());
+  }
+
+  void note_held_up(int path, const CheckReport& report) {
+    // What the car itself cannot do holds nobody up.
+    if (report.result != CheckResult::kCollision && report.result != CheckResult::kTerminal) return;
+    const Manoeuvre manoeuvre = planner_.scene_.ego_paths[path].manoeuvre;
+    HeldUp& held_up = manoeuvre == Manoeuvre::kKeep ? explanation_.held_up : explanation_.beside;
+    float way_m = 0.0F;
+    for (const TrajectoryPoint& point : rolled_out.points) way_m = way_m + kStepS * point.speed_mps;
+    if (held_up.report.result != CheckResult::kPassed && way_m <= held_up.way_m) return;
+    held_up = {report, planner_.track_id(report.agent), manoeuvre, way_m};
+  }
+
+  Planner& planner_;
+  const bool careful_;
+  Explanation& explanation_;
+  Outlook outlook_;
+  int plan_path_ = 0;  ///< where the running plan leads, as far as it can go on; our own lane's path else
+};
+
+int Planner::shortlisted() const {
+  return allowance.decisions > 1 ? allowance.decisions : 1;
+}
+
+void Planner::rank(bool careful, Explanation& explanation) {
+  decisions_.clear();
+  keeps_plan_ = false;
+  {
+    const StageScope scope(probe, Stage::kCandidates);
+    int left_out = 0;
+    Ranking ranking(*this, careful, explanation);
+    generate_candidates(scene_, start_, running_, start_ms_, parameters_, allowance.candidates, lines_,
+                        candidates_, left_out, ranking, ranking.aim());
+    explanation.left_out = static_cast<std::uint8_t>(to_int(static_cast<float>(left_out), 0, 255));
+    explanation.candidate_count = static_cast<std::uint8_t>(candidates_.size());
+    count(explanation, Stage::kCandidates, candidates_.size());
+  }
+  const StageScope scope(probe, Stage::kRank);
+  decisions_.shortlist(shortlisted(), keeps_plan_, plan_key_);
+}
+
+}  // namespace s4tp
