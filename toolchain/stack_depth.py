@@ -1,7 +1,7 @@
 """Stack depth of an Arm image from its disassembly: frame of each function, who calls whom, recursion.
 
-Works on Thumb code as GCC emits it: frames come from push, vpush and sub sp. Indirect calls cannot be followed; the
-functions making them are listed.
+Works on Thumb code as GCC emits it: frames come from push, vpush and sub sp. Of indirect calls only those in KNOWN_CALLS
+can be followed; the functions making them are listed.
 """
 
 import re
@@ -9,6 +9,8 @@ import subprocess
 
 FUNCTION = re.compile(r"^[0-9a-f]+ <(.+)>:$")
 INSTRUCTION = re.compile(r"^\s*[0-9a-f]+:\t(\S+)(?:\t(.*))?$")
+# Virtual calls of ours: the beginnings of the caller's and of the callee's name.
+KNOWN_CALLS = [("s4tp::generate_candidates(", "s4tp::Planner::Ranking::visit(")]
 
 
 def registers(operand):
@@ -65,6 +67,10 @@ def parse(disassembly):
                     entry[1].add(callee)  # calls itself
             elif mnemonic.startswith("blx") or (mnemonic.startswith("bx") and operands != "lr"):
                 entry[2] = True
+    for caller, callee in KNOWN_CALLS:
+        for name in functions:
+            if name.startswith(caller) and functions[name][2]:
+                functions[name][1].update(other for other in functions if other.startswith(callee))
     return functions
 
 

@@ -84,6 +84,13 @@ class Symbols(unittest.TestCase):
         self.assertEqual(functions["f"][0], 20 + 16 + 24)
         self.assertEqual(stack_depth.deepest(functions)[0]["f"], 60 + 1024)
 
+    # 8 bytes of the caller, which calls by a register, and 16 of the one known to be called there.
+    def test_known_indirect_call_is_followed(self):
+        caller, callee = (f"{beginning}int)" for beginning in stack_depth.KNOWN_CALLS[0])
+        text = (f"00000000 <{caller}>:\n   0:\tpush\t{{r4, lr}}\n   2:\tblx\tr3\n"
+                f"00000010 <{callee}>:\n  10:\tpush\t{{r4, r5, r6, lr}}\n")
+        self.assertEqual(stack_depth.deepest(stack_depth.parse(text))[0][caller], 8 + 16)
+
 
 if __name__ == "__main__":
     unittest.main()
