@@ -32,8 +32,8 @@ bool change_under_way(const Scene& scene, const EgoPath& path, const TrajectoryP
   const SinCos turned = sin_cos(wrap_angle(start.rear_axle.heading_rad - frenet.heading_rad));
   const float towards = frenet.d_m > 0.0F ? -turned.sin : turned.sin;
   const float stop_m = square(start.speed_mps) / (2.0F * parameters.comfort.braking_mps2);
-  // The corner nearest to the lane: in front when we head for it, else behind.
-  const float on_m = towards > 0.0F
+  // The corner nearest to our lane while we head out of it is behind; a lane beside is one we head for.
+  const float on_m = towards > 0.0F || path.manoeuvre != Manoeuvre::kKeep
                          ? rear_axle_to_front_m(parameters) + min(stop_m, kSwingS * start.speed_mps)
                          : -parameters.vehicle.rear_overhang_m;
   const float corner_m = abs(frenet.d_m) - on_m * towards - 0.5F * parameters.vehicle.width_m * turned.cos;
