@@ -19,6 +19,7 @@ constexpr float kStartS = 0.5F;      // until somebody who stands is under way
 constexpr float kGentlyMps2 = 2.0F;  // easily braked with
 constexpr float kSlowMps = 5.0F;     // who is no faster is easily stopped; a faster one may pass who stands
 constexpr float kFollowingS = 1.0F;  // from one who sets off to the next
+constexpr float kFirmly = 1.4F;      // times comfort: a stop at the line, a little late, is no crossing begun
 constexpr float kAtLineM = 2.0F;     // this near before a stop line is at it
 constexpr float kLikely = 0.1F;      // less probable ways are not expected to be taken
 constexpr float kWaitingPlaceM = 2.5F;  // between two zones there is room to wait, clear of both
@@ -109,7 +110,8 @@ float under_way_until_s_m(const EgoPath& path, float own_s_m, float own_mps, con
     if (zone.exit_s_m <= own_s_m) continue;
     if (!under_way) {
       const float to_entry_m = zone.entry_s_m - own_s_m;
-      under_way = to_entry_m <= 0.0F || square(own_mps) > 2.0F * parameters.comfort.braking_mps2 * to_entry_m;
+      const float braking_mps2 = kFirmly * parameters.comfort.braking_mps2;
+      under_way = to_entry_m <= 0.0F || square(own_mps) > 2.0F * braking_mps2 * to_entry_m;
       if (!under_way) break;
     } else if (zone.entry_s_m - until_s_m > kWaitingPlaceM) {
       break;

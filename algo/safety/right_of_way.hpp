@@ -26,9 +26,8 @@ enum class Resolve : std::uint8_t {
 
 /// How far along `path` a crossing is under way for who is at `own_s_m` with `own_mps`: to the last exit
 /// before a place to wait clear of all zones; `own_s_m` itself when none is. It is under way from where it
-/// takes more than comfortable braking to stop before its first zone, or inside it, and is then one: to give
-/// it up half way is to stand in others' way (TERM-016).
-/// \param own_s_m  of our box centre
+/// takes more than 1.4 times comfortable braking to stop before its first zone, or inside it, and is then
+/// one: to give it up half way is to stand in others' way (TERM-016). \param own_s_m  of our box centre
 [[nodiscard]] float under_way_until_s_m(const EgoPath& path, float own_s_m, float own_mps,
                                         const Parameters& parameters);
 

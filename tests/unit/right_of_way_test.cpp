@@ -143,8 +143,9 @@ TEST(RightOfWay, UnlikelyWaysAreNotExpected) {
 }
 
 // TERM-016 Two zones from 96 to 104 and from 106 to 112 leave no place to wait between them: a crossing begun
-// before the first is under way to 112. 4 m before it (to stop with 2.5 m/s^2 takes 3.6 m from 4.24 m/s) it
-// is not yet, at 5 m/s it is. Between two zones 6 m apart one can wait: then it ends at 104.
+// before the first is under way to 112. 4 m before it (to stop with 1.4 * 2.5 = 3.5 m/s^2 takes them
+// from 5.29 m/s) it is not yet at 5.2 m/s, for who stops at the line a little late has begun nothing; at 5.4
+// m/s it is. Between two zones 6 m apart one can wait: then it ends at 104.
 TEST(RightOfWay, ACrossingIsUnderWayToItsLastExit) {
   Crossing road(Priority::kFirstYields);
   ConflictZone next = road.zone();
@@ -152,8 +153,8 @@ TEST(RightOfWay, ACrossingIsUnderWayToItsLastExit) {
   next.exit_s_m = 112.0F;
   (void)road.scene.ego_paths[0].zones.push(next);
   EgoPath& path = road.scene.ego_paths[0];
-  EXPECT_FLOAT_EQ(under_way_until_s_m(path, 92.0F, 4.2F, road.parameters), 92.0F);
-  EXPECT_FLOAT_EQ(under_way_until_s_m(path, 92.0F, 5.0F, road.parameters), 112.0F);
+  EXPECT_FLOAT_EQ(under_way_until_s_m(path, 92.0F, 5.2F, road.parameters), 92.0F);
+  EXPECT_FLOAT_EQ(under_way_until_s_m(path, 92.0F, 5.4F, road.parameters), 112.0F);
   EXPECT_FLOAT_EQ(under_way_until_s_m(path, 105.0F, 1.0F, road.parameters), 105.0F);
   path.zones[1].entry_s_m = 110.0F;
   EXPECT_FLOAT_EQ(under_way_until_s_m(path, 100.0F, 1.0F, road.parameters), 104.0F);
