@@ -23,10 +23,12 @@ constexpr float kBuildUpS = 0.1F;     // at speed, until braking has built up
 constexpr float kStretch = 1.7F;
 constexpr int kStretches = 3;
 constexpr float kInLaneM = 0.6F;    // nearer to a lane's centre we are in it for good
+constexpr float kAstrideM = 1.1F;   // more, and half a lane lies between us and any lane
 constexpr float kWayAcross = 5.0F;  // way along the lane for each metre to its centre
-constexpr float kSoftestMps2 = 0.3F;
-constexpr float kNoticeS = 0.5F;    // until the one behind brakes
-constexpr float kBesideUsM = 1e3F;  // short of the safe distance by more than anybody behind
+constexpr float kSoftestMps2 = 0.5F;
+constexpr float kSoftestBehindMps2 = 1.5F;  // in front of somebody: we do come to rest
+constexpr float kNoticeS = 0.5F;            // until the one behind brakes
+constexpr float kBesideUsM = 1e3F;          // short of the safe distance by more than anybody behind
 
 /// Braking that stops within `way_m`, its build-up counted in.
 float needed_mps2(float speed_mps, float way_m) {
@@ -105,15 +107,15 @@ float braking_into_lane(const Scene& scene, const EgoPath& path, float speed_mps
                         const Parameters& parameters) {
   const float braking_mps2 = parameters.safety.minimum_risk_braking_mps2;
   const float aside_m = abs(path.frenet.d_m) - kInLaneM;
-  if (aside_m <= 0.0F) return braking_mps2;
-  float way_m = kWayAcross * aside_m;
+  if (aside_m <= 0.0F || aside_m > kAstrideM) return braking_mps2;  // in it, or no lane change
+  const float across_mps2 = max(kSoftestMps2, square(speed_mps) / (2.0F * kWayAcross * aside_m));
   const Leader follower = find_neighbours(scene, path, parameters).follower;
-  if (follower.agent >= 0) {
-    const float its_way_m =
-        follower.speed_mps * kNoticeS + square(follower.speed_mps) / (2.0F * kFollowerBrakingMps2);
-    way_m = max(way_m, its_way_m + kGapM - follower.gap_m);
-  }
-  return clamp(square(speed_mps) / (2.0F * way_m), kSoftestMps2, braking_mps2);
+  if (follower.agent < 0) return min(across_mps2, braking_mps2);
+  const float its_way_m =
+      follower.speed_mps * kNoticeS + square(follower.speed_mps) / (2.0F * kFollowerBrakingMps2);
+  const float left_m = max(its_way_m + kGapM - follower.gap_m, kGapM);
+  const float behind_mps2 = max(kSoftestBehindMps2, square(speed_mps) / (2.0F * left_m));
+  return min(min(across_mps2, behind_mps2), braking_mps2);
 }
 
 /// Whether everybody lets us drive on by `way_m`, through all zones we touch on it.

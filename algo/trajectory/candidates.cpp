@@ -33,7 +33,7 @@ constexpr int kStretches = 4;
 constexpr float kAlikeM = 0.05F;          // two roll-outs nearer than this at half time and end are one
 constexpr float kStopShortOfEndM = 1.0F;  // before the end of a road
 constexpr float kDriveShare = 0.85F;      // of the strongest drive: some is left to follow the plan with
-constexpr float kClearOfZoneM = 1.0F;     // waiting beyond a stop line, before the zone itself
+constexpr float kStopBeforeZoneM = 1.0F;  // waiting beyond a stop line, before the zone itself
 constexpr float kPassedM = 0.5F;          // a stopping place this far behind us is passed
 constexpr float kPlanOnPathM = 1.5F;      // the running plan belongs to the path its end is this near to
 constexpr float kOnPlanM = 0.01F;         // from where we start exactly on it
@@ -86,7 +86,7 @@ void find_stops(const Scene& scene, const EgoPath& path, const Parameters& param
   for (const ConflictZone& zone : path.zones) {
     // Beyond the stop line there is still the zone itself to stop before.
     const float line_s_m = zone.stop_s_m - front_m;
-    const float edge_s_m = zone.entry_s_m - centre_m - kClearOfZoneM;
+    const float edge_s_m = zone.entry_s_m - centre_m - kStopBeforeZoneM;
     const bool passed = line_s_m < course.where.s_m - kPassedM;
     if (!passed) add_stop(line_s_m, course);
     const bool may_wait_there = passed || waits_beyond_line(scene, line_s_m, course.where.s_m);
