@@ -28,7 +28,8 @@ namespace s4tp {
 /// (MRM-005). The scene may be empty: no map, no paths (MRM-006). The stop ends in a lane: of those we are in
 /// or bound for, the one where who is behind is farther than the safe distance, or nearest to it, and not
 /// before we are in it (MRM-007); in one we come into we brake only so hard that who is behind there can stop
-/// with kFollowerBrakingMps2, unless what is ahead demands more (MRM-008).
+/// with kFollowerBrakingMps2, unless what is ahead demands more (MRM-008), and yet hard enough to come to
+/// rest: with 1.5 m/s^2 at least for who is behind, 0.5 m/s^2 for the way across.
 void minimum_risk(const Scene& scene, const TrajectoryPoint& start, const Plan& running,
                   std::uint32_t start_ms, const Parameters& parameters, Trajectory& trajectory);
 
