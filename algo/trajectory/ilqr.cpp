@@ -7,7 +7,8 @@ namespace {
 
 constexpr float kShares[] = {1.0F, 0.5F, 0.2F, 0.05F};  // of a correction, tried in this order
 constexpr float kEnough = 0.05F;                        // of the promised decrease
-constexpr float kSettled = 1e-4F;        // promised decrease of the score that is not worth a pass
+constexpr float kSettledShare = 1e-3F;   // of the merit: a promised decrease that is not worth a pass,
+constexpr float kSettled = 1e-6F;        // nor is one of this size, however small the merit
 constexpr float kDampingGrowth = 10.0F;  // after a pass that found nothing
 constexpr float kFirstDamping = 1.0F;
 constexpr float kMostDamping = 1e3F;
@@ -108,7 +109,7 @@ IlqrResult Ilqr::solve(const RefinementProblem& problem, int allowance, Motion& 
     ++result.passes;
     ++since_penalty;
     const float promised = backward_pass(problem, bounds_, nominal_, damping, corrections_);
-    bool settled = promised <= kSettled;
+    bool settled = promised <= max(kSettled, kSettledShare * merit);
     if (!settled) {
       bool found = false;
       for (const float share : kShares) {
