@@ -5,11 +5,13 @@
 namespace s4tp {
 namespace {
 
-constexpr float kShares[] = {1.0F, 0.5F, 0.2F, 0.05F};  // of a correction, tried in this order
-constexpr float kEnough = 0.05F;                        // of the promised decrease
-constexpr float kSettledShare = 1e-3F;   // of the merit: a promised decrease that is not worth a pass,
-constexpr float kSettled = 1e-6F;        // nor is one of this size, however small the merit
-constexpr float kDampingGrowth = 10.0F;  // after a pass that found nothing
+constexpr float kShares[] = {1.0F, 0.4F, 0.1F};  // of a correction, tried in this order
+constexpr int kTrialsPerPass = 6;                // trials that fail cost as much as a pass
+constexpr float kEnough = 0.05F;                 // of the promised decrease
+constexpr float kSettledShare = 1e-3F;           // of the merit: a decrease that is not worth a pass,
+constexpr float kSettled = 1e-6F;                // nor is one of this size, however small the merit
+constexpr float kFutile = 1e-4F;                 // promised in vain: not worth damping (a kink of the model)
+constexpr float kDampingGrowth = 10.0F;          // after a pass that found nothing
 constexpr float kFirstDamping = 1.0F;
 constexpr float kMostDamping = 1e3F;
 constexpr float kFirstPenalty = 1.0F;
@@ -105,28 +107,30 @@ IlqrResult Ilqr::solve(const RefinementProblem& problem, int allowance, Motion& 
   float merit = merit_of_nominal(problem);
   float damping = 0.0F;
   int since_penalty = 0;
-  while (result.passes < allowance) {
+  while (result.passes + (result.failed_trials + kTrialsPerPass - 1) / kTrialsPerPass < allowance) {
     ++result.passes;
     ++since_penalty;
     const float promised = backward_pass(problem, bounds_, nominal_, damping, corrections_);
     bool settled = promised <= max(kSettled, kSettledShare * merit);
     if (!settled) {
-      bool found = false;
+      const float before = merit;
       for (const float share : kShares) {
-        const float limit = merit - kEnough * share * promised;
+        const float limit = before - kEnough * share * promised;
         const float trial = try_share(problem, share, limit);
-        if (!(trial <= limit)) continue;
-        nominal_ = trial_;
-        merit = trial;
-        found = true;
-        break;
+        if (trial <= limit) {
+          nominal_ = trial_;
+          merit = trial;
+          break;
+        }
+        ++result.failed_trials;
       }
-      if (found) {
+      if (merit < before) {
         damping = 0.0F;
         keep_if_best(problem, motion, result, violation);
+        settled = before - merit <= kSettledShare * merit;
       } else {
         damping = max(kFirstDamping, kDampingGrowth * damping);
-        settled = damping > kMostDamping;
+        settled = damping > kMostDamping || promised <= kFutile;
       }
     }
     if (settled && violation <= kTolerance) break;

@@ -10,6 +10,7 @@ namespace s4tp {
 
 struct IlqrResult {
   int passes = 0;
+  int failed_trials = 0;  ///< shares of corrections rolled out in vain
   float cost_before = 0.0F;
   float cost_after = 0.0F;  ///< <= cost_before
   bool improved = false;    ///< false: the motion is as it was, to the bit
@@ -17,9 +18,9 @@ struct IlqrResult {
 
 class Ilqr {
  public:
-  /// \param allowance  most passes: the unit of work. A cut is no failure: what is returned is the best so
-  /// far that keeps all bounds, or the start \param motion     in: the start, not necessarily an exact motion
-  /// of the model; out: the best one found
+  /// \param allowance  most passes: the unit of work; every six failed trials count as one. A cut is no
+  /// failure: what is returned is the best so far that keeps all bounds, or the start. \param motion  in: the
+  /// start, not necessarily an exact motion of the model; out: the best one found
   [[nodiscard]] IlqrResult solve(const RefinementProblem& problem, int allowance, Motion& motion);
 
  private:
