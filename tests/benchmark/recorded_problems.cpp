@@ -10,11 +10,17 @@
 namespace s4tp::benchmark {
 namespace {
 
-constexpr char kMagic[8] = {'s', '4', 't', 'p', 'r', 'e', 'f', '1'};
+constexpr char kMagic[8] = {'s', '4', 't', 'p', 'r', 'e', 'f', '2'};
 static_assert(std::is_trivially_copyable_v<RefinementProblem>);
 
+constexpr const char* kScenarios[] = {"left_turn", "left_turn_t", "merge", "cruise", "overtake", "cut_in"};
+constexpr const char* kFlavours[] = {"smarts", "social"};
+constexpr int kCells = 12;
+constexpr std::uint64_t kSeeds = 10000;  // those the planner was tuned on
+constexpr double kDriveS = 20.0;         // standing longer teaches nothing
+
 struct Recorder {
-  std::vector<RefinementProblem> problems;
+  RecordedProblems recorded;
   int stride = 1;
   int seen = 0;
 };
@@ -24,9 +30,20 @@ class RecordingPlanner : public Planner {
  public:
   [[nodiscard]] Status plan(const PlannerInput& input, Plan& plan, Explanation& explanation) {
     const Status status = Planner::plan(input, plan, explanation);
-    const RefinementProblem* const problem = last_refinement();
-    if (problem != nullptr && recorder.seen++ % recorder.stride == 0) recorder.problems.push_back(*problem);
+    const RefinementProblem* const problem = status == Status::kOk ? last_refinement() : nullptr;
+    if (problem != nullptr) keep(*problem);
     return status;
+  }
+
+ private:
+  static void keep(const RefinementProblem& problem) {
+    Motion start;
+    reference_motion(problem, start);
+    if (judge_motion(problem, start).cost < kNothingToGain) {
+      ++recorder.recorded.left_out;
+    } else if (recorder.seen++ % recorder.stride == 0) {
+      recorder.recorded.problems.push_back(problem);
+    }
   }
 };
 
@@ -36,57 +53,60 @@ const campaign::RegisterPlanner kRegistered{{"recording", "keeps what its optimi
 
 }  // namespace
 
-std::vector<RefinementProblem> record_problems(int count, int stride) {
+RecordedProblems record_problems(int count, int stride, const std::function<void(int)>& progress) {
   recorder = {{}, stride, 0};
+  std::vector<RefinementProblem>& problems = recorder.recorded.problems;
   const std::filesystem::path scenarios = std::filesystem::path(S4TP_SOURCE_DIR) / "sim_host" / "scenarios";
-  for (std::uint64_t seed = 0; seed < 10000; ++seed) {
-    for (const char* const name : {"left_turn", "left_turn_t", "merge", "cruise", "overtake", "cut_in"}) {
-      for (const char* const flavour : {"smarts", "social"}) {
-        world::Scenario scenario = world::load_scenario(scenarios / name, flavour);
-        scenario.mission.time_limit_s = 20.0;  // standing longer teaches nothing
+  int cell = 0;
+  for (const char* const name : kScenarios) {
+    for (const char* const flavour : kFlavours) {
+      world::Scenario scenario = world::load_scenario(scenarios / name, flavour);
+      scenario.mission.time_limit_s = kDriveS;
+      const auto wanted = static_cast<std::size_t>(count * ++cell / kCells);
+      for (std::uint64_t seed = 0; seed < kSeeds && problems.size() < wanted; ++seed) {
         campaign::EpisodeOptions options;
         options.seed = seed;
         options.planner = "recording";
         (void)run_episode(scenario, options);
-        if (static_cast<int>(recorder.problems.size()) >= count) {
-          recorder.problems.resize(static_cast<std::size_t>(count));
-          return recorder.problems;
-        }
+        if (problems.size() > wanted) problems.resize(wanted);
+        progress(static_cast<int>(problems.size()));
       }
     }
   }
-  return recorder.problems;
+  return recorder.recorded;
 }
 
-void write_problems(const std::filesystem::path& file, const std::vector<RefinementProblem>& problems) {
+void write_problems(const std::filesystem::path& file, const RecordedProblems& recorded) {
   std::ofstream stream(file, std::ios::binary);
-  const std::uint32_t size = sizeof(RefinementProblem);
+  const std::uint32_t header[] = {sizeof(RefinementProblem), recorded.left_out};
   stream.write(kMagic, sizeof(kMagic));
-  stream.write(reinterpret_cast<const char*>(&size), sizeof(size));
-  for (const RefinementProblem& problem : problems) {
+  stream.write(reinterpret_cast<const char*>(header), sizeof(header));
+  for (const RefinementProblem& problem : recorded.problems) {
     stream.write(reinterpret_cast<const char*>(&problem), sizeof(problem));
   }
   if (!stream.flush()) throw std::runtime_error(file.string() + ": cannot be written");
 }
 
-std::vector<RefinementProblem> read_problems(const std::filesystem::path& file) {
+RecordedProblems read_problems(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   char magic[sizeof(kMagic)] = {};
-  std::uint32_t size = 0;
+  std::uint32_t header[2] = {};
   stream.read(magic, sizeof(magic));
-  stream.read(reinterpret_cast<char*>(&size), sizeof(size));
+  stream.read(reinterpret_cast<char*>(header), sizeof(header));
   if (!stream || std::string(magic, sizeof(magic)) != std::string(kMagic, sizeof(kMagic))) {
     throw std::runtime_error(file.string() + ": holds no recorded problems");
   }
-  if (size != sizeof(RefinementProblem)) {
+  if (header[0] != sizeof(RefinementProblem)) {
     throw std::runtime_error(file.string() + ": recorded by a build whose problems have " +
-                             std::to_string(size) + " bytes, not " +
+                             std::to_string(header[0]) + " bytes, not " +
                              std::to_string(sizeof(RefinementProblem)));
   }
-  std::vector<RefinementProblem> problems;
+  RecordedProblems recorded;
+  recorded.left_out = header[1];
   RefinementProblem problem;
-  while (stream.read(reinterpret_cast<char*>(&problem), sizeof(problem))) problems.push_back(problem);
-  return problems;
+  while (stream.read(reinterpret_cast<char*>(&problem), sizeof(problem)))
+    recorded.problems.push_back(problem);
+  return recorded;
 }
 
 }  // namespace s4tp::benchmark

@@ -3,10 +3,8 @@
 #include <IpIpoptApplication.hpp>
 #include <IpSolveStatistics.hpp>
 #include <IpTNLP.hpp>
-#include <array>
-#include <vector>
 
-#include "tests/benchmark/second_order.hpp"
+#include "tests/benchmark/reference_model.hpp"
 
 namespace s4tp::benchmark {
 namespace {
@@ -15,104 +13,47 @@ using Ipopt::Index;
 using Ipopt::Number;
 
 constexpr int kSteps = kHorizonSteps;
-constexpr int kPerStep =
-    8;  // variables of step i: its two inputs, then the six entries of the state they lead to
+// Variables of step i: its two inputs, the six entries of the state they lead to, the excesses there.
+constexpr int kJetVariables = static_cast<int>(kVariables);
+constexpr int kPerStep = kJetVariables + kExcesses;
 constexpr int kCount = kPerStep * kSteps;
-constexpr double kUnbounded = 1e19;
-
-template <class T>
-using State = std::array<T, 6>;  // x, y, psi, v, a, kappa
-template <class T>
-using Input = std::array<T, 2>;
-
-template <class T>
-T square(const T& x) {
-  return x * x;
-}
-
-template <class T>
-State<T> step_of(const State<T>& s, const Input<T>& u) {
-  using std::cos;
-  using std::sin;
-  const double dt = static_cast<double>(kStepS);
-  const double blend = static_cast<double>(kRestBlendMps);
-  const T free = s[3] + dt * s[4] + 0.5 * dt * dt * u[0];
-  const T t = (1.0 / blend) * free;
-  T speed = free;
-  if (free < blend) speed = free > 0.0 ? blend * (t * t * (T(2.0) - t)) : T(0.0);
-  const T way = 0.5 * dt * (s[3] + speed);
-  const T turn = (s[5] + 0.5 * dt * u[1]) * way;
-  const T middle = s[2] + 0.5 * turn;
-  return {s[0] + way * cos(middle), s[1] + way * sin(middle), s[2] + turn, speed,
-          s[4] + dt * u[0],         s[5] + dt * u[1]};
-}
-
-template <class T>
-struct Deviations {
-  T along, across, heading, lateral;
-  std::array<T, kMaxHalfPlanes> gap;
-};
-
-template <class T>
-Deviations<T> deviations(const RefinementProblem& problem, const RefinementStep& step, const State<T>& s) {
-  using std::abs;
-  using std::cos;
-  using std::sin;
-  const double bend = step.reference.curvature_1pm;
-  const T dx = s[0] - T(step.reference.x_m);
-  const T dy = s[1] - T(step.reference.y_m);
-  const double tx = step.along_x;
-  const double ty = step.along_y;
-  Deviations<T> d;
-  d.along = tx * dx + ty * dy;
-  d.across = tx * dy - ty * dx - 0.5 * bend * square(d.along);
-  d.heading = s[2] - T(step.reference.heading_rad) - bend * d.along;
-  d.lateral = square(s[3]) * s[5];
-  for (int k = 0; k < step.half_plane_count; ++k) {
-    const HalfPlane& plane = step.half_planes[k];
-    const double nx = plane.normal_x;
-    const double ny = plane.normal_y;
-    const T ahead = nx * cos(s[2]) + ny * sin(s[2]);
-    const T left = ny * cos(s[2]) - nx * sin(s[2]);
-    d.gap[static_cast<std::size_t>(k)] = nx * s[0] + ny * s[1] + double{problem.centre_m} * ahead -
-                                         T(plane.offset_m) - double{problem.half_length_m} * abs(ahead) -
-                                         double{problem.half_width_m} * abs(left);
-  }
-  return d;
-}
-
-template <class T>
-T cost_of(const RefinementProblem& problem, int index, const Input<T>& u, const State<T>& s) {
-  const RefinementStep& step = problem.steps[index];
-  const RefinementWeights& w = problem.weights;
-  const double tie = index == kSteps - 1 ? double{problem.end_importance} : 1.0;
-  const Deviations<T> d = deviations(problem, step, s);
-  T sum = double{w.jerk} * square(u[0]) + double{step.curvature_rate_weight} * square(u[1]);
-  sum = sum + tie * (double{w.along} * square(d.along) + double{w.across} * square(d.across) +
-                     double{w.heading} * square(d.heading) +
-                     double{w.speed} * square(s[3] - T(step.reference.speed_mps)));
-  sum = sum + double{w.lane} * square(T(step.lane_offset_m) + d.across);
-  sum = sum + double{w.lateral} * square(d.lateral);
-  const T over = s[3] - T(step.speed_cap_mps);
-  if (over > 0.0) sum = sum + double{w.over_cap} * square(over);
-  for (int k = 0; k < step.half_plane_count; ++k) {
-    const T lacking = T(problem.comfort_gap_m) - d.gap[static_cast<std::size_t>(k)];
-    if (lacking > 0.0) sum = sum + double{w.clearance} * square(lacking);
-  }
-  return 0.5 * sum;
-}
+constexpr double kKept = 1e-4;  // a bound broken by no more
 
 State<double> numbers(const MotionState& s) {
   return {s.x_m, s.y_m, s.heading_rad, s.speed_mps, s.acceleration_mps2, s.curvature_1pm};
 }
 
+double worst(double value, double low, double high) {
+  return std::max({0.0, low - value, value - high});
+}
+
+/// Cost and violation of one step, its inputs' bounds included.
+void judge_step(const RefinementProblem& problem, int index, const Input<double>& u, const State<double>& s,
+                DoubleJudgement& judgement) {
+  const RefinementStep& step = problem.steps[index];
+  const Excesses excess = excesses(problem, step, s);
+  judgement.cost += smooth_cost<double>(problem, index, u, s);
+  for (int k = 0; k < kExcesses; ++k) {
+    judgement.cost += 0.5 * excess_weight(problem, k) * square(excess[static_cast<std::size_t>(k)]);
+  }
+  double& violation = judgement.violation;
+  for (const Row<double>& row : bounded_rows<double>(problem, step, s)) {
+    if (row.excess < 0) violation = std::max(violation, worst(row.value, row.low, row.high));
+  }
+  const double bend = problem.curvature_bound_1pm;
+  const double jerk = step.input_bound.jerk_mps3;
+  const double rate = step.input_bound.curvature_rate_1pms;
+  violation = std::max({violation, worst(s[4], problem.acceleration_low_mps2, problem.acceleration_high_mps2),
+                        worst(s[5], -bend, bend), worst(u[0], -jerk, jerk), worst(u[1], -rate, rate)});
+}
+
 /// The problem by multiple shooting, as Ipopt asks for it.
-class ShootingProblem final : public Ipopt::TNLP {
+class ShootingProblem : public Ipopt::TNLP {
  public:
   ShootingProblem(const RefinementProblem& problem, const Motion& start) : problem_(problem), start_(start) {}
 
+  bool solved = false;
   double cost = 0.0;
-  bool converged = false;
 
   bool get_nlp_info(Index& n, Index& m, Index& jacobian, Index& hessian, IndexStyleEnum& style) override {
     n = kCount;
@@ -120,10 +61,11 @@ class ShootingProblem final : public Ipopt::TNLP {
     jacobian = 0;
     hessian = 0;
     for (int i = 0; i < kSteps; ++i) {
-      const int bounds = 3 + problem_.steps[i].half_plane_count;
-      m += 6 + bounds;
-      jacobian += 6 * (1 + (i > 0 ? 8 : 2)) + 6 * bounds;
-      hessian += (i > 0 ? 36 : 3) + 21 + 2;
+      const int planes = problem_.steps[i].half_plane_count;
+      const int rows = 4 + 2 * kCorners * planes;
+      m += 6 + rows;
+      jacobian += 6 * (1 + (i > 0 ? 8 : 2)) + 6 * rows + 1 + kCorners * planes;
+      hessian += (i > 0 ? 36 : 3) + 21 + 2 + kExcesses;
     }
     style = C_STYLE;
     return true;
@@ -139,20 +81,19 @@ class ShootingProblem final : public Ipopt::TNLP {
       h[1] = step.input_bound.curvature_rate_1pms;
       l[0] = -h[0];
       l[1] = -h[1];
-      for (int k = 2; k < kPerStep; ++k) l[k] = -kUnbounded, h[k] = kUnbounded;
+      for (int k = 2; k < kJetVariables; ++k) l[k] = -kUnbounded, h[k] = kUnbounded;
       l[6] = problem_.acceleration_low_mps2;
       h[6] = problem_.acceleration_high_mps2;
       h[7] = problem_.curvature_bound_1pm;
       l[7] = -h[7];
-      for (int k = 0; k < 6; ++k, ++row) row_low[row] = row_high[row] = 0.0;
-      const double symmetric[3] = {step.along_bound_m, problem_.across_bound_m, problem_.lateral_bound_mps2};
-      for (int k = 0; k < 3; ++k, ++row) {
-        row_low[row] = -symmetric[k];
-        row_high[row] = symmetric[k];
+      for (int k = 0; k < kExcesses; ++k) {
+        l[kJetVariables + k] = 0.0;
+        h[kJetVariables + k] = k <= step.half_plane_count ? kUnbounded : 0.0;
       }
-      for (int k = 0; k < step.half_plane_count; ++k, ++row) {
-        row_low[row] = step.half_planes[k].least_gap_m;
-        row_high[row] = kUnbounded;
+      for (int k = 0; k < 6; ++k, ++row) row_low[row] = row_high[row] = 0.0;
+      for (const Row<double>& bounded : bounded_rows<double>(problem_, step, numbers(start_.states[i + 1]))) {
+        row_low[row] = bounded.low;
+        row_high[row++] = bounded.high;
       }
     }
     return true;
@@ -164,22 +105,32 @@ class ShootingProblem final : public Ipopt::TNLP {
       block[0] = start_.inputs[i].jerk_mps3;
       block[1] = start_.inputs[i].curvature_rate_1pms;
       const State<double> state = numbers(start_.states[i + 1]);
-      for (std::size_t k = 0; k < 6; ++k) block[2 + k] = state[k];
+      std::copy(state.begin(), state.end(), block + 2);
+      const Excesses excess = excesses(problem_, problem_.steps[i], state);
+      std::copy(excess.begin(), excess.end(), block + kJetVariables);
     }
     return true;
   }
 
   bool eval_f(Index, const Number* x, bool, Number& value) override {
     value = 0.0;
-    for (int i = 0; i < kSteps; ++i) value += cost_of<double>(problem_, i, input(x, i), state(x, i + 1));
+    for (int i = 0; i < kSteps; ++i) {
+      value += smooth_cost<double>(problem_, i, input(x, i), state(x, i + 1));
+      for (int k = 0; k < kExcesses; ++k) {
+        value += 0.5 * excess_weight(problem_, k) * square(x[kPerStep * i + kJetVariables + k]);
+      }
+    }
     return true;
   }
 
   bool eval_grad_f(Index, const Number* x, bool, Number* gradient) override {
     for (int i = 0; i < kSteps; ++i) {
+      Number* const block = gradient + kPerStep * i;
       const Jet jet = stage_cost(x, i);
-      for (std::size_t k = 0; k < kVariables; ++k)
-        gradient[kPerStep * i + static_cast<int>(k)] = jet.gradient[k];
+      std::copy(jet.gradient.begin(), jet.gradient.end(), block);
+      for (int k = kJetVariables; k < kPerStep; ++k) {
+        block[k] = excess_weight(problem_, k - kJetVariables) * x[kPerStep * i + k];
+      }
     }
     return true;
   }
@@ -190,10 +141,10 @@ class ShootingProblem final : public Ipopt::TNLP {
       const State<double> reached = step_of<double>(state(x, i), input(x, i));
       const State<double> next = state(x, i + 1);
       for (std::size_t k = 0; k < 6; ++k) rows[row++] = next[k] - reached[k];
-      const Deviations<double> d = deviations(problem_, problem_.steps[i], next);
-      for (const double value : {d.along, d.across, d.lateral}) rows[row++] = value;
-      for (int k = 0; k < problem_.steps[i].half_plane_count; ++k)
-        rows[row++] = d.gap[static_cast<std::size_t>(k)];
+      for (const Row<double>& bounded : bounded_rows<double>(problem_, problem_.steps[i], next)) {
+        const double excess = bounded.excess < 0 ? 0.0 : x[kPerStep * i + kJetVariables + bounded.excess];
+        rows[row++] = bounded.value + bounded.share * excess;
+      }
     }
     return true;
   }
@@ -217,14 +168,13 @@ class ShootingProblem final : public Ipopt::TNLP {
       for (int k = 0; k < 6; ++k, ++row) {
         const Jet& entry = reached[static_cast<std::size_t>(k)];
         put(row, kPerStep * i + 2 + k, 1.0);
-        for (int c = i > 0 ? 0 : 6; c < kPerStep; ++c)
+        for (int c = i > 0 ? 0 : 6; c < kJetVariables; ++c)
           put(row, column(i, c), -entry.gradient[static_cast<std::size_t>(c)]);
       }
-      std::vector<Jet> bounded(3 + static_cast<std::size_t>(problem_.steps[i].half_plane_count));
-      if (values != nullptr) bounded = stage_bounds(x, i);
-      for (const Jet& entry : bounded) {
-        for (int c = 2; c < kPerStep; ++c)
-          put(row, kPerStep * i + c, entry.gradient[static_cast<std::size_t>(c)]);
+      for (const Row<Jet>& bounded : stage_rows(x, i)) {
+        for (int c = 2; c < kJetVariables; ++c)
+          put(row, kPerStep * i + c, bounded.value.gradient[static_cast<std::size_t>(c)]);
+        if (bounded.excess >= 0) put(row, kPerStep * i + kJetVariables + bounded.excess, bounded.share);
         ++row;
       }
     }
@@ -249,22 +199,18 @@ class ShootingProblem final : public Ipopt::TNLP {
       Jet stage;
       if (values != nullptr) {
         const State<Jet> reached = stage_motion(x, i);
-        for (int k = 0; k < 6; ++k)
-          motion = motion - Jet(multipliers[row + k]) * reached[static_cast<std::size_t>(k)];
+        for (const Jet& entry : reached) motion = motion - Jet(multipliers[row++]) * entry;
         stage = Jet(factor) * stage_cost(x, i);
-        const std::vector<Jet> bounded = stage_bounds(x, i);
-        for (std::size_t k = 0; k < bounded.size(); ++k) {
-          stage = stage + Jet(multipliers[row + 6 + static_cast<int>(k)]) * bounded[k];
-        }
+        for (const Row<Jet>& bounded : stage_rows(x, i))
+          stage = stage + Jet(multipliers[row++]) * bounded.value;
       }
-      row += 9 + problem_.steps[i].half_plane_count;
-      for (int r = i > 0 ? 0 : 6; r < kPerStep; ++r) {
+      for (int r = i > 0 ? 0 : 6; r < kJetVariables; ++r) {
         for (int c = i > 0 ? 0 : 6; c <= r; ++c) {
           put(column(i, r), column(i, c),
               motion.hessian[static_cast<std::size_t>(r)][static_cast<std::size_t>(c)]);
         }
       }
-      for (int r = 2; r < kPerStep; ++r) {
+      for (int r = 2; r < kJetVariables; ++r) {
         for (int c = 2; c <= r; ++c) {
           put(kPerStep * i + r, kPerStep * i + c,
               stage.hessian[static_cast<std::size_t>(r)][static_cast<std::size_t>(c)]);
@@ -274,15 +220,25 @@ class ShootingProblem final : public Ipopt::TNLP {
         put(kPerStep * i + r, kPerStep * i + r,
             stage.hessian[static_cast<std::size_t>(r)][static_cast<std::size_t>(r)]);
       }
+      for (int k = 0; k < kExcesses; ++k) {
+        const int variable = kPerStep * i + kJetVariables + k;
+        put(variable, variable, factor * excess_weight(problem_, k));
+      }
     }
     return true;
   }
 
-  void finalize_solution(Ipopt::SolverReturn status, Index, const Number*, const Number*, const Number*,
-                         Index, const Number*, const Number*, Number value, const Ipopt::IpoptData*,
+  void finalize_solution(Ipopt::SolverReturn status, Index, const Number* x, const Number*, const Number*,
+                         Index, const Number*, const Number*, Number, const Ipopt::IpoptData*,
                          Ipopt::IpoptCalculatedQuantities*) override {
-    cost = value;
-    converged = status == Ipopt::SUCCESS || status == Ipopt::STOP_AT_ACCEPTABLE_POINT;
+    DoubleJudgement judgement;
+    State<double> driven = numbers(problem_.start);
+    for (int i = 0; i < kSteps; ++i) {
+      driven = step_of<double>(driven, input(x, i));
+      judge_step(problem_, i, input(x, i), driven, judgement);
+    }
+    cost = judgement.cost;
+    solved = status == Ipopt::SUCCESS && judgement.violation <= kKept;
   }
 
  private:
@@ -309,21 +265,18 @@ class ShootingProblem final : public Ipopt::TNLP {
   }
   /// Variables: the inputs, then the state they lead to.
   [[nodiscard]] State<Jet> next_state(const Number* x, int i) const {
-    const State<double> at = state(x, i + 1);
     State<Jet> s;
+    if (x == nullptr) return s;  // only the structure is asked for
+    const State<double> at = state(x, i + 1);
     for (std::size_t k = 0; k < 6; ++k) s[k] = Jet(at[k], k + 2);
     return s;
   }
   [[nodiscard]] Jet stage_cost(const Number* x, int i) const {
     const Input<double> u = input(x, i);
-    return cost_of<Jet>(problem_, i, {Jet(u[0], 0), Jet(u[1], 1)}, next_state(x, i));
+    return smooth_cost<Jet>(problem_, i, {Jet(u[0], 0), Jet(u[1], 1)}, next_state(x, i));
   }
-  [[nodiscard]] std::vector<Jet> stage_bounds(const Number* x, int i) const {
-    const Deviations<Jet> d = deviations(problem_, problem_.steps[i], next_state(x, i));
-    std::vector<Jet> bounded = {d.along, d.across, d.lateral};
-    for (int k = 0; k < problem_.steps[i].half_plane_count; ++k)
-      bounded.push_back(d.gap[static_cast<std::size_t>(k)]);
-    return bounded;
+  [[nodiscard]] std::vector<Row<Jet>> stage_rows(const Number* x, int i) const {
+    return bounded_rows<Jet>(problem_, problem_.steps[i], next_state(x, i));
   }
 
   const RefinementProblem& problem_;
@@ -332,13 +285,13 @@ class ShootingProblem final : public Ipopt::TNLP {
 
 }  // namespace
 
-double cost_in_double(const RefinementProblem& problem, const Motion& motion) {
-  double cost = 0.0;
+DoubleJudgement judge_in_double(const RefinementProblem& problem, const Motion& motion) {
+  DoubleJudgement judgement;
   for (int i = 0; i < kSteps; ++i) {
-    cost += cost_of<double>(problem, i, {motion.inputs[i].jerk_mps3, motion.inputs[i].curvature_rate_1pms},
-                            numbers(motion.states[i + 1]));
+    judge_step(problem, i, {motion.inputs[i].jerk_mps3, motion.inputs[i].curvature_rate_1pms},
+               numbers(motion.states[i + 1]), judgement);
   }
-  return cost;
+  return judgement;
 }
 
 ReferenceResult solve_by_ipopt(const RefinementProblem& problem, const Motion& start) {
@@ -347,11 +300,12 @@ ReferenceResult solve_by_ipopt(const RefinementProblem& problem, const Motion& s
   ipopt->Options()->SetIntegerValue("print_level", 0);
   ipopt->Options()->SetStringValue("sb", "yes");
   ipopt->Options()->SetNumericValue("tol", 1e-7);
+  ipopt->Options()->SetIntegerValue("acceptable_iter", 0);
   ipopt->Options()->SetIntegerValue("max_iter", 500);
   if (ipopt->Initialize() != Ipopt::Solve_Succeeded) return {};
   (void)ipopt->OptimizeTNLP(nlp);
   const Ipopt::SmartPtr<Ipopt::SolveStatistics> statistics = ipopt->Statistics();
-  return {nlp->converged, nlp->cost, IsValid(statistics) ? statistics->IterationCount() : 0};
+  return {nlp->solved, nlp->cost, IsValid(statistics) ? statistics->IterationCount() : 0};
 }
 
 }  // namespace s4tp::benchmark

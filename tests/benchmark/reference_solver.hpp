@@ -6,12 +6,18 @@
 
 namespace s4tp::benchmark {
 
-/// Cost of a motion as the problem defines it, computed in double from its states and inputs.
-[[nodiscard]] double cost_in_double(const RefinementProblem& problem, const Motion& motion);
+struct DoubleJudgement {
+  double cost = 0.0;
+  double violation = 0.0;  ///< of the worst bound, in its own unit: m, m/s^2, 1/m
+};
+/// As the problem defines them, computed in double from a motion's states and inputs.
+[[nodiscard]] DoubleJudgement judge_in_double(const RefinementProblem& problem, const Motion& motion);
 
 struct ReferenceResult {
-  bool converged = false;
-  double cost = 0.0;
+  /// Ipopt's own word (tolerance 1e-7 on optimality, no "acceptable" point counts), and the inputs it found,
+  /// driven again from the start, break no bound by more than 1e-4 of its unit.
+  bool solved = false;
+  double cost = 0.0;  ///< of the inputs driven again: an exact motion of the model
   int iterations = 0;
 };
 

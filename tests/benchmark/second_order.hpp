@@ -62,9 +62,6 @@ inline Jet sin(const Jet& x) {
 inline Jet cos(const Jet& x) {
   return chain(x, std::cos(x.value), -std::sin(x.value), -std::cos(x.value));
 }
-inline Jet abs(const Jet& x) {
-  return x.value < 0.0 ? -x : x;
-}
 inline bool operator<(const Jet& a, double b) {
   return a.value < b;
 }
