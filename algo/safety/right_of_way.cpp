@@ -13,15 +13,16 @@ constexpr float kBesideS = 0.5F;       // between us and one who should yield bu
 constexpr float kFirstInS = 0.3F;      // before another we are plainly first
 constexpr float kWellFirstS = 1.0F;    // before one who is setting off, and may not see that we do, too
 constexpr float kSettingOffMps2 = 1.0F;
-constexpr float kOverlapS = 0.3F;    // of one leaving and one who stands, starting now: less than he needs
-constexpr int kGivenUpMs = 2000;     // who stands for longer with nobody to wait for does not use his right
+constexpr float kOverlapS = 0.3F;  // of one leaving and one who stands, starting now: less than he needs
+constexpr int kGivenUpMs = 2000;   // who stands for longer with nobody to wait for does not use his right
+constexpr float kHesitation =
+    0.25F;                           // who has left it unused for long goes on so for this share of that time
 constexpr float kStartS = 0.5F;      // until somebody who stands is under way
 constexpr float kGentlyMps2 = 2.0F;  // easily braked with
 constexpr float kSlowMps = 5.0F;     // who is no faster is easily stopped; a faster one may pass who stands
 constexpr float kFollowingS = 1.0F;  // from one who sets off to the next
 constexpr float kFirmly = 1.4F;      // times comfort: a stop at the line, a little late, is no crossing begun
 constexpr float kAtLineM = 2.0F;     // this near before a stop line is at it
-constexpr float kLikely = 0.1F;      // less probable ways are not expected to be taken
 constexpr float kWaitingPlaceM = 2.5F;  // between two zones there is room to wait, clear of both
 
 /// Whether its present braking, kept up, ends before the zone.
@@ -53,7 +54,7 @@ Head head_of_queue(const Scene& scene, int index, const Approach& approach) {
   const Agent& agent = scene.agents[index];
   const LanePath& path = agent.paths[approach.path];
   const float entry_s_m = agent.frenet[approach.path].s_m + approach.to_entry_m;
-  Head head{index, approach.to_entry_m};
+  Head head{index, max(approach.to_entry_m, 0.0F)};
   for (int i = 0; i < scene.agents.size(); ++i) {
     const Agent& other = scene.agents[i];
     if (i == index || !(other.idle_ms >= kGivenUpMs || stands(other))) continue;
@@ -74,7 +75,8 @@ bool is_trusted(const Scene& scene, int index, const ConflictZone& zone, const A
   const float start_s = earliest_time_s(scene, head, zone, first.to_entry_m, parameters);
   const bool waited = scene.waited_s > parameters.safety.patience_s;
   if (first.agent == index || agent.track.speed_mps < kSlowMps) {
-    if (head.idle_ms >= kGivenUpMs && in_s < start_s + kStartS) return true;
+    const float unused_s = max(kStartS, kHesitation * 0.001F * static_cast<float>(head.idle_ms));
+    if (head.idle_ms >= kGivenUpMs && in_s < start_s + unused_s) return true;
     if (stands(head) && (out_s < start_s + kOverlapS || (waited && in_s + kFirstInS < start_s))) return true;
   }
 
@@ -88,7 +90,7 @@ bool is_trusted(const Scene& scene, int index, const ConflictZone& zone, const A
     const float first_s = in_s + (sets_off ? kWellFirstS : kFirstInS);
     if (first_s < earliest_time_s(scene, agent, zone, approach.to_entry_m, parameters)) return true;
   }
-  const Approach expected = approach_to(agent, zone, kLikely);
+  const Approach expected = approach_to(agent, zone, kLikelyWay);
   if (!expected.reaches) return true;
   const float needed_s = out_s + zone_margin_s(scene, resolve, parameters);
   if (first.agent != index)  // not before the one in front of it
@@ -150,7 +152,7 @@ Passage judge_passage(const Scene& scene, int index, const ConflictZone& zone, f
   const Approach approach = approach_to(agent, zone);
   if (!approach.reaches) return Passage::kFree;
   if (clear_time_s(agent.track, approach.to_exit_m) + kPassedFirstS < in_s) return Passage::kFree;
-  if (approach.to_entry_m <= 0.0F) return Passage::kRefused;
+  if (approach.to_entry_m <= 0.0F && agent.idle_ms < kGivenUpMs) return Passage::kRefused;
 
   const float arrival_s = earliest_arrival_s(scene, index, zone, parameters);
   const bool we_yield =

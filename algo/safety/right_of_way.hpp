@@ -48,7 +48,8 @@ enum class Passage : std::uint8_t {
 /// of way, it can stop with kTrustedBrakingMps2, or comes later at its present speed (TERM-004). Trusted,
 /// with right of way:
 /// - who has stood for 2 s though nobody it gives way to is coming, if we are there half a second after it
-///   could be at the latest: waiting for each other would not end;
+///   could be at the latest, or later by a quarter of the time it has stood so: waiting for each other would
+///   not end. So even one who stands in the zone already (TERM-022);
 /// - who has stood for 1 s, if it comes 0.3 s before we have left at the earliest: it may start when we do,
 ///   for it may have waited for the same gap, but takes that long to get under way. To who has waited
 ///   safety.patience_s it is enough to be there 0.3 s before it. The same for who queues behind one who

@@ -6,6 +6,7 @@
 #include "algo/safety/right_of_way.hpp"
 #include "algo/trajectory/along_path.hpp"
 #include "algo/trajectory/bicycle.hpp"
+#include "algo/trajectory/standing_room.hpp"
 
 namespace s4tp {
 namespace {
@@ -109,12 +110,23 @@ float hold_s_m(const Passing& passing, const ConflictZone& zone) {
              entry_s_m);
 }
 
+/// Whether one who stands, and would let us go first, stands in our way itself. A crossing under way is not
+/// given up for it: the check sees whether it is hit.
+bool blocks_way(const Passing& passing, const ConflictZone& zone, int index, Resolve resolve) {
+  const Agent& agent = passing.scene.agents[index];
+  return resolve == Resolve::kConsidering && is_standing(agent) &&
+         !leaves_room(passing.scene, passing.path, agent, passing.along.start_s_m(),
+                      zone.exit_s_m - passing.centre_m, passing.parameters);
+}
+
 /// Whom we would meet in the zone, and who is trusted to leave it to us. \return false: somebody would be
 /// there
 bool pass_zone(Passing& passing, const ConflictZone& zone, float in_s, float out_s, bool refuses) {
   const Resolve resolve = resolve_for(passing, zone);
   for (int i = 0; i < passing.scene.agents.size(); ++i) {
-    const Passage passage = judge_passage(passing.scene, i, zone, in_s, out_s, resolve, passing.parameters);
+    Passage passage = judge_passage(passing.scene, i, zone, in_s, out_s, resolve, passing.parameters);
+    if (passage == Passage::kTrusted && refuses && blocks_way(passing, zone, i, resolve))
+      passage = Passage::kRefused;
     if (passage == Passage::kTrusted) passing.verdict.trusted |= static_cast<std::uint16_t>(1U << i);
     if (passage != Passage::kRefused || !refuses) continue;
     passing.verdict.cause = TerminalCause::kZone;

@@ -38,10 +38,10 @@ struct TerminalVerdict {
 ///   it owes us the way, it can stop with 4 m/s^2 or less, or comes later (TERM-004); or it has plainly gone
 ///   before we come (TERM-005). First come: the other has right of way when it can be there first. Who could
 ///   stop only with more than 5 m/s^2 is bound to go, and counts on others' present speeds; what waiting and
-///   a crossing under way change stands at judge_passage();
+///   a crossing under way change stands at judge_passage(). Before a crossing is begun, who stands and is
+///   trusted must also leave room for our box, all the way through (TERM-023);
 /// - the end does not stand in it (TERM-006). Who is inside already has to leave, unless a leader blocks the
-/// way
-///   (TERM-007).
+///   way (TERM-007).
 /// Also: the end can stop before the road ends, unless the goal comes first (TERM-008), with room for the
 /// lane changes still due while that can be had comfortably (TERM-012); and behind the leader in the lane of
 /// the path, which keeps its speed or braking for the horizon and then brakes with rss b_max (TERM-009). A
@@ -49,8 +49,8 @@ struct TerminalVerdict {
 /// one behind 0.3 s and 2.5 m, and a braking of 3 m/s^2 at most (TERM-010); drive beyond comfort is not
 /// counted on for it; and it is not begun beside one who comes into the same lane from its other side.
 /// Once under way (lane_change.hpp) a change is finished: the leader counts as any other, the one behind
-/// needs room only to stay there, and no room is kept for the next change (TERM-020). \param path  index of
-/// the ego path the trajectory follows
+/// needs room only to stay there, and no room is kept for the next change (TERM-020).
+/// \param path  index of the ego path the trajectory follows
 [[nodiscard]] TerminalVerdict judge_terminal(const Scene& scene, int path, const Trajectory& trajectory,
                                              const Parameters& parameters);
 

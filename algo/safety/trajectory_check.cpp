@@ -5,6 +5,7 @@
 #include "algo/safety/right_of_way.hpp"
 #include "algo/trajectory/along_path.hpp"
 #include "algo/trajectory/bicycle.hpp"
+#include "algo/trajectory/standing_room.hpp"
 
 namespace s4tp {
 namespace {
@@ -83,10 +84,12 @@ bool clear_of(const Scene& scene, int path, const Trajectory& trajectory, const 
   const int count =
       keep_going.agents.size() < scene.agents.size() ? keep_going.agents.size() : scene.agents.size();
   for (int i = 0; i < count; ++i) {
-    if (has(trusted, i)) continue;
     const Agent& agent = scene.agents[i];
-    const int step = first_collision(trajectory, keep_going.agents[i], agent.track, kKeepGoingSteps,
-                                     parameters.safety.margin_m, parameters);
+    const bool stays = has(trusted, i) && is_standing(agent);
+    if (has(trusted, i) && !stays) continue;
+    const int step =
+        first_collision(trajectory, keep_going.agents[i], agent.track,
+                        stays ? kHorizonSteps : kKeepGoingSteps, parameters.safety.margin_m, parameters);
     if (step < 0 || will_yield(scene.ego_paths[path], agent) ||
         lets_us_in(scene, scene.ego_paths[path], trajectory, agent, parameters) ||
         follows_us(scene, path, agent, parameters))

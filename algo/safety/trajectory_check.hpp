@@ -31,10 +31,10 @@ struct CheckReport {
 /// Finite, feasible, no collision with the modes without plan, the conditioned modes, and "keeps doing what
 /// it does" over the first 1.5 s; then the terminal condition. A future that does not yield is forgiven to a
 /// vehicle that owes us the way, or is already braking to a stop before it, and can do so with 4 m/s^2
-/// (CHECK-006); every future to one whom the terminal condition trusts to leave us a zone (CHECK-009). Being
-/// hit from behind by who follows us in the lane we are in is no reason to reject (CHECK-007), nor by who can
-/// stay behind us in the lane that a change under way leads into (CHECK-010, lane_change.hpp). `ego_path` as
-/// in judge_terminal.
+/// (CHECK-006); every future to one whom the terminal condition trusts to leave us a zone (CHECK-009), but
+/// not that it stays where it stands in our way, over all 3 s (CHECK-011). Being hit from behind by who
+/// follows us in the lane we are in is no reason to reject (CHECK-007), nor by who can stay behind us in the
+/// lane that a change under way leads into (CHECK-010, lane_change.hpp). `ego_path` as in judge_terminal.
 [[nodiscard]] CheckReport check_trajectory(const Scene& scene, int ego_path, const Trajectory& trajectory,
                                            const PredictionSet& unconditioned,
                                            const PredictionSet& conditioned, const KinematicSet& keep_going,

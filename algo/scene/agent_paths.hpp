@@ -6,6 +6,9 @@
 
 namespace s4tp {
 
+/// Less probable ways are not expected to be taken.
+inline constexpr float kLikelyWay = 0.1F;
+
 /// Fills paths, probabilities and Frenet coordinates of `agent` from its track; without a lane there are
 /// none. `agent.lane` is the hint on entry and the lane found on return.
 /// \param hindered  another vehicle ahead gives it a reason to be slow

@@ -1,6 +1,7 @@
 #include "algo/scene/hindrance.hpp"
 
 #include "algo/core/inline.hpp"
+#include "algo/scene/agent_paths.hpp"
 #include "algo/scene/conflict_view.hpp"
 
 namespace s4tp {
@@ -8,7 +9,7 @@ namespace {
 
 constexpr float kAheadM = 40.0F;      // zones further on are not what it stands for
 constexpr float kJustPassedM = 5.0F;  // beyond the zone: seen to be gone only now
-constexpr float kComingS = 8.0F;      // who needs longer leaves everybody time to go
+constexpr float kComingS = 5.0F;      // who needs longer leaves everybody time to go
 constexpr float kUsualMps = 4.0F;     // arrival times are taken at no less than this speed
 constexpr float kStandingMps = 0.3F;
 
@@ -40,6 +41,7 @@ bool somebody_comes(const Scene& scene, int index, const ConflictView& view) {
 bool waits_for_somebody(const Scene& scene, int index) {
   const Agent& agent = scene.agents[index];
   for (int k = 0; k < agent.paths.size(); ++k) {
+    if (agent.path_probability[k] < kLikelyWay) continue;
     const LanePath& path = agent.paths[k];
     std::int8_t place[kMaxLanes];
     for (std::int8_t& entry : place) entry = -1;

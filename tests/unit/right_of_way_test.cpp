@@ -40,7 +40,7 @@ TEST(RightOfWay, ACrossingUnderWayIsFinished) {
 // TERM-015 From 93 with 3 m/s^2 we are in the zone after 1 s and out after 2.5 s. The other stands 9 m before
 // it: starting now it is there after 3 s. That is enough once it has stood for 2 s with nobody to wait for;
 // so with one who comes up behind it. Half a metre before the zone (0.7 s, and 0.5 s to start) it goes first,
-// when we come from 91 (1.6 s).
+// when we come from 91 (1.6 s); after 4 s, too (0.7 + 4 / 4 s).
 TEST(RightOfWay, WhoStandsForNothingDoesNotUseHisRightOfWay) {
   Crossing crossing(Priority::kFirstYields);
   crossing.other(96.0F - 9.0F, 0.0F).idle_ms = 1900;
@@ -53,8 +53,21 @@ TEST(RightOfWay, WhoStandsForNothingDoesNotUseHisRightOfWay) {
   EXPECT_FALSE(crossing.safe(93.0F, 0.0F, 3.0F));
 
   Crossing near(Priority::kFirstYields);
-  near.other(96.0F - 0.5F, 0.0F).idle_ms = 10'000;
+  near.other(96.0F - 0.5F, 0.0F).idle_ms = 2000;
   EXPECT_FALSE(near.safe(91.0F, 0.0F, 3.0F));
+  near.scene.agents[0].idle_ms = 4000;
+  EXPECT_TRUE(near.safe(91.0F, 0.0F, 3.0F));
+}
+
+// TERM-022 One stands 0.2 m inside the zone, its front 1.3 m from our centre line: 0.4 m beside our box. From
+// 91 with 3 m/s^2 we are there after 1.6 s: it goes first while it has stood for 2.5 s, not after 8 s (8 / 4
+// = 2 s).
+TEST(RightOfWay, WhoStandsInTheZoneForLongIsPassed) {
+  Crossing crossing(Priority::kFirstYields);
+  crossing.other(96.2F, 0.0F).idle_ms = 2500;
+  EXPECT_FALSE(crossing.safe(91.0F, 0.0F, 3.0F));
+  crossing.scene.agents[0].idle_ms = 8000;
+  EXPECT_TRUE(crossing.safe(91.0F, 0.0F, 3.0F));
 }
 
 // TERM-015 From 93 with 3 m/s^2 we are out of the zone after 2.5 s. One who has stood for a second 7.5 m

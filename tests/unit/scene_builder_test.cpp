@@ -122,6 +122,30 @@ TEST(SceneBuilder, SeesWhoStandsForNobody) {
   EXPECT_EQ(idle_ms(0.0F, 5.0F), 0);
 }
 
+// CORE-034 One stands before a crossing where it gives way. Who comes to it at 10 m/s from 30 m away is
+// waited for; from 80 m, over 5 s away, he leaves it time to go.
+TEST(SceneBuilder, WhoIsFarOffIsNotWaitedFor) {
+  for (const float way_m : {30.0F, 80.0F}) {
+    LaneMap map = test::straight_road(1, 200.0F);
+    const LaneIndex across = test::add_lane(map, {{100.0F, -100.0F}, {100.0F, 50.0F}});
+    test::add_conflict(map, 0, across, Priority::kFirstYields);
+    SceneBuilder builder;
+    Scene scene;
+    for (std::uint32_t now_ms = 1000; now_ms <= 1200; now_ms += 100) {
+      TrackList tracks;
+      EXPECT_TRUE(tracks.push(test::car(7, 90.0F, 0.0F, 0.0F, 0.0F)));
+      EXPECT_TRUE(tracks.push(test::car(8, 100.0F, -way_m, 0.5F * kPi, 10.0F)));
+      EXPECT_EQ(builder.build(now_ms, test::ego_at(50.0F, 0.0F, 0.0F, 0.0F), tracks, now_ms, &map,
+                              Parameters{}, scene),
+                Status::kOk);
+    }
+    for (const Agent& agent : scene.agents) {
+      if (agent.track.id != 7) continue;
+      EXPECT_EQ(agent.idle_ms, way_m > 50.0F ? 200 : 0) << way_m;
+    }
+  }
+}
+
 // No map at all, and a map without a lane under us: kNoLane, no paths, but the others are still there.
 TEST(SceneBuilder, SaysThatThereIsNoLane) {
   SceneBuilder builder;

@@ -61,6 +61,16 @@ TEST(Terminal, NobodyStopsInAZone) {
   EXPECT_FALSE(crossing.safe(86.5F, 8.0F, -3.0F));
 }
 
+// TERM-023 One who has stood for 20 s with his front 0.7 m from our centre line would let us go first, but
+// stands 0.2 m inside our way. With his front at 1.3 m he leaves 0.4 m.
+TEST(Terminal, WhoLetsUsGoMustLeaveRoom) {
+  for (const float front_m : {-0.7F, -1.3F}) {
+    Crossing crossing(Priority::kFirstYields);
+    crossing.other(100.0F + front_m - 2.5F, 0.0F).idle_ms = 20'000;
+    EXPECT_EQ(crossing.safe(91.0F, 0.0F, 3.0F), front_m < -1.0F) << front_m;
+  }
+}
+
 // TERM-007 Already inside, standing and driving on both are for the collision check to judge.
 TEST(Terminal, WhoIsInsideIsLeftToTheCollisionCheck) {
   Crossing crossing(Priority::kFirstYields);

@@ -206,6 +206,32 @@ TEST(Check, ACrossingUnderWayIsFinishedInFrontOfWhoSetsOff) {
   EXPECT_EQ(result(105.0F, 2.0F), CheckResult::kCollision);
 }
 
+// CHECK-011 We are inside a zone at 1.5 m/s; one has stood for 20 s, 3.1 m ahead of our front, and is trusted
+// to let us pass. With its front on our centre line we would be 0.3 m from it after (3.1 - 0.3) / 1.5 = 1.9
+// s: later than who keeps going is looked at otherwise. With its front 2.5 m beside the line nothing is in
+// the way.
+TEST(Check, WhoStandsInOurWayIsNotPassedThrough) {
+  for (const float front_y_m : {0.0F, -2.5F}) {
+    Road road;
+    const LaneIndex other = add_lane(road.map, {{108.0F, -100.0F}, {108.0F, 100.0F}});
+    ConflictZone zone;
+    zone.entry_s_m = 99.0F;
+    zone.exit_s_m = 115.0F;
+    zone.stop_s_m = 96.0F;
+    zone.other_lane = other;
+    zone.other_entry_m = 99.0F;
+    zone.other_exit_m = 104.0F;
+    zone.priority = Priority::kFirstYields;
+    (void)road.scene.ego_paths[0].zones.push(zone);
+    road.vehicle(other, 100.0F + front_y_m - 2.5F, 0.0F).idle_ms = 20'000;
+    const CheckReport report = road.check(road.drive(1.5F));
+    EXPECT_EQ(report.result, front_y_m < -1.0F ? CheckResult::kPassed : CheckResult::kCollision) << front_y_m;
+    if (report.result == CheckResult::kCollision) {
+      EXPECT_EQ(report.step, 18);
+    }
+  }
+}
+
 // CHECK-007 One 6 m behind us at 15 m/s runs into us if he keeps going: his affair, while we are in our lane.
 // Who is as near in the lane we cut into is ours.
 TEST(Check, HitFromBehindIsNoReason) {

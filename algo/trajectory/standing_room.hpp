@@ -1,0 +1,20 @@
+#pragma once
+/// Room to pass those who stand beside our way.
+
+#include "algo/core/parameters.hpp"
+#include "algo/scene/scene.hpp"
+
+namespace s4tp {
+
+/// Gap our box needs beside one who stands.
+inline constexpr float kStandingRoomM = 0.4F;
+
+/// Whether the vehicle stands, as far as its measured speed tells.
+[[nodiscard]] bool is_standing(const Agent& agent);
+
+/// Whether our box, our rear axle driven along the centre line of `path` from `from_s_m` to `to_s_m` (at most
+/// 40 m), keeps kStandingRoomM from the vehicle where it is now.
+[[nodiscard]] bool leaves_room(const Scene& scene, const EgoPath& path, const Agent& agent, float from_s_m,
+                               float to_s_m, const Parameters& parameters);
+
+}  // namespace s4tp
