@@ -425,6 +425,38 @@ TEST(Candidates, RunningPlanGoesOn) {
   EXPECT_TRUE(feasible(trajectory, Parameters{}));
 }
 
+// CAND-016 A plan at 5 m/s heads for the left lane by 0.2 rad and ends 1.2 m short of its centre. Each cycle
+// adds a step, and a refinement makes it as straight as the one before: 1 m to the side within ten cycles. It
+// comes to the centre all the same, and not past it.
+TEST(Candidates, APlanIsNotCarriedAcrossItsLine) {
+  Roads roads(50.0F, 5.0F);
+  const float line_y_m = roads.start.rear_axle.y_m + kLaneWidthM;
+  Plan running;
+  running.kind = PlanKind::kDrive;
+  running.start_ms = kNow - 100;
+  TrajectoryPoint point = roads.start;
+  point.rear_axle.heading_rad = 0.2F;
+  point.rear_axle.y_m = line_y_m - 1.2F - 15.0F * std::sin(0.2F);
+  for (TrajectoryPoint& planned : running.trajectory.points) {
+    planned = point;
+    point = bicycle_step(point, 0.0F, 0.0F, kStepS);
+  }
+  for (int cycle = 0; cycle < 40; ++cycle) {
+    const TrajectoryPoint start = running.trajectory.points[1];
+    put_ego(roads.scene, start);
+    Candidate previous;
+    previous.path = 1;
+    previous.intent = Intent::kPrevious;
+    previous.start_s_m = start.rear_axle.x_m;
+    previous.lateral_length_m = 14.0F;
+    running.trajectory = rolled(roads.scene, previous, start, running);
+    TrajectoryPoint* points = running.trajectory.points;
+    points[kHorizonSteps] = bicycle_step(points[kHorizonSteps - 1], 0.0F, 0.0F, kStepS);
+    EXPECT_LT(points[kHorizonSteps].rear_axle.y_m, line_y_m + 0.3F) << cycle;
+  }
+  EXPECT_NEAR(end_of(running.trajectory).rear_axle.y_m, line_y_m, 0.3F);
+}
+
 // CAND-009 Standing 0.3 rad askew and 0.5 m off the centre there still is a feasible way to drive off.
 TEST(Candidates, AskewInTheLane) {
   Roads roads(50.0F, 3.0F);

@@ -86,6 +86,41 @@ TEST(LaneChange, AChangeUnderWayIsFinished) {
   }
 }
 
+// TERM-030 The same, nothing of us over the line yet: a start as long as the running plan leads elsewhere,
+// and begun when it leads there. A lane change it has led to is not given up for what no start would be made
+// in.
+TEST(LaneChange, AChangeThePlanLeadsToIsBegun) {
+  for (const float gap_m : {10.0F, 3.0F}) {
+    for (const bool begun : {false, true}) {
+      Change change(2, 100.0F, 10.0F, 0.0F, 0.0F);
+      add_vehicle(change.scene, change.map, change.scene.ego_paths[1].path, 99.0F - gap_m - 2.5F, 13.0F);
+      Plan running;
+      running.kind = PlanKind::kDrive;
+      running.start_ms = 5000;
+      running.trajectory = change.drive();
+      if (!begun) running.trajectory.points[kHorizonSteps].rear_axle.y_m = 1.0F;
+      mark_bound_for(running, 5100, change.scene);
+      EXPECT_EQ(change.scene.ego_paths[1].bound_for, begun);
+      const bool safe = begun && gap_m > 5.0F;
+      EXPECT_EQ(change.cause(), safe ? TerminalCause::kNone : TerminalCause::kFollower) << gap_m << begun;
+    }
+  }
+}
+
+// TERM-030 A plan that stops to be safe, or has run out, leads nowhere.
+TEST(LaneChange, OnlyAPlanToDriveBegins) {
+  Change change(2, 100.0F, 10.0F, 0.0F, 0.0F);
+  Plan running;
+  running.kind = PlanKind::kMinimumRisk;
+  running.start_ms = 5000;
+  running.trajectory = change.drive();
+  mark_bound_for(running, 5100, change.scene);
+  EXPECT_FALSE(change.scene.ego_paths[1].bound_for);
+  running.kind = PlanKind::kDrive;
+  mark_bound_for(running, 8100, change.scene);
+  EXPECT_FALSE(change.scene.ego_paths[1].bound_for);
+}
+
 // TERM-019 Three lanes; one beside us, in the third, on his way into the second: we do not begin to change
 // into it. When he keeps to his lane, we do; and who has begun already does not fall back to his side.
 TEST(LaneChange, WhoJoinsTheLaneFromItsOtherSideCounts) {
