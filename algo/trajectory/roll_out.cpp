@@ -18,6 +18,8 @@ constexpr float kLateralMps2 = 2.0F;     // peak lateral acceleration of a lane 
 constexpr float kPeak = 5.77F;           // a quintic from rest to rest bends by 5.77 d / length^2
 constexpr float kTurnBackM = 40.0F;  // way per slope to turn back from heading away: bends by 0.1 / m at most
 constexpr float kTurnBackS2pm = 1.6F;  // and at speed by 2.5 m/s^2
+constexpr float kSwingM = 0.3F;
+constexpr int kSwingSamples = 10;
 constexpr float kOnLineM = 0.3F;       // a plan's end nearer than this has arrived
 constexpr int kSteeredAnew = 10;       // steps at the end of a plan that has not
 constexpr float kSlopeShare = 2.0F;    // way / d at which a quintic goes on from a slope without a jerk
@@ -188,6 +190,17 @@ void shape_lateral(const ReferenceLine& line, const TrajectoryPoint& start, Refe
   candidate.lateral[5] = (6.0F * h - 3.0F * g) + 0.5F * f;
   candidate.lateral_length_m = length_m;
   candidate.start_s_m = where.s_m;
+}
+
+bool swings_wide(const Candidate& candidate) {
+  const float start_m = candidate.lateral[0];
+  const float side = start_m < 0.0F ? -1.0F : 1.0F;
+  for (int i = 1; i < kSwingSamples; ++i) {
+    const float part = static_cast<float>(i) / static_cast<float>(kSwingSamples);
+    const float d_m = lateral_at(candidate, candidate.start_s_m + part * candidate.lateral_length_m).d_m;
+    if (side * d_m > abs(start_m) + kSwingM || side * d_m < -kSwingM) return true;
+  }
+  return false;
 }
 
 void roll_out(const ReferenceLine& line, const Candidate& candidate, const TrajectoryPoint& start,
