@@ -55,11 +55,6 @@ void mark_bound_for(const Plan& running, std::uint32_t start_ms, Scene& scene) {
   }
 }
 
-bool change_begun(const Scene& scene, const EgoPath& path, const TrajectoryPoint& start,
-                  const Parameters& parameters) {
-  return path.bound_for || change_under_way(scene, path, start, parameters);
-}
-
 bool joins(const Scene& scene, const EgoPath& path, const Agent& agent) {
   if (agent.lane == kNoLaneIndex || on_path(path.path, agent.lane)) return false;
   const Lane& own = scene.map->lanes[agent.lane];

@@ -223,10 +223,9 @@ TerminalVerdict judge_terminal(const Scene& scene, int path_index, const Traject
   const auto [leader, follower, joins_beside] = find_neighbours(scene, path, parameters);
   // To brake for who joins it at the same time is to stay beside him: who is under way goes on.
   if (!under_way && joins_beside >= 0) return blame(TerminalCause::kFollower, joins_beside);
-  const bool begun = under_way || path.bound_for;
-  if (!leader_safe(path, leader, along, !begun, parameters))
+  if (!leader_safe(path, leader, along, !under_way && !path.bound_for, parameters))
     return blame(TerminalCause::kLeader, leader.agent);
-  const bool follower_stays = begun && can_stay_behind(follower.gap_m, follower.speed_mps, trajectory);
+  const bool follower_stays = under_way && can_stay_behind(follower.gap_m, follower.speed_mps, trajectory);
   if (!follower_stays && !follower_safe(follower, along, parameters))
     return blame(TerminalCause::kFollower, follower.agent);
   return verdict;

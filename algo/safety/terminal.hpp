@@ -49,8 +49,8 @@ struct TerminalVerdict {
 /// lane change keeps a distance to the leader there that asks for less than rss b_min at once, and leaves the
 /// one behind 0.3 s and 2.5 m, and a braking of 3 m/s^2 at most (TERM-010); drive beyond comfort is not
 /// counted on for it; and it is not begun beside one who comes into the same lane from its other side.
-/// Once begun (lane_change.hpp) the leader counts as any other, and the one behind needs room only to stay
-/// there (TERM-030); once under way no room is kept for the next change (TERM-020). \param path  index of
+/// Once begun (lane_change.hpp) the leader counts as any other (TERM-030); once under way the one behind
+/// needs room only to stay there, and no room is kept for the next change (TERM-020). \param path  index of
 /// the ego path the trajectory follows
 [[nodiscard]] TerminalVerdict judge_terminal(const Scene& scene, int path, const Trajectory& trajectory,
                                              const Parameters& parameters);

@@ -42,10 +42,10 @@ bool follows_us(const Scene& scene, int path, const Agent& agent, const Paramete
          (path != 0 && follows_us(scene, scene.ego_paths[0], agent, parameters));
 }
 
-/// Whether it can brake gently enough to stay behind us, whose change into its lane is begun.
+/// Whether it can brake gently enough to stay behind us, whose change into its lane is under way.
 bool lets_us_in(const Scene& scene, const EgoPath& path, const Trajectory& trajectory, const Agent& agent,
                 const Parameters& parameters) {
-  if (!change_begun(scene, path, trajectory.points[0], parameters)) return false;
+  if (!change_under_way(scene, path, trajectory.points[0], parameters)) return false;
   bool known = false;
   const bool joining = joins(scene, path, agent);
   const OnPath seen = see_on_path(scene, path, agent, parameters, joining, known);

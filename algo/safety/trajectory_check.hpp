@@ -33,7 +33,7 @@ struct CheckReport {
 /// vehicle that owes us the way, or is already braking to a stop before it, and can do so with 4 m/s^2
 /// (CHECK-006); every future to one whom the terminal condition trusts to leave us a zone (CHECK-009). Being
 /// hit from behind by who follows us in the lane we are in is no reason to reject (CHECK-007), nor by who can
-/// stay behind us in the lane that a change begun leads into (CHECK-010, lane_change.hpp). `ego_path` as
+/// stay behind us in the lane that a change under way leads into (CHECK-010, lane_change.hpp). `ego_path` as
 /// in judge_terminal.
 [[nodiscard]] CheckReport check_trajectory(const Scene& scene, int ego_path, const Trajectory& trajectory,
                                            const PredictionSet& unconditioned,
