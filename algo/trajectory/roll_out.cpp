@@ -20,9 +20,9 @@ constexpr float kTurnBackM = 40.0F;  // way per slope to turn back from heading 
 constexpr float kTurnBackS2pm = 1.6F;  // and at speed by 2.5 m/s^2
 constexpr float kSwingM = 0.3F;
 constexpr int kSwingSamples = 10;
-constexpr float kOnLineM = 0.3F;       // a plan's end nearer than this has arrived
-constexpr int kSteeredAnew = 10;       // steps at the end of a plan that has not
-constexpr float kSlopeShare = 2.0F;    // way / d at which a quintic goes on from a slope without a jerk
+constexpr float kOnLineM = 0.3F;     // a plan's end nearer than this has arrived
+constexpr int kSteeredAnew = 10;     // steps at the end of a plan that has not
+constexpr float kSlopeShare = 2.0F;  // way / d at which a quintic goes on from a slope without a jerk
 
 /// d and its derivatives by s.
 struct Lateral {
