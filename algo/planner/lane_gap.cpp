@@ -13,6 +13,7 @@ constexpr float kDuePatienceS = 20.0F;
 constexpr float kInsetM = 0.2F;  // from both ends of a gap: vehicles do not keep their speeds exactly
 constexpr float kShare = 0.8F;   // of comfortable drive and braking
 constexpr float kNeverS = 1e3F;
+constexpr float kAlikeMps = 0.5F;  // speeds in a column differ by this from one moment to the next
 
 /// Time to gain `way_m` >= 0 and end with no speed, from `speed` (relative ones), with `up` while gaining
 /// speed, `down` while losing it, and `top` at most. \pre without more drive we end before that
@@ -46,6 +47,14 @@ LaneGap gap_between(const LaneVehicle* front, const LaneVehicle* rear, float lim
   return gap;
 }
 
+/// Who is hardly faster than the one ahead is in a column with him, and comes no nearer.
+void keep_distance(const LaneVehicle& ahead, LaneVehicle& vehicle) {
+  const float faster_mps = vehicle.speed_mps - ahead.speed_mps;
+  if (faster_mps <= 0.0F || faster_mps > kAlikeMps) return;
+  vehicle.s_m = vehicle.s_m - faster_mps * kHorizonS;
+  vehicle.speed_mps = ahead.speed_mps;
+}
+
 }  // namespace
 
 void put_in_order(LaneVehicles& vehicles, const Parameters& parameters) {
@@ -58,6 +67,7 @@ void put_in_order(LaneVehicles& vehicles, const Parameters& parameters) {
   const LaneVehicle* front[2] = {nullptr, nullptr};
   for (LaneVehicle& vehicle : vehicles) {
     const LaneVehicle*& ahead = front[vehicle.in_lane ? 1 : 0];
+    if (ahead != nullptr) keep_distance(*ahead, vehicle);
     const float limit_mps = vehicle.speed_mps;
     vehicle.tight = ahead != nullptr && !gap_between(ahead, &vehicle, limit_mps, parameters).found;
     ahead = &vehicle;
@@ -102,7 +112,7 @@ LaneGap find_lane_gap(const LaneVehicles& vehicles, const GapSeeker& us, const P
     if (gap.bounded_behind) place_m = max(place_m, gap.rear_s_m + moved_m);
     if (gap.bounded_ahead) place_m = min(place_m, gap.front_s_m + moved_m);
     const float stop_m = square(gap.speed_mps) / (2.0F * parameters.comfort.braking_mps2);
-    if (us.change_due && place_m + stop_m > us.room_s_m) continue;
+    if (us.change_due && place_m + stop_m > us.end_s_m) continue;
     const float leader_s_m = us.leader_s_m + us.leader_mps * time_s - parameters.comfort.standstill_gap_m;
     if (us.has_leader && place_m > leader_s_m) continue;
     return gap;

@@ -35,13 +35,14 @@ struct GapSeeker {
   float speed_mps = 0.0F;
   float limit_mps = 0.0F;
   bool change_due = false;
-  float room_s_m = 0.0F;    ///< then: where we must have come to rest if there was no gap
+  float end_s_m = 0.0F;     ///< then: where our front is at the end of the lane we are in
   bool has_leader = false;  ///< in the lane we are in
   float leader_s_m = 0.0F;  ///< where our rear axle would touch it, at plan start
   float leader_mps = 0.0F;
 };
 
-/// Foremost first; and says who is tight behind whom.
+/// Foremost first; and says who is tight behind whom. Who is faster than the one ahead by 0.5 m/s at most is
+/// in a column with him and comes no nearer (GAP-004).
 void put_in_order(LaneVehicles& vehicles, const Parameters& parameters);
 
 /// Time [s] until we are in the gap at its speed, by comfortable drive and braking. 1e3: never.
@@ -50,8 +51,8 @@ void put_in_order(LaneVehicles& vehicles, const Parameters& parameters);
                                    float limit_mps, const Parameters& parameters);
 
 /// GAP-001 The foremost gap that takes a car of ours and can be met within 8 s, or 20 s when the change is
-/// due, not by running into our own leader (GAP-002), and where we can still stop from its speed before the
-/// room to change ends (GAP-003). Not found: none, or the lane is free. \pre vehicles are in order
+/// due, not by running into our own leader (GAP-002), and where we can still stop from its speed before our
+/// lane ends (GAP-003). Not found: none, or the lane is free. \pre vehicles are in order
 [[nodiscard]] LaneGap find_lane_gap(const LaneVehicles& vehicles, const GapSeeker& us,
                                     const Parameters& parameters);
 

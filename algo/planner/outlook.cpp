@@ -25,10 +25,9 @@ float driving_time_s(float way_m, float speed_mps, float limit_mps, float accele
   return (sqrt(square(speed_mps) + 2.0F * acceleration_mps2 * way_m) - speed_mps) / acceleration_mps2;
 }
 
-/// Where our rear axle must have come to rest if the lane changes due have not been made.
-float room_end_s_m(const Scene& scene, const EgoPath& path, const Parameters& parameters) {
-  const float end_s_m = min(path.route_end_s_m, dead_end_s_m(scene, path));
-  return end_s_m - rear_axle_to_front_m(parameters) - change_room_m(scene, path);
+/// Where our front is at the end of the lane, or of the part of it where lane changes due can be made.
+float lane_end_s_m(const Scene& scene, const EgoPath& path, const Parameters& parameters) {
+  return min(path.route_end_s_m, dead_end_s_m(scene, path)) - rear_axle_to_front_m(parameters);
 }
 
 }  // namespace
@@ -51,7 +50,7 @@ void Outlook::look(const Scene& scene, const KinematicSet& keep_going, float lea
     Lane lane;
     lane.target_s_m = path.frenet.s_m + way_m_;
     lane.limit_mps = max(here.speed_limit_mps, kCrawlMps);
-    lane.room_s_m = room_end_s_m(scene, path, parameters);
+    lane.room_s_m = lane_end_s_m(scene, path, parameters) - change_room_m(scene, path);
     const float half_lane_m = 0.5F * here.width_m;
     const float to_route_m = static_cast<float>(path.changes_needed) * here.width_m;
     for (int i = 0; i < count; ++i) {
@@ -90,10 +89,11 @@ void Outlook::find_gaps(const Scene& scene, float lead_s) {
   }
   us.change_due = own.changes_needed != 0;
   const float leader_s_m = us.leader_s_m;
+  const float end_s_m = lane_end_s_m(scene, own, *parameters_);
   for (int i = 1; i < lanes_.size(); ++i) {
     const float shift_m = scene.ego_paths[i].frenet.s_m - own.frenet.s_m;
     us.s_m = our_s_m_ + shift_m;
-    us.room_s_m = lanes_[0].room_s_m + shift_m;
+    us.end_s_m = end_s_m + shift_m;
     us.leader_s_m = leader_s_m + shift_m;
     lanes_[i].gap = find_lane_gap(lanes_[i].seen, us, *parameters_);
   }

@@ -5,6 +5,7 @@
 #include "algo/core/inline.hpp"
 #include "algo/core/self_test.hpp"
 #include "algo/planner/stage_scope.hpp"
+#include "algo/safety/lane_change.hpp"
 #include "algo/safety/minimum_risk.hpp"
 #include "algo/safety/rss.hpp"
 #include "algo/safety/terminal.hpp"
@@ -95,6 +96,7 @@ Status Planner::plan(const PlannerInput& input, Plan& plan, Explanation& explana
     }
     start_ = plan_start(input.ego, input.now_ms, running_, start_ms_, parameters_);
     if (status == Status::kOk) {
+      mark_bound_for(running_, start_ms_, scene_);
       predict(explanation);
       rank(input.degraded != 0, explanation);
       status = choose(explanation);

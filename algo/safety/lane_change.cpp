@@ -2,6 +2,7 @@
 
 #include "algo/core/inline.hpp"
 #include "algo/trajectory/bicycle.hpp"
+#include "algo/trajectory/candidates.hpp"
 
 namespace s4tp {
 namespace {
@@ -9,6 +10,7 @@ namespace {
 constexpr float kSwingS = 0.5F;     // sideways motion that goes on before steering back shows
 constexpr float kReactionS = 0.5F;  // of the one behind
 constexpr float kTouchM = 0.5F;     // left between us and him
+constexpr float kBoundForM = 1.5F;  // nearer to a path's centre, a plan's end is in its lane
 
 /// Whether a lane is that of the path at one of its parts.
 bool on_path(const LanePath& path, LaneIndex lane) {
@@ -38,6 +40,19 @@ bool change_under_way(const Scene& scene, const EgoPath& path, const TrajectoryP
                          : -parameters.vehicle.rear_overhang_m;
   const float corner_m = abs(frenet.d_m) - on_m * towards - 0.5F * parameters.vehicle.width_m * turned.cos;
   return corner_m < half_lane_m;
+}
+
+void mark_bound_for(const Plan& running, std::uint32_t start_ms, Scene& scene) {
+  const bool drives = running.kind == PlanKind::kDrive && plan_covers(running, start_ms);
+  const TrajectoryPoint& end = running.trajectory.points[kHorizonSteps];
+  for (EgoPath& path : scene.ego_paths) {
+    path.bound_for = false;
+    if (!drives) continue;
+    const float guess_s_m =
+        path.frenet.s_m + distance(position(end.rear_axle), position(scene.ego.rear_axle));
+    const Frenet frenet = project(*scene.map, path.path, position(end.rear_axle), guess_s_m, 15.0F);
+    path.bound_for = abs(frenet.d_m) < kBoundForM;
+  }
 }
 
 bool joins(const Scene& scene, const EgoPath& path, const Agent& agent) {

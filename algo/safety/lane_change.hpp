@@ -19,6 +19,12 @@ inline constexpr float kFollowerBrakingMps2 = 3.0F;
 [[nodiscard]] bool change_under_way(const Scene& scene, const EgoPath& path, const TrajectoryPoint& start,
                                     const Parameters& parameters);
 
+/// Notes which path the running plan leads to at its end. A change it leads to is begun: it kept a start's
+/// distance to the leader then, who never does exactly as predicted, and from now on follows him as any
+/// other; else it would be given up and taken up again (TERM-030). The one behind counts as at the start
+/// until it is under way.
+void mark_bound_for(const Plan& running, std::uint32_t start_ms, Scene& scene);
+
 /// Whether the vehicle is coming into a lane of the path from the lane beside it (TERM-019).
 [[nodiscard]] bool joins(const Scene& scene, const EgoPath& path, const Agent& agent);
 

@@ -191,6 +191,7 @@ bool along_lane(const Scene& scene, const TrajectoryPoint& start, const Paramete
   const Plan none;
   for (int i = 0; i < kStretches; ++i) {
     shape_lateral(line, start, where, 0.0F, length_m, candidate);
+    if (swings_wide(candidate)) break;
     roll_out(line, candidate, start, none, 0, parameters, trajectory);
     if (feasible(trajectory, parameters)) return true;
     length_m = kStretch * length_m;

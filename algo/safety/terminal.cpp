@@ -20,6 +20,7 @@ constexpr float kCommittedMps2 = 5.0F;     // who would have to brake harder tha
 constexpr float kMovingMps = 1.0F;         // slower inside a zone is standing in it
 constexpr float kCrawlMps = 2.0F;          // way beyond the horizon is driven no slower
 constexpr float kLeaderGapM = 0.3F;        // left when both have stopped
+constexpr float kBrakesMps2 = 0.5F;        // who slows down less than this just keeps his speed as drivers do
 constexpr float kChangeWayM = 15.0F;       // of a slow lane change
 constexpr float kUsualLaneM = 3.2F;
 
@@ -159,12 +160,15 @@ bool judge_zone(Passing& passing, const ConflictZone& zone) {
 bool leader_safe(const EgoPath& path, const Leader& leader, const Along& along, bool begins,
                  const Parameters& parameters) {
   if (leader.agent < 0) return true;
-  const float later_mps = max(0.0F, leader.speed_mps + min(0.0F, leader.acceleration_mps2) * kHorizonS);
-  const float braking = min(leader.acceleration_mps2, -0.1F);
+  const float change_mps2 = leader.acceleration_mps2 < -kBrakesMps2 ? leader.acceleration_mps2 : 0.0F;
+  const float later_mps = max(0.0F, leader.speed_mps + change_mps2 * kHorizonS);
   const float its_way_m = later_mps > 0.0F || leader.speed_mps <= 0.0F
                               ? 0.5F * (leader.speed_mps + later_mps) * kHorizonS
-                              : square(leader.speed_mps) / (-2.0F * braking);
-  const float end_gap_m = leader.gap_m + its_way_m - (along.end_s_m() - path.frenet.s_m);
+                              : square(leader.speed_mps) / (-2.0F * change_mps2);
+  // Until our plan starts it drives on, too.
+  const float lead_share = leader.speed_mps / max(max(leader.speed_mps, along.start_mps), kCrawlMps);
+  const float lead_m = max(0.0F, along.start_s_m() - path.frenet.s_m) * lead_share;
+  const float end_gap_m = leader.gap_m + lead_m + its_way_m - (along.end_s_m() - path.frenet.s_m);
   if (begins) return end_gap_m >= change_gap_to_leader_m(along.end_mps, later_mps, parameters);
   const float left_m = end_gap_m + square(later_mps) / (2.0F * parameters.rss.braking_max_mps2) -
                        square(along.end_mps) / (2.0F * kHardMps2);
@@ -231,7 +235,7 @@ TerminalVerdict judge_terminal(const Scene& scene, int path_index, const Traject
   const auto [leader, follower, joins_beside] = find_neighbours(scene, path, parameters);
   // To brake for who joins it at the same time is to stay beside him: who is under way goes on.
   if (!under_way && joins_beside >= 0) return blame(TerminalCause::kFollower, joins_beside);
-  if (!leader_safe(path, leader, along, !under_way, parameters))
+  if (!leader_safe(path, leader, along, !under_way && !path.bound_for, parameters))
     return blame(TerminalCause::kLeader, leader.agent);
   const bool follower_stays = under_way && can_stay_behind(follower.gap_m, follower.speed_mps, trajectory);
   if (!follower_stays && !follower_safe(follower, along, parameters))

@@ -44,11 +44,12 @@ struct TerminalVerdict {
 ///   way (TERM-007).
 /// Also: the end can stop before the road ends, unless the goal comes first (TERM-008), with room for the
 /// lane changes still due while that can be had comfortably (TERM-012); and behind the leader in the lane of
-/// the path, which keeps its speed or braking for the horizon and then brakes with rss b_max (TERM-009). A
+/// the path, which keeps its speed, or a braking of 0.5 m/s^2 or more, for the horizon and then brakes with
+/// rss b_max (TERM-009); it drives until our plan starts, too (TERM-031). A
 /// lane change keeps a distance to the leader there that asks for less than rss b_min at once, and leaves the
 /// one behind 0.3 s and 2.5 m, and a braking of 3 m/s^2 at most (TERM-010); drive beyond comfort is not
 /// counted on for it; and it is not begun beside one who comes into the same lane from its other side.
-/// Once under way (lane_change.hpp) a change is finished: the leader counts as any other, the one behind
+/// Once begun (lane_change.hpp) the leader counts as any other (TERM-030); once under way the one behind
 /// needs room only to stay there, and no room is kept for the next change (TERM-020).
 /// \param path  index of the ego path the trajectory follows
 [[nodiscard]] TerminalVerdict judge_terminal(const Scene& scene, int path, const Trajectory& trajectory,

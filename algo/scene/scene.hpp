@@ -55,6 +55,7 @@ struct EgoPath {
   std::int8_t changes_needed = 0;  ///< from that lane to the route's
   float route_end_s_m = 0.0F;      ///< where a lane change must be finished, or the path's end
   float goal_s_m = 0.0F;           ///< where the goal lies along it
+  bool bound_for = false;          ///< the running plan leads there (lane_change.hpp)
   BoundedVector<ConflictZone, kMaxPathZones> zones;
 };
 

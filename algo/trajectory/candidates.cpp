@@ -190,6 +190,7 @@ bool make_feasible(const ReferenceLine& line, const TrajectoryPoint& start, cons
                    Trajectory& trajectory) {
   for (int i = 0; i < course.attempts; ++i) {
     shape_lateral(line, start, course.where, 0.0F, course.lateral_length_m, candidate);
+    if (candidate.intent != Intent::kPrevious && swings_wide(candidate)) break;  // longer swings wider
     roll_out(line, candidate, start, running, start_ms, parameters, trajectory);
     if (feasible(trajectory, parameters)) return true;
     if (candidate.intent == Intent::kPrevious) break;

@@ -18,7 +18,11 @@ constexpr float kLateralMps2 = 2.0F;     // peak lateral acceleration of a lane 
 constexpr float kPeak = 5.77F;           // a quintic from rest to rest bends by 5.77 d / length^2
 constexpr float kTurnBackM = 40.0F;  // way per slope to turn back from heading away: bends by 0.1 / m at most
 constexpr float kTurnBackS2pm = 1.6F;  // and at speed by 2.5 m/s^2
-constexpr float kSlopeShare = 2.0F;    // way / d at which a quintic goes on from a slope without a jerk
+constexpr float kSwingM = 0.3F;
+constexpr int kSwingSamples = 10;
+constexpr float kOnLineM = 0.3F;     // a plan's end nearer than this has arrived
+constexpr int kSteeredAnew = 10;     // steps at the end of a plan that has not
+constexpr float kSlopeShare = 2.0F;  // way / d at which a quintic goes on from a slope without a jerk
 
 /// d and its derivatives by s.
 struct Lateral {
@@ -95,6 +99,20 @@ void march(const ReferenceLine& line, const Candidate& candidate, int first, con
   }
 }
 
+/// Steers points[first + 1] to points[last] to the line, each at its own speed. \return s at the last one
+float steer_to_line(const ReferenceLine& line, int first, int last, float s_m, const Parameters& parameters,
+                    Trajectory& trajectory) {
+  for (int i = first + 1; i <= last; ++i) {
+    const TrajectoryPoint& before = trajectory.points[i - 1];
+    TrajectoryPoint& point = trajectory.points[i];
+    const float way_m = 0.5F * (before.speed_mps + point.speed_mps) * kStepS;
+    point.rear_axle = before.rear_axle;
+    point.curvature_1pm = before.curvature_1pm;
+    if (way_m > 0.0F) steer_step(line, way_m, parameters, s_m, point);
+  }
+  return s_m;
+}
+
 /// The running plan from `start_ms` on, then on along the line.
 void shift_plan(const ReferenceLine& line, const Candidate& candidate, const Plan& running,
                 std::uint32_t start_ms, const Parameters& parameters, Trajectory& trajectory) {
@@ -104,14 +122,24 @@ void shift_plan(const ReferenceLine& line, const Candidate& candidate, const Pla
   for (int i = 1; i <= last; ++i) trajectory.points[i] = running.trajectory.points[i + shift];
   if (shift == 0) return;
 
+  const auto locate = [&](int index) {
+    const Point there = position(trajectory.points[index].rear_axle);
+    const Point start = position(trajectory.points[0].rear_axle);
+    return locate_on(line, there, candidate.start_s_m + distance(start, there));
+  };
   const TrajectoryPoint& end = trajectory.points[last];
   Candidate tail = candidate;
   tail.intent = Intent::kAccelerate;
   tail.acceleration_mps2 = clamp(end.acceleration_mps2, -kTailBrakingMps2, kTailDriveMps2);
-  const float guess_s_m =
-      candidate.start_s_m + distance(position(trajectory.points[0].rear_axle), position(end.rear_axle));
-  const ReferenceCoordinates where = locate_on(line, position(end.rear_axle), guess_s_m);
-  shape_lateral(line, end, where, 0.0F, candidate.lateral_length_m, tail);
+  const ReferenceCoordinates where = locate(last);
+  if (abs(where.d_m) > kOnLineM) {
+    // Still on its way to the line: one step more at a time, smoothed each time, would carry it across.
+    const int first = last > kSteeredAnew ? last - kSteeredAnew : 0;
+    tail.steered = true;
+    tail.start_s_m = steer_to_line(line, first, last, locate(first).s_m, parameters, trajectory);
+  } else {
+    shape_lateral(line, end, where, 0.0F, candidate.lateral_length_m, tail);
+  }
   march(line, tail, last, parameters, trajectory);
 }
 
@@ -162,6 +190,17 @@ void shape_lateral(const ReferenceLine& line, const TrajectoryPoint& start, Refe
   candidate.lateral[5] = (6.0F * h - 3.0F * g) + 0.5F * f;
   candidate.lateral_length_m = length_m;
   candidate.start_s_m = where.s_m;
+}
+
+bool swings_wide(const Candidate& candidate) {
+  const float start_m = candidate.lateral[0];
+  const float side = start_m < 0.0F ? -1.0F : 1.0F;
+  for (int i = 1; i < kSwingSamples; ++i) {
+    const float part = static_cast<float>(i) / static_cast<float>(kSwingSamples);
+    const float d_m = lateral_at(candidate, candidate.start_s_m + part * candidate.lateral_length_m).d_m;
+    if (side * d_m > abs(start_m) + kSwingM || side * d_m < -kSwingM) return true;
+  }
+  return false;
 }
 
 void roll_out(const ReferenceLine& line, const Candidate& candidate, const TrajectoryPoint& start,

@@ -9,6 +9,7 @@
 
 #include "algo/core/math.hpp"
 #include "algo/trajectory/bicycle.hpp"
+#include "algo/trajectory/roll_out.hpp"
 #include "tests/support/driving_scenes.hpp"
 
 namespace s4tp {
@@ -423,6 +424,73 @@ TEST(Candidates, RunningPlanGoesOn) {
   EXPECT_NEAR(end_of(trajectory).rear_axle.x_m, running.trajectory.points[kHorizonSteps].rear_axle.x_m + 1.0F,
               0.05F);
   EXPECT_TRUE(feasible(trajectory, Parameters{}));
+}
+
+// CAND-016 A plan at 5 m/s heads for the left lane by 0.2 rad and ends 1.2 m short of its centre. Each cycle
+// adds a step, and a refinement makes it as straight as the one before: 1 m to the side within ten cycles. It
+// comes to the centre all the same, and not past it.
+TEST(Candidates, APlanIsNotCarriedAcrossItsLine) {
+  Roads roads(50.0F, 5.0F);
+  const float line_y_m = roads.start.rear_axle.y_m + kLaneWidthM;
+  Plan running;
+  running.kind = PlanKind::kDrive;
+  running.start_ms = kNow - 100;
+  TrajectoryPoint point = roads.start;
+  point.rear_axle.heading_rad = 0.2F;
+  point.rear_axle.y_m = line_y_m - 1.2F - 15.0F * std::sin(0.2F);
+  for (TrajectoryPoint& planned : running.trajectory.points) {
+    planned = point;
+    point = bicycle_step(point, 0.0F, 0.0F, kStepS);
+  }
+  for (int cycle = 0; cycle < 40; ++cycle) {
+    const TrajectoryPoint start = running.trajectory.points[1];
+    put_ego(roads.scene, start);
+    Candidate previous;
+    previous.path = 1;
+    previous.intent = Intent::kPrevious;
+    previous.start_s_m = start.rear_axle.x_m;
+    previous.lateral_length_m = 14.0F;
+    running.trajectory = rolled(roads.scene, previous, start, running);
+    TrajectoryPoint* points = running.trajectory.points;
+    points[kHorizonSteps] = bicycle_step(points[kHorizonSteps - 1], 0.0F, 0.0F, kStepS);
+    EXPECT_LT(points[kHorizonSteps].rear_axle.y_m, line_y_m + 0.3F) << cycle;
+  }
+  EXPECT_NEAR(end_of(running.trajectory).rear_axle.y_m, line_y_m, 0.3F);
+}
+
+// CAND-017 Wheels turned by 0.1 / m to the right, 3.2 m to go to the left: 14 m of quintic turn them back in
+// time; 40 m swing 0.05 * 40^2 * 0.035 - 1 = 1.8 m to the right before.
+TEST(Candidates, ALongQuinticSwingsOut) {
+  Roads roads(50.0F, 1.0F);
+  roads.start.curvature_1pm = -0.1F;
+  ReferenceLine line;
+  build_reference(roads.map, roads.scene.ego_paths[1].path, 50.0F, 1.0F, Parameters{}, line);
+  const ReferenceCoordinates where = locate_on(line, position(roads.start.rear_axle), 50.0F);
+  Candidate candidate;
+  shape_lateral(line, roads.start, where, 0.0F, 14.0F, candidate);
+  EXPECT_FALSE(swings_wide(candidate));
+  shape_lateral(line, roads.start, where, 0.0F, 40.0F, candidate);
+  EXPECT_TRUE(swings_wide(candidate));
+}
+
+// CAND-017 However our wheels and we are turned when we set off: no candidate swings out, some are steered.
+TEST(Candidates, NobodySwingsOutToTheOtherSide) {
+  int steered = 0;
+  for (const float speed_mps : {0.5F, 2.0F, 6.0F}) {
+    for (const float curvature_1pm : {-0.15F, -0.05F, 0.1F}) {
+      for (const float heading_rad : {-0.15F, 0.0F, 0.1F}) {
+        Roads roads(50.0F, speed_mps);
+        roads.start.curvature_1pm = curvature_1pm;
+        roads.start.rear_axle.heading_rad = heading_rad;
+        put_ego(roads.scene, roads.start);
+        for (const Candidate& candidate : generate(roads.scene, roads.start)) {
+          EXPECT_TRUE(candidate.steered || !swings_wide(candidate));
+          steered += candidate.steered ? 1 : 0;
+        }
+      }
+    }
+  }
+  EXPECT_GT(steered, 0);
 }
 
 // CAND-009 Standing 0.3 rad askew and 0.5 m off the centre there still is a feasible way to drive off.

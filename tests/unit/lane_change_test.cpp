@@ -86,6 +86,41 @@ TEST(LaneChange, AChangeUnderWayIsFinished) {
   }
 }
 
+// TERM-030 One as fast 3 m ahead in the next lane: a start keeps 4.75 m at 10 m/s; a change that the running
+// plan leads to only must be able to stop behind him, with 3 + 100/16 - 100/12 = 0.9 m left. One who is 2 m/s
+// slower is 6 m nearer after 3 s: then it is given up.
+TEST(LaneChange, AChangeThePlanLeadsToIsBegun) {
+  for (const float its_mps : {10.0F, 8.0F}) {
+    for (const bool begun : {false, true}) {
+      Change change(2, 100.0F, 10.0F, 0.0F, 0.0F);
+      add_vehicle(change.scene, change.map, change.scene.ego_paths[1].path, 104.0F + 3.0F + 2.5F, its_mps);
+      Plan running;
+      running.kind = PlanKind::kDrive;
+      running.start_ms = 5000;
+      running.trajectory = change.drive();
+      if (!begun) running.trajectory.points[kHorizonSteps].rear_axle.y_m = 1.0F;
+      mark_bound_for(running, 5100, change.scene);
+      EXPECT_EQ(change.scene.ego_paths[1].bound_for, begun);
+      const bool safe = begun && its_mps > 9.0F;
+      EXPECT_EQ(change.cause(), safe ? TerminalCause::kNone : TerminalCause::kLeader) << its_mps << begun;
+    }
+  }
+}
+
+// TERM-030 A plan that stops to be safe, or has run out, leads nowhere.
+TEST(LaneChange, OnlyAPlanToDriveBegins) {
+  Change change(2, 100.0F, 10.0F, 0.0F, 0.0F);
+  Plan running;
+  running.kind = PlanKind::kMinimumRisk;
+  running.start_ms = 5000;
+  running.trajectory = change.drive();
+  mark_bound_for(running, 5100, change.scene);
+  EXPECT_FALSE(change.scene.ego_paths[1].bound_for);
+  running.kind = PlanKind::kDrive;
+  mark_bound_for(running, 8100, change.scene);
+  EXPECT_FALSE(change.scene.ego_paths[1].bound_for);
+}
+
 // TERM-019 Three lanes; one beside us, in the third, on his way into the second: we do not begin to change
 // into it. When he keeps to his lane, we do; and who has begun already does not fall back to his side.
 TEST(LaneChange, WhoJoinsTheLaneFromItsOtherSideCounts) {

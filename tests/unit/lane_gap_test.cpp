@@ -46,6 +46,19 @@ TEST(LaneGap, TheForemostThatTakesUs) {
   EXPECT_FALSE(find_lane_gap(lane, at(70.0F), Parameters{}).bounded_ahead);
 }
 
+// GAP-004 A column 21 m apart now: the second is 0.3 m/s faster, which would cost it 0.9 m of the 20.65 m
+// needed by the horizon's end; but he keeps his distance. One who is 1 m/s faster comes nearer.
+TEST(LaneGap, AColumnKeepsItsDistances) {
+  for (const float faster_mps : {0.3F, 1.0F}) {
+    LaneVehicles vehicles;
+    (void)vehicles.push({80.0F, 5.0F, kSpeedMps, true});
+    (void)vehicles.push({59.0F + 3.0F * faster_mps, 5.0F, kSpeedMps + faster_mps, true});
+    put_in_order(vehicles, Parameters{});
+    EXPECT_EQ(vehicles[1].tight, faster_mps > 0.5F);
+    EXPECT_NEAR(vehicles[1].s_m, faster_mps > 0.5F ? 62.0F : 59.0F, 0.001F);
+  }
+}
+
 // GAP-001 A free lane needs no gap.
 TEST(LaneGap, NoneInAFreeLane) {
   EXPECT_FALSE(find_lane_gap(LaneVehicles{}, at(36.0F), Parameters{}).found);
@@ -74,13 +87,13 @@ TEST(LaneGap, NotThroughOurLeader) {
 }
 
 // GAP-003 From 36 m and 10 m/s we come to rest within 100 / 5 = 20 m: by 56 m.
-TEST(LaneGap, WhileThereIsRoom) {
+TEST(LaneGap, BeforeOurLaneEnds) {
   const LaneVehicles lane = column({55.0F, 100.0F, 80.0F});
   GapSeeker us = at(36.0F);
   us.change_due = true;
-  us.room_s_m = 57.0F;
+  us.end_s_m = 57.0F;
   EXPECT_TRUE(find_lane_gap(lane, us, Parameters{}).found);
-  us.room_s_m = 55.0F;
+  us.end_s_m = 55.0F;
   EXPECT_FALSE(find_lane_gap(lane, us, Parameters{}).found);
 }
 

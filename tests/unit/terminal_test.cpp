@@ -175,6 +175,28 @@ TEST(Terminal, LaneChangeLeavesTheFollowerRoom) {
   }
 }
 
+// TERM-031 The plan starts 0.2 s and 2 m on. 5.25 m are enough ahead of one as fast (4.75 m needed); it has
+// driven 2 m meanwhile, too. TERM-009 One who brakes with 0.4 m/s^2 keeps his speed, one with 0.6 has 5.25 -
+// 2.7 m left after 3 s.
+TEST(Terminal, LeadersDriveUntilOurPlanStarts) {
+  for (const float braking_mps2 : {0.0F, 0.4F, 0.6F}) {
+    LaneMap map = straight_road(2, 400.0F);
+    Scene scene;
+    add_way(scene, map, path_of(map, {0}));
+    add_way(scene, map, path_of(map, {1}), Manoeuvre::kLeft);
+    put_ego(scene, state_on(map, scene.ego_paths[0].path, 98.0F, 10.0F));
+    Agent& leader = add_vehicle(scene, map, scene.ego_paths[1].path, 98.0F + 4.0F + 5.25F + 2.5F, 10.0F);
+    leader.track.acceleration_mps2 = -braking_mps2;
+    Trajectory trajectory;
+    trajectory.points[0] = state_on(map, scene.ego_paths[0].path, 100.0F, 10.0F);
+    for (int i = 1; i < kTrajectoryPoints; ++i) {
+      trajectory.points[i] = bicycle_step(trajectory.points[i - 1], 0.0F, 0.0F, kStepS);
+      trajectory.points[i].rear_axle.y_m = kLaneWidthM * static_cast<float>(i) / 30.0F;
+    }
+    EXPECT_EQ(judge_terminal(scene, 1, trajectory, Parameters{}).safe(), braking_mps2 < 0.5F) << braking_mps2;
+  }
+}
+
 // TERM-010 The lane we come to begins where we are, and the follower is still on the lane before it: he
 // follows all the same.
 TEST(Terminal, FollowersBeforeTheLanesStartCount) {
