@@ -83,6 +83,7 @@ Status Planner::plan(const PlannerInput& input, Plan& plan, Explanation& explana
 
   conditioned_.agents.clear();
   refined_in_force_ = false;
+  refining_ = false;
 
   Status status = Status::kInvalidInput;
   if (valid(input)) {
@@ -152,7 +153,6 @@ void Planner::forget_scene() {
 void Planner::predict(Explanation& explanation) {
   const StageScope scope(probe, Stage::kPredict);
   new (&arena_.predictor) Predictor;
-  refining_ = false;
   arena_.predictor.encode(scene_, parameters_, start_ms_);
   arena_.predictor.decode(nullptr, allowance.prediction, unconditioned_);
   arena_.predictor.keep_going(keep_going_);

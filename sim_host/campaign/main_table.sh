@@ -5,7 +5,7 @@
 #
 #   --jobs N       episodes at a time (default: one a core)
 #   --episodes N   so many a cell, to try it (default: 100 in our traffic, 40 in SUMO's, and what is below)
-#   --parts NAMES  of builtin, sumo, long, raw and real only these (default: all, in this order)
+#   --parts NAMES  of builtin, sumo, long, raw, real, networks and networks_sumo only these (default: all, in this order)
 #
 # Killed or interrupted, the same command goes on. FOLDER then holds a folder for each part, with its record
 # (episodes.jsonl) and its numbers (results.json, against_PLANNER.json); report/index.html, with replays of failures; and
@@ -15,7 +15,7 @@ root=$(realpath "$(dirname "${BASH_SOURCE[0]}")/../..")
 
 jobs=$(nproc)
 episodes=
-parts=builtin,sumo,long,raw,real
+parts=builtin,sumo,long,raw,real,networks,networks_sumo
 while [[ ${1:-} == --* ]]; do
   case $1 in
     --jobs) jobs=$2 ;;
@@ -37,6 +37,8 @@ tool=${S4TP_TOOL:-build/host/sim_host/s4tp_tool}
 command -v sumo >/dev/null || { echo "main_table.sh: sumo is missing: apt-get install sumo" >&2; exit 2; }
 
 all=s4tp,static_drf,drf_controller,predictive_decision,idm_lane,constant_speed
+mapfile -t networks < <(ls tests/networks/*.toml)
+mapfile -t for_sumo < <(printf '%s\n' "${networks[@]}" | grep -v strange_names)  # it takes its edges' names apart
 every_road=(--scenarios left_turn,left_turn_t,merge,cruise,overtake,cut_in --flavours smarts,social)
 parts=(${parts//,/ })
 
@@ -61,6 +63,8 @@ part sumo 40 $all,sumo_driver --traffic sumo --guard on,off "${every_road[@]}"
 part long 500 s4tp,static_drf,predictive_decision --scenarios left_turn,merge --flavours smarts,social
 part raw 100 s4tp --guard on,off --scenarios left_turn --flavours smarts_raw
 part real 40 $all --perception real "${every_road[@]}"
+part networks 20 s4tp,static_drf,idm_lane --scenarios "$(IFS=,; echo "${networks[*]}")"
+part networks_sumo 20 s4tp,idm_lane,sumo_driver --traffic sumo --guard on,off --scenarios "$(IFS=,; echo "${for_sumo[*]}")"
 
 python3 -B sim_host/campaign/results_page.py "$folder" --out "$folder/docs" \
   --commit "$(git rev-parse --short HEAD 2>/dev/null || echo unknown)"

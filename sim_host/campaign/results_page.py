@@ -16,8 +16,11 @@ PARTS = {
     "long": "More episodes, the built-in traffic",
     "raw": "`smarts_raw`: the left turn entered at 13.89 m/s, as published; the built-in traffic",
     "real": "Perception as it is: noise, 100 ms latency, dropouts, occlusion; the built-in traffic",
+    "networks": "Further networks (`tests/networks`), the built-in traffic",
+    "networks_sumo": "Further networks, SUMO's traffic",
 }
 SIGNIFICANT = 5  # digits
+MOST_COLUMNS = 10  # a wider table is turned on its side
 
 PAGE = """# Results
 
@@ -67,6 +70,8 @@ def distinct(rows, key):
 
 
 def table(head, rows):
+    if len(head) > MOST_COLUMNS:
+        head, *rows = [list(column) for column in zip(head, *rows)]
     lines = [head, ["---"] * len(head), *rows]
     return "".join(f"| {' | '.join(line)} |\n" for line in lines)
 

@@ -30,8 +30,7 @@ class RecordingPlanner : public Planner {
  public:
   [[nodiscard]] Status plan(const PlannerInput& input, Plan& plan, Explanation& explanation) {
     const Status status = Planner::plan(input, plan, explanation);
-    const RefinementProblem* const problem = status == Status::kOk ? last_refinement() : nullptr;
-    if (problem != nullptr) keep(*problem);
+    if (const RefinementProblem* const problem = last_refinement()) keep(*problem);
     return status;
   }
 

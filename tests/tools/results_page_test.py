@@ -52,6 +52,13 @@ class Tables(unittest.TestCase):
         runs = [run("s4tp"), run("s4tp", flavour="social", failed=(7,)), run("s4tp", scenario="cruise")]
         self.assertEqual(results_page.goals(runs).splitlines()[2], "| s4tp | 38 / 39 | 38 / – | 115 of 120 | 5 (3) |")
 
+    # Twelve scenarios of 38 goals: a line each, then the sum, 456 of 480, and 24 collisions, one a scenario ours.
+    def test_many_scenarios_stand_below_each_other(self):
+        lines = results_page.goals([run("s4tp", scenario=f"road {i}") for i in range(12)]).splitlines()
+        self.assertEqual(lines[0], "| planner | s4tp |")
+        self.assertEqual(lines[2:4], ["| road 0 | 38 |", "| road 1 | 38 |"])
+        self.assertEqual(lines[14:], ["| all | 456 of 480 |", "| collisions (ours) | 24 (12) |"])
+
     # s4tp alone fails 1 time, the other alone 9 times; their sum over scenarios comes last; nothing is said of what is open.
     def test_comparison_names_both_counts(self):
         cell = {"scenario": "all scenarios", "flavour": "smarts", "only_first_fails": 1, "only_second_fails": 9,

@@ -104,14 +104,16 @@ TEST(Planner, StopsWithoutAMap) {
 }
 
 // CORE-005: one NaN anywhere in the input, and the plan is the minimum-risk manoeuvre, finite in every
-// number.
+// number; the optimizer was asked nothing.
 TEST(Planner, NeverUsesABrokenInput) {
   Drive drive = on_straight_road(10.0F);
   ASSERT_EQ(drive.step(), Status::kOk);
+  EXPECT_NE(drive.planner->last_refinement(), nullptr);
   drive.input.ego.speed_mps = std::numeric_limits<float>::quiet_NaN();
   Plan plan;
   EXPECT_EQ(drive.planner->plan(drive.input, plan, drive.explanation), Status::kInvalidInput);
   EXPECT_EQ(plan.kind, PlanKind::kMinimumRisk);
+  EXPECT_EQ(drive.planner->last_refinement(), nullptr);
   for (const TrajectoryPoint& point : plan.trajectory.points) {
     EXPECT_TRUE(std::isfinite(point.rear_axle.x_m) && std::isfinite(point.speed_mps) &&
                 std::isfinite(point.curvature_1pm));
