@@ -9,6 +9,7 @@ The seeds of failures are kept of the guarded s4tp only; what is left out of a r
 import argparse
 import json
 import pathlib
+import statistics
 
 PARTS = {
     "builtin": "The built-in traffic",
@@ -127,7 +128,36 @@ def comparisons(against):
                             for scenario in scenarios)] for other, own in against.items() if own])
 
 
-def section(name, document, against):
+def goal_times(lines):
+    """(scenario, flavour, guarded) -> planner -> seed -> seconds, of the episodes that reached the goal; `lines` of a record."""
+    times = {}
+    for episode in map(json.loads, lines):
+        if episode.get("ending") != "goal":  # the head is no episode
+            continue
+        cell = (episode["scenario"], episode["flavour"], episode["guarded"])
+        times.setdefault(cell, {}).setdefault(episode["planner"], {})[episode["seed"]] = episode["duration_s"]
+    return times
+
+
+def medians(times, others):
+    """Of the episodes in which both reached the goal, for `times` of runs that are alike in all else."""
+    scenarios = distinct([{"scenario": cell[0]} for cell in times], "scenario")
+    flavours = distinct([{"flavour": cell[1]} for cell in times], "flavour")
+
+    def words(other, scenario, flavour):
+        ours, theirs = (next((times[cell].get(planner, {}) for cell in times if cell[:2] == (scenario, flavour)), {})
+                        for planner in ("s4tp", other))
+        both = [seed for seed in ours if seed in theirs]
+        if not both:
+            return "–"
+        return f"{statistics.median(ours[seed] for seed in both):.1f} : {statistics.median(theirs[seed] for seed in both):.1f}"
+
+    return table(["s4tp beside", *scenarios],
+                 [[other, *(" / ".join(words(other, scenario, flavour) for flavour in flavours) for scenario in scenarios)]
+                  for other in others])
+
+
+def section(name, document, against, times):
     runs = document["runs"]
     text = f"\n## {PARTS[name]}\n\n{runs[0]['episodes']} episodes a cell; `{name}.json`.\n"
     for guarded in sorted(distinct(runs, "guarded"), reverse=True):
@@ -136,6 +166,9 @@ def section(name, document, against):
         compared = {other: [cell for cell in cells if cell["guarded"] == guarded] for other, cells in against.items()}
         if any(compared.values()):
             text += "\n" + comparisons(compared)
+            text += "\nMedian time to goal in s, s4tp : the other, of the episodes in which both reached it.\n\n"
+            text += medians({cell: each for cell, each in times.items() if cell[2] == guarded},
+                            [other for other, cells in compared.items() if cells])
         if name == "builtin":
             text += "\nAs the competition counts: success in %, time in 0.1 s steps + m, humanness.\n\n" + competition(some)
     return text
@@ -157,7 +190,9 @@ def main():
         against = {planner: json.loads((folder / f"against_{planner}.json").read_text(encoding="utf-8"))
                    for planner in distinct(document["runs"], "planner") if planner != "s4tp"}
         (arguments.out / f"{name}.json").write_text(a_line_a_run(shortened(document)), encoding="utf-8")
-        sections += section(name, document, against)
+        with open(folder / "episodes.jsonl", encoding="utf-8") as record:
+            times = goal_times(record)
+        sections += section(name, document, against, times)
     (arguments.out / "README.md").write_text(PAGE.format(commit=arguments.commit) + sections, encoding="utf-8")
 
 

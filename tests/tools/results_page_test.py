@@ -67,6 +67,18 @@ class Tables(unittest.TestCase):
         self.assertEqual(text.splitlines()[0], "| s4tp beside | merge | all scenarios |")
         self.assertEqual(text.splitlines()[2], "| blind | 1 : 9 | 1 : 9 better |")
 
+    # Both reach the goal with seeds 1 and 2: medians of 10, 12 and of 20, 24 s. s4tp alone does with 3, nobody with 4.
+    def test_times_are_of_the_episodes_both_finish(self):
+        def line(planner, seed, seconds, ending="goal"):
+            return json.dumps({"planner": planner, "scenario": "merge", "flavour": "smarts", "guarded": True, "seed": seed,
+                               "ending": ending, "duration_s": seconds})
+
+        times = results_page.goal_times(['{"kind": "s4tp campaign"}', line("s4tp", 1, 10.0), line("s4tp", 2, 12.0),
+                                         line("s4tp", 3, 90.0), line("s4tp", 4, 80.0, "time-out"), line("blind", 1, 20.0),
+                                         line("blind", 2, 24.0), line("blind", 4, 80.0, "time-out")])
+        self.assertEqual(results_page.medians(times, ["blind", "idle"]).splitlines()[2:],
+                         ["| blind | 11.0 : 22.0 |", "| idle | – |"])
+
 
 if __name__ == "__main__":
     unittest.main()
