@@ -60,7 +60,7 @@ part() {
 number=0
 part builtin 100 $all --guard on,off "${every_road[@]}"
 part sumo 40 $all,sumo_driver --traffic sumo --guard on,off "${every_road[@]}"
-part long 500 s4tp,static_drf,predictive_decision --scenarios left_turn,merge --flavours smarts,social
+part long 500 s4tp,static_drf,predictive_decision,idm_lane --scenarios left_turn,merge --flavours smarts,social
 part raw 100 s4tp --guard on,off --scenarios left_turn --flavours smarts_raw
 part real 40 $all --perception real "${every_road[@]}"
 part networks 20 s4tp,static_drf,idm_lane --scenarios "$(IFS=,; echo "${networks[*]}")"
