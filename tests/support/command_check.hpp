@@ -3,7 +3,6 @@
 /// and must have nothing to change; modes change by the ECU's table only. A command is taken for the ECU's
 /// if its CRC fits, it echoes a tick of late, and it does not stand between two that follow each other.
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <deque>
@@ -97,22 +96,13 @@ class CommandCheck {
     const bool begins = may_command(mode) && !may_command(mode_);
     if (begins || !may_command(mode)) gate_.reset(steering_rad_);
     mode_ = mode;
-    gate::Command allowed;
-    for (int i = 0; i < ticks_since_last(command); ++i) {  // where one was lost, two ticks' change is allowed
-      allowed = {command.acceleration_mps2, command.steering_rad};
-      static_cast<void>(gate_.apply(true, allowed));
-    }
-    echo_ = command.tick;
+    gate::Command allowed{command.acceleration_mps2, command.steering_rad};
+    static_cast<void>(gate_.apply(true, allowed));
     if (std::abs(allowed.acceleration_mps2 - command.acceleration_mps2) > kAccelerationTolerance &&
         may_command(mode))
       find(heard, "acceleration", allowed.acceleration_mps2, command.acceleration_mps2);
     if (std::abs(allowed.steering_rad - command.steering_rad) > kSteeringTolerance && may_command(mode))
       find(heard, "steering", allowed.steering_rad, command.steering_rad);
-  }
-
-  [[nodiscard]] int ticks_since_last(const wire::Command& command) const {
-    const unsigned passed = commands_ <= 1 ? 1U : (static_cast<unsigned>(command.tick) - echo_) & 0xFFFU;
-    return static_cast<int>(std::clamp(passed, 1U, kOldestEcho));
   }
 
   [[nodiscard]] static bool in_table(Mode from, Mode to) {
@@ -141,7 +131,6 @@ class CommandCheck {
   float steering_rad_ = 0.0F;
   Mode mode_ = Mode::kStandby;
   int commands_ = 0;
-  unsigned echo_ = 0;  ///< of the command judged last
   int in_mode_[8] = {};
   std::vector<std::string> findings_;
 };
