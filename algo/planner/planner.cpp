@@ -110,7 +110,7 @@ Status Planner::plan(const PlannerInput& input, Plan& plan, Explanation& explana
     minimum_risk(scene_, start_, running_, start_ms_, parameters_, chosen_);
   } else if (guarded) {
     const StageScope scope(probe, Stage::kCheck);
-    const RssEnvelope envelope = rss_envelope(scene_, parameters_);
+    const RssEnvelope envelope = rss_envelope(scene_, chosen_, parameters_);
     explanation.rss_clipped = clip_to_envelope(envelope, parameters_, chosen_);
     explanation.rss = envelope;
     explanation.rss_track = track_id(envelope.agent);

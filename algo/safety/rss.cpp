@@ -13,6 +13,7 @@ constexpr float kResponseHoldS = 1.0F;  // a plan is clipped this far; the next 
 constexpr float kDelayS = 0.1F;
 constexpr float kTouchM = 0.1F;
 constexpr float kTinyM = 1e-3F;
+constexpr float kEndReachM = 15.0F;  // a plan's end is this near to where its length leads along the path
 
 /// Response that keeps the follower out of reach of a leader braking at b_max.
 ///
@@ -44,6 +45,37 @@ float lateral_way_m(float speed_mps, const Parameters& parameters) {
   return 0.5F * (speed_mps + later_mps) * rss.response_s + braking_m;
 }
 
+/// Whether the plan leaves a leader's strip for good, and before it could reach him.
+bool steers_clear(const Scene& scene, const EgoPath& path, const OnPath& seen, const Trajectory& plan,
+                  const Parameters& parameters) {
+  const auto& rss = parameters.rss;
+  const TrajectoryPoint& end = plan.points[kHorizonSteps];
+  const float way_m = distance(position(end.rear_axle), position(plan.points[0].rear_axle));
+  const Frenet there =
+      project(*scene.map, path.path, position(end.rear_axle), path.frenet.s_m + way_m, kEndReachM);
+  const bool we_left = there.d_m > seen.centre_d_m;
+  const float drift_m = max(0.0F, lateral_way_m(we_left ? seen.left_mps : -seen.left_mps, parameters));
+  const float clear_m =
+      0.5F * parameters.vehicle.width_m + seen.half_width_m + drift_m + rss.lateral_margin_m;
+  if (abs(there.d_m - seen.centre_d_m) < clear_m) return false;
+
+  const float its_d_m = seen.centre_d_m + (we_left ? drift_m : -drift_m);
+  PathCursor cursor(*scene.map, path.path);
+  float its_s_m = seen.centre_s_m;
+  float its_mps = seen.along_mps;
+  for (int i = 1; i < kTrajectoryPoints; ++i) {
+    const float later_mps = max(0.0F, its_mps - rss.braking_max_mps2 * kStepS);
+    its_s_m = its_s_m + 0.5F * (its_mps + later_mps) * kStepS;
+    its_mps = later_mps;
+    const Pose line = cursor.at(its_s_m).pose;
+    const Point centre = offset_point(line, 0.0F, its_d_m);
+    const Box its{
+        {centre.x_m, centre.y_m, line.heading_rad}, 2.0F * seen.half_length_m, 2.0F * seen.half_width_m};
+    if (separation(ego_box(plan.points[i].rear_axle, parameters), its) < rss.lateral_margin_m) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 float safe_distance_m(float rear_speed_mps, float front_speed_mps, const Parameters& parameters) {
@@ -60,7 +92,7 @@ float safe_lateral_m(float speed_a_mps, float speed_b_mps, const Parameters& par
   return parameters.rss.lateral_margin_m + max(0.0F, way_m);
 }
 
-RssEnvelope rss_envelope(const Scene& scene, const Parameters& parameters) {
+RssEnvelope rss_envelope(const Scene& scene, const Trajectory& plan, const Parameters& parameters) {
   RssEnvelope envelope;
   envelope.acceleration_max_mps2 = parameters.vehicle.acceleration_max_mps2;
   envelope.lateral_left_max_mps = kUnrestrictedMps;
@@ -92,6 +124,7 @@ RssEnvelope rss_envelope(const Scene& scene, const Parameters& parameters) {
 
     if (side_gap_m <= 0.0F) {
       if (!ahead) continue;  // who comes from behind is obliged, not we
+      if (steers_clear(scene, path, seen, plan, parameters)) continue;
       const float response = longitudinal_response_mps2(gap_m, speed_mps, seen.along_mps, parameters);
       if (response < envelope.acceleration_max_mps2) {
         envelope.acceleration_max_mps2 = response;

@@ -6,8 +6,9 @@
 ///   rear --v_r-->  [   d_long   ]  front --v_f-->     safe: gap >= d_long(v_r, v_f)
 /// \endcode
 /// Longitudinal: for whoever is ahead of us in our strip of the road, and only there: he who comes from
-/// behind is obliged himself (RSS-003). Junctions: right of way over crossing and oncoming traffic is the
-/// terminal condition's (terminal.hpp), and so is not changing lanes into somebody's safe distance.
+/// behind is obliged himself (RSS-003). Who leaves that strip in time answers by steering (RSS-009).
+/// Junctions: right of way over crossing and oncoming traffic is the terminal condition's (terminal.hpp), and
+/// so is not changing lanes into somebody's safe distance.
 
 #include <cstdint>
 
@@ -38,8 +39,12 @@ struct RssEnvelope {
 /// The proper response to every unsafe pair now. It is as soft as keeps a follower out of reach of a leader
 /// that brakes at b_max at any moment (RSS-004): from 0 at the safe distance to b_min where the response time
 /// is used up; more only when even that is too late. So a cut-in asks for braking, not for a stop (RSS-005).
-/// Beside somebody nearer than the safe lateral distance: no lateral speed towards him (RSS-006).
-[[nodiscard]] RssEnvelope rss_envelope(const Scene& scene, const Parameters& parameters);
+/// Beside somebody nearer than the safe lateral distance: no lateral speed towards him (RSS-006). No braking
+/// for a leader whose strip `plan` leaves for good, and keeps clear of though he brakes at b_max from now on
+/// and comes towards us as definition 6 lets him: laterally it is safe before longitudinally it is not
+/// (RSS-009).
+[[nodiscard]] RssEnvelope rss_envelope(const Scene& scene, const Trajectory& plan,
+                                       const Parameters& parameters);
 
 /// Clips the trajectory's accelerations to the envelope over the first second, and lets it gain no speed
 /// afterwards; the path stays, driven later (RSS-007). An inactive envelope changes nothing (RSS-008). The

@@ -50,7 +50,7 @@ Status Guard::apply(const PlannerInput& input, Status status, Plan& plan, Explan
   explanation.status = status;
   if (status == Status::kOk) {
     explanation.rss_clipped =
-        clip_to_envelope(rss_envelope(scene_, parameters_), parameters_, plan.trajectory);
+        clip_to_envelope(rss_envelope(scene_, plan.trajectory, parameters_), parameters_, plan.trajectory);
     return status;
   }
   plan.kind = PlanKind::kMinimumRisk;

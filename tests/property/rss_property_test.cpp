@@ -40,9 +40,12 @@ TEST(RssProperty, ResponseKeepsClearOfTheWorstLeader) {
       scene.agents.clear();
       add_vehicle(scene, map, scene.ego_paths[0].path, front_s_m, front_mps);
       put_ego(scene, state_on(map, scene.ego_paths[0].path, rear_s_m, rear_mps));
+      Trajectory in_lane;
+      for (TrajectoryPoint& point : in_lane.points)
+        point = state_on(map, scene.ego_paths[0].path, rear_s_m, rear_mps);
       applied_mps2 = asked_mps2;  // what was asked for a step ago takes effect now
-      asked_mps2 =
-          std::min(rss_envelope(scene, parameters).acceleration_max_mps2, parameters.rss.acceleration_mps2);
+      asked_mps2 = std::min(rss_envelope(scene, in_lane, parameters).acceleration_max_mps2,
+                            parameters.rss.acceleration_mps2);
       const float front_next = std::max(0.0F, front_mps + (i < brakes_at ? before_mps2 : -8.0F) * kStepS);
       const float rear_next = std::max(0.0F, rear_mps + applied_mps2 * kStepS);
       front_s_m += 0.5F * (front_mps + front_next) * kStepS;

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "algo/trajectory/bicycle.hpp"
@@ -28,7 +29,21 @@ struct Road {
     const float s_m = gap_m > 0.0F ? 104.0F + gap_m + 2.5F : 99.0F + gap_m - 2.5F;
     return add_vehicle(scene, map, path_of(map, {static_cast<LaneIndex>(lane)}), s_m, speed_mps, d_m);
   }
-  [[nodiscard]] RssEnvelope envelope() const { return rss_envelope(scene, parameters); }
+  /// Ours, at constant speed and straight on, or into the lane on the left within 2.8 s.
+  [[nodiscard]] Trajectory plan(float end_d_m) const {
+    Trajectory trajectory;
+    for (int i = 0; i < kTrajectoryPoints; ++i) {
+      const float time_s = kStepS * static_cast<float>(i);
+      const float u = std::min(time_s / 2.8F, 1.0F);
+      const float d_m = end_d_m * u * u * u * (10.0F - 15.0F * u + 6.0F * u * u);
+      const float s_m = 100.0F + scene.ego.speed_mps * time_s;
+      trajectory.points[i] = state_on(map, scene.ego_paths[0].path, s_m, scene.ego.speed_mps, d_m);
+    }
+    return trajectory;
+  }
+  [[nodiscard]] RssEnvelope envelope(float end_d_m = 0.0F) const {
+    return rss_envelope(scene, plan(end_d_m), parameters);
+  }
 };
 
 // RSS-001 At 13.9 m/s both: 13.9 * 0.5 + 0.5 * 2 * 0.25 + 14.9^2 / 10 - 13.9^2 / 16 = 6.95 + 0.25 + 22.20
@@ -109,6 +124,23 @@ TEST(Rss, CutInAsksForBrakingNotForAStop) {
     trajectory.points[i] = bicycle_step(trajectory.points[i - 1], 0.0F, 0.0F, kStepS);
   EXPECT_TRUE(clip_to_envelope(envelope, road.parameters, trajectory));
   EXPECT_GT(trajectory.points[kHorizonSteps].speed_mps, 10.0F);
+}
+
+// RSS-009 25 m behind one at 5.8 m/s, 27.3 m being safe: he brakes and stands 2.1 m on, where our front is
+// after 1.95 s. By then a plan to the left has moved 2.4 m, and 0.9 + 0.9 + 0.1 m and the 0.18 m he may come
+// over are enough: no braking. Straight on it is due; so it is 15 m behind him, reached after 1.23 s and
+// 1.2 m; and when he comes over with 1 m/s, 1.58 m, of which the plan leaves him 3.2 - 1.9 m.
+TEST(Rss, WhoLeavesTheStripInTimeNeedNotBrake) {
+  Road road(13.9F);
+  Agent& leader = road.vehicle(1, 25.0F, 5.8F);
+  EXPECT_LT(road.envelope().acceleration_max_mps2, 0.0F);
+  EXPECT_FALSE(road.envelope(3.2F).active);
+  leader.track.centre.heading_rad = std::asin(1.0F / 5.8F);
+  EXPECT_LT(road.envelope(3.2F).acceleration_max_mps2, 0.0F);
+
+  Road near(13.9F);
+  near.vehicle(1, 15.0F, 5.8F);
+  EXPECT_LT(near.envelope(3.2F).acceleration_max_mps2, -5.0F);
 }
 
 // RSS-006 Beside us on the left, 1.4 m away (lanes 3.2 m, widths 1.8 m), which is safe while both keep their
