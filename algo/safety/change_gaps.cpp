@@ -8,12 +8,12 @@ namespace s4tp {
 float change_gap_to_leader_m(float own_mps, float leader_mps, const Parameters& parameters) {
   const float own_stop_m = square(own_mps) / (2.0F * parameters.rss.braking_min_mps2);
   const float its_stop_m = square(leader_mps) / (2.0F * parameters.rss.braking_max_mps2);
-  return kChangeLeaderGapM + own_stop_m - its_stop_m;
+  return kChangeStandingGapM + own_stop_m - its_stop_m;
 }
 
 float change_gap_to_follower_m(float own_mps, float follower_mps) {
   const float braking_m = square(max(0.0F, follower_mps - own_mps)) / (2.0F * kFollowerBrakingMps2);
-  return kChangeFollowerGapM + max(kChangeFollowerHeadwayS * follower_mps, braking_m);
+  return kChangeStandingGapM + max(kChangeFollowerHeadwayS * follower_mps, braking_m);
 }
 
 }  // namespace s4tp

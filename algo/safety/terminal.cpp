@@ -21,7 +21,6 @@ constexpr float kMovingMps = 1.0F;         // slower inside a zone is standing i
 constexpr float kCrawlMps = 2.0F;          // way beyond the horizon is driven no slower
 constexpr float kLeaderGapM = 0.3F;        // left when both have stopped
 constexpr float kBrakesMps2 = 0.5F;        // who slows down less than this just keeps his speed as drivers do
-constexpr float kChangeWayM = 15.0F;       // of a slow lane change
 constexpr float kUsualLaneM = 3.2F;
 
 /// A trajectory seen along its path: arc lengths of the rear axle.

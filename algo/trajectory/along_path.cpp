@@ -11,8 +11,6 @@ constexpr float kInOwnLaneM = 0.6F;      // nearer to its own lane's centre it i
 constexpr float kCrossingCos = 0.7071F;  // 45 degrees
 constexpr float kMovingMps = 1.5F;
 constexpr float kFarM = 200.0F;
-constexpr float kChangeRoomM =
-    25.0F;                        // from rest: a car's length and 15 m of way sideways, with some to spare
 constexpr float kAtGoalM = 2.0F;  // a goal at the very end of a road counts as on it
 
 /// Where lane `lane` begins along the path, or false.
@@ -117,7 +115,7 @@ float change_room_m(const Scene& scene, const EgoPath& path) {
   const Lane& last = scene.map->lanes[path.path.lanes[path.path.lanes.size() - 1].lane];
   const int changes = last.changes_needed < 0 ? -last.changes_needed : last.changes_needed;
   // Only the last lane itself can be left sideways: half of it is to be driven on in any case.
-  return min(kChangeRoomM * static_cast<float>(changes), 0.5F * last.length_m);
+  return min(kChangeWayM * static_cast<float>(changes), 0.5F * last.length_m);
 }
 
 float dead_end_s_m(const Scene& scene, const EgoPath& path) {

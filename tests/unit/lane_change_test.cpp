@@ -147,11 +147,11 @@ TEST(LaneChange, WhoJoinsTheLaneBehindUsFollowsThere) {
   }
 }
 
-// TERM-020 At 6 m/s from s = 350 the plan ends at 368 and stops at 374.5: past 371, from where one more
+// TERM-020 At 6 m/s from s = 360 the plan ends at 378 and stops at 384.5: past 381, from where one more
 // change would fit before the road ends. Not to be begun, but to be finished.
 TEST(LaneChange, AChangeUnderWayIsFinishedBeforeTheNext) {
   for (const bool begun : {false, true}) {
-    Change change(2, 350.0F, 6.0F, begun ? 0.6F : 0.0F, begun ? 0.08F : 0.0F);
+    Change change(2, 360.0F, 6.0F, begun ? 0.6F : 0.0F, begun ? 0.08F : 0.0F);
     for (Lane& lane : change.map.lanes) {
       lane.on_route = false;
       lane.changes_needed = 1;

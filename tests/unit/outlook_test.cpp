@@ -101,8 +101,8 @@ TEST(Outlook, DeadlinesComeBeforeTime) {
 
 // Whom we could pass in time, but who leaves no room behind the one we cannot pass, is not passed either: 15
 // m behind that one, at 57 m at the horizon's end, he costs (171.5 + 18.3 - 57) / 9 = 14.8 s: 2.8 s lost. At
-// 25 m there is room: 5 + 5 m of lengths, 1 + 81/10 - 81/16 in front, 2.5 + 0.3 * 9 behind, 0.4 m to spare
-// are 19.6 m.
+// 25 m there is room: 5 + 5 m of lengths, 1 + 81/10 - 81/16 in front, 1 + 0.2 * 9 behind, 0.4 m to spare
+// are 17.2 m.
 TEST(Outlook, NoReturnIntoATightColumn) {
   float delays_s[2] = {};
   const float centres_m[2] = {30.0F, 20.0F};
