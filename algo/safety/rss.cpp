@@ -124,12 +124,11 @@ RssEnvelope rss_envelope(const Scene& scene, const Trajectory& plan, const Param
 
     if (side_gap_m <= 0.0F) {
       if (!ahead) continue;  // who comes from behind is obliged, not we
-      if (steers_clear(scene, path, seen, plan, parameters)) continue;
       const float response = longitudinal_response_mps2(gap_m, speed_mps, seen.along_mps, parameters);
-      if (response < envelope.acceleration_max_mps2) {
-        envelope.acceleration_max_mps2 = response;
-        envelope.agent = static_cast<std::uint8_t>(i);
-      }
+      if (response >= envelope.acceleration_max_mps2) continue;
+      if (steers_clear(scene, path, seen, plan, parameters)) continue;
+      envelope.acceleration_max_mps2 = response;
+      envelope.agent = static_cast<std::uint8_t>(i);
       envelope.active = true;
       continue;
     }
