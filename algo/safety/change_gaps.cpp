@@ -12,8 +12,9 @@ float change_gap_to_leader_m(float own_mps, float leader_mps, const Parameters& 
 }
 
 float change_gap_to_follower_m(float own_mps, float follower_mps) {
-  const float braking_m = square(max(0.0F, follower_mps - own_mps)) / (2.0F * kFollowerBrakingMps2);
-  return kChangeStandingGapM + max(kChangeFollowerHeadwayS * follower_mps, braking_m);
+  const float faster_mps = max(0.0F, follower_mps - own_mps);
+  const float closed_m = kFollowerReactionS * faster_mps + square(faster_mps) / (2.0F * kFollowerBrakingMps2);
+  return kChangeStandingGapM + max(kChangeFollowerHeadwayS * follower_mps, closed_m);
 }
 
 }  // namespace s4tp

@@ -12,7 +12,7 @@ inline constexpr float kChangeFollowerHeadwayS = 0.2F;
 /// there does the proper response (rss.hpp) ask for less. May be negative behind a faster one.
 [[nodiscard]] float change_gap_to_leader_m(float own_mps, float leader_mps, const Parameters& parameters);
 
-/// Least gap [m] to a follower, who need not brake hard then.
+/// Least gap [m] to a follower: a faster one reacts first, and need not brake hard then.
 [[nodiscard]] float change_gap_to_follower_m(float own_mps, float follower_mps);
 
 }  // namespace s4tp

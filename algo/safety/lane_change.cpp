@@ -8,7 +8,6 @@ namespace s4tp {
 namespace {
 
 constexpr float kSwingS = 0.5F;     // sideways motion that goes on before steering back shows
-constexpr float kReactionS = 0.5F;  // of the one behind
 constexpr float kTouchM = 0.5F;     // left between us and him
 constexpr float kBoundForM = 1.5F;  // nearer to a path's centre, a plan's end is in its lane
 
@@ -96,7 +95,7 @@ Neighbours find_neighbours(const Scene& scene, const EgoPath& path, const Parame
 bool can_stay_behind(float gap_m, float speed_mps, const Trajectory& trajectory) {
   for (int i = 1; i < kTrajectoryPoints; ++i) {
     const float own_mps = trajectory.points[i].speed_mps;
-    const bool brakes = static_cast<float>(i) * kStepS > kReactionS && speed_mps > own_mps;
+    const bool brakes = static_cast<float>(i) * kStepS > kFollowerReactionS && speed_mps > own_mps;
     const float later_mps = brakes ? max(own_mps, speed_mps - kFollowerBrakingMps2 * kStepS) : speed_mps;
     gap_m = gap_m + 0.5F * kStepS * (trajectory.points[i - 1].speed_mps + own_mps - speed_mps - later_mps);
     if (gap_m < kTouchM) return false;

@@ -8,8 +8,9 @@
 
 namespace s4tp {
 
-/// A lane change may ask this much braking of the one behind in the lane we come to.
+/// A lane change may ask this much braking of the one behind in the lane we come to, this much later.
 inline constexpr float kFollowerBrakingMps2 = 3.0F;
+inline constexpr float kFollowerReactionS = 0.5F;
 
 /// Whether the path is another lane than the one most of us is in.
 [[nodiscard]] bool changes_lane(const Scene& scene, const EgoPath& path);

@@ -47,8 +47,8 @@ struct TerminalVerdict {
 /// the path, which keeps its speed, or a braking of 0.5 m/s^2 or more, for the horizon and then brakes with
 /// rss b_max (TERM-009); it drives until our plan starts, too (TERM-031). A
 /// lane change keeps a distance to the leader there that asks for less than rss b_min at once, and leaves the
-/// one behind 0.2 s and 1 m, and a braking of 3 m/s^2 at most (TERM-010); drive beyond comfort is not
-/// counted on for it; and it is not begun beside one who comes into the same lane from its other side.
+/// one behind 0.2 s and 1 m, and a braking of 3 m/s^2 at most, 0.5 s later (TERM-010); drive beyond comfort
+/// is not counted on for it; and it is not begun beside one who comes into the same lane from its other side.
 /// Once begun (lane_change.hpp) the leader counts as any other (TERM-030); once under way the one behind
 /// needs room only to stay there, and no room is kept for the next change (TERM-020).
 /// \param path  index of the ego path the trajectory follows

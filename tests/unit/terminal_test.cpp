@@ -152,7 +152,8 @@ TEST(Terminal, StopsBehindTheLeader) {
 }
 
 // TERM-010 Changing at 10 m/s among others as fast: 1 + 0.2 * 10 = 3 m are needed to the one behind, 1 + 100
-// / 10 - 100 / 16 = 4.75 m to the one ahead.
+// / 10 - 100 / 16 = 4.75 m to the one ahead. One behind at 13 m/s comes 9 m nearer within the horizon, and
+// 3 * 0.5 + 9 / 6 m until he is as slow: 1 + 3 m are needed then, 13 m now.
 TEST(Terminal, LaneChangeKeepsItsDistances) {
   for (const float spare_m : {0.3F, -0.3F}) {
     LaneMap map = straight_road(2, 400.0F);
@@ -171,6 +172,9 @@ TEST(Terminal, LaneChangeKeepsItsDistances) {
     EXPECT_EQ(judge_terminal(scene, 1, trajectory, Parameters{}).safe(), spare_m > 0.0F) << spare_m;
     scene.agents.clear();
     add_vehicle(scene, map, scene.ego_paths[1].path, 104.0F + (4.75F + spare_m) + 2.5F, 10.0F);
+    EXPECT_EQ(judge_terminal(scene, 1, trajectory, Parameters{}).safe(), spare_m > 0.0F) << spare_m;
+    scene.agents.clear();
+    add_vehicle(scene, map, scene.ego_paths[1].path, 99.0F - (13.0F + spare_m) - 2.5F, 13.0F);
     EXPECT_EQ(judge_terminal(scene, 1, trajectory, Parameters{}).safe(), spare_m > 0.0F) << spare_m;
   }
 }
