@@ -212,6 +212,7 @@ void cross_section(const DrivableArea& area, const NearStrips& near, const Pose&
     for (int i = 0; i + 1 < lane.point_count; ++i) {
       const Interval covered =
           across_segment(lane.points[i], lane.points[i + 1], 0.5F * lane.width_m, at, left, reach_m);
+      if (covered.left_m <= covered.right_m) continue;  // as most
       if (strip.ours) add(covered, section.ours);
       add(covered, section.drivable);
     }

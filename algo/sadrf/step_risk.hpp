@@ -22,6 +22,7 @@ struct StepInputs {
   const Trajectory& trajectory;
   const Parameters& parameters;
   Precision precision;
+  FieldParams params;            ///< our driver's, but for the look-ahead
   float modulation[kMaxTracks];  ///< g of each agent
 };
 
