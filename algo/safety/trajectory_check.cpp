@@ -59,15 +59,84 @@ bool has(std::uint16_t agents, int index) {
   return (agents >> index & 1U) != 0;
 }
 
+/// Our boxes along a trajectory, made as they are needed, for looks at many futures.
+class OwnBoxes {
+ public:
+  OwnBoxes(const Trajectory& trajectory, const Parameters& parameters)
+      : trajectory_(trajectory), vehicle_(parameters.vehicle), centre_m_(rear_axle_to_centre_m(parameters)) {
+    float longest_m2 = 0.0F;
+    for (int i = 1; i < kTrajectoryPoints; ++i) {
+      const Point moved = rear_axle(i) - rear_axle(i - 1);
+      longest_m2 = max(longest_m2, dot(moved, moved));
+    }
+    longest_step_m_ = sqrt(longest_m2);
+  }
+
+  /// At trajectory point `point`.
+  [[nodiscard]] Point rear_axle(int point) const { return position(trajectory_.points[point].rear_axle); }
+  /// From one point to the next at most.
+  [[nodiscard]] float longest_step_m() const { return longest_step_m_; }
+  /// From rear axle to the other's box centre, and above both half diagonals.
+  [[nodiscard]] float reach_m(const Track& other, float margin_m) const {
+    return abs(centre_m_) + margin_m +
+           0.5F * (vehicle_.length_m + vehicle_.width_m + other.length_m + other.width_m);
+  }
+
+  [[nodiscard]] float separation_from(const Box& other, int point) {
+    if ((known_ >> point & 1U) == 0) {
+      known_ |= 1U << point;
+      ahead_[point] = direction(trajectory_.points[point].rear_axle.heading_rad);
+    }
+    const Point centre = rear_axle(point) + centre_m_ * ahead_[point];
+    const Box own = {{centre.x_m, centre.y_m, 0.0F}, vehicle_.length_m, vehicle_.width_m};
+    return separation(own, ahead_[point], other, direction(other.centre.heading_rad));
+  }
+
+ private:
+  const Trajectory& trajectory_;
+  const decltype(Parameters::vehicle)& vehicle_;
+  float centre_m_;
+  float longest_step_m_;
+  std::uint32_t known_ = 0;  ///< a bit a point
+  Point ahead_[kTrajectoryPoints];
+};
+static_assert(kTrajectoryPoints <= 32);
+
+/// Steps during which two whose distance is `apart_m` more than counts surely stay apart.
+int surely_apart(float apart_m, float closing_m) {
+  constexpr float kRoundingM = 0.01F;
+  return to_int((apart_m - kRoundingM) / max(closing_m, kRoundingM) - 0.5F, 0, kHorizonSteps);
+}
+
+int first_collision(OwnBoxes& own, const Mode& mode, const Track& track, int steps, float margin_m) {
+  const float reach_m = own.reach_m(track, margin_m);
+  const float closing_m = own.longest_step_m() + 0.01F * static_cast<float>(mode.longest_step_cm);
+  float least_m = margin_m;
+  for (int i = 0; i < steps && i < kHorizonSteps; ++i) {
+    const Point apart = own.rear_axle(i + 1) - position(mode.steps[i]);
+    const float apart_m2 = dot(apart, apart);
+    if (apart_m2 > square(reach_m)) {
+      i += surely_apart(sqrt(apart_m2) - reach_m, closing_m);
+      continue;
+    }
+    const float gap_m = own.separation_from({mode.steps[i], track.length_m, track.width_m}, i + 1);
+    if (gap_m >= least_m) continue;
+    if (i > 0) return i;
+    // So near already, and nothing can be done about the first step: it must not get much worse.
+    least_m = gap_m > 0.0F ? kShareKept * gap_m : gap_m - kDeeperM;
+  }
+  return -1;
+}
+
 /// Looks through the futures of the watched vehicles.
-bool clear_of(const Scene& scene, int path, const Trajectory& trajectory, const PredictionSet& prediction,
-              std::uint16_t trusted, const Parameters& parameters, CheckReport& report) {
+bool clear_of(const Scene& scene, int path, const Trajectory& trajectory, OwnBoxes& own,
+              const PredictionSet& prediction, std::uint16_t trusted, const Parameters& parameters,
+              CheckReport& report) {
   for (const AgentPrediction& predicted : prediction.agents) {
     if (has(trusted, predicted.agent)) continue;
     const Agent& agent = scene.agents[predicted.agent];
     for (const Mode& mode : predicted.modes) {
-      const int step = first_collision(trajectory, mode, agent.track, kHorizonSteps,
-                                       parameters.safety.margin_m, parameters);
+      const int step = first_collision(own, mode, agent.track, kHorizonSteps, parameters.safety.margin_m);
       if (step < 0) continue;
       if (!mode.yields && will_yield(scene.ego_paths[path], agent)) continue;
       if (lets_us_in(scene, scene.ego_paths[path], trajectory, agent, parameters)) break;
@@ -79,8 +148,9 @@ bool clear_of(const Scene& scene, int path, const Trajectory& trajectory, const 
   return true;
 }
 
-bool clear_of(const Scene& scene, int path, const Trajectory& trajectory, const KinematicSet& keep_going,
-              std::uint16_t trusted, const Parameters& parameters, CheckReport& report) {
+bool clear_of(const Scene& scene, int path, const Trajectory& trajectory, OwnBoxes& own,
+              const KinematicSet& keep_going, std::uint16_t trusted, const Parameters& parameters,
+              CheckReport& report) {
   const int count =
       keep_going.agents.size() < scene.agents.size() ? keep_going.agents.size() : scene.agents.size();
   for (int i = 0; i < count; ++i) {
@@ -88,8 +158,8 @@ bool clear_of(const Scene& scene, int path, const Trajectory& trajectory, const 
     const bool stays = has(trusted, i) && is_standing(agent);
     if (has(trusted, i) && !stays) continue;
     const int step =
-        first_collision(trajectory, keep_going.agents[i], agent.track,
-                        stays ? kHorizonSteps : kKeepGoingSteps, parameters.safety.margin_m, parameters);
+        first_collision(own, keep_going.agents[i], agent.track, stays ? kHorizonSteps : kKeepGoingSteps,
+                        parameters.safety.margin_m);
     if (step < 0 || will_yield(scene.ego_paths[path], agent) ||
         lets_us_in(scene, scene.ego_paths[path], trajectory, agent, parameters) ||
         follows_us(scene, path, agent, parameters))
@@ -104,23 +174,8 @@ bool clear_of(const Scene& scene, int path, const Trajectory& trajectory, const 
 
 int first_collision(const Trajectory& trajectory, const Mode& mode, const Track& track, int steps,
                     float margin_m, const Parameters& parameters) {
-  // From rear axle to box centre, and above both half diagonals.
-  const float reach_m =
-      abs(rear_axle_to_centre_m(parameters)) + margin_m +
-      0.5F * (parameters.vehicle.length_m + parameters.vehicle.width_m + track.length_m + track.width_m);
-  float least_m = margin_m;
-  for (int i = 0; i < steps && i < kHorizonSteps; ++i) {
-    const Pose& rear_axle = trajectory.points[i + 1].rear_axle;
-    const Point apart = position(rear_axle) - position(mode.steps[i]);
-    if (dot(apart, apart) > square(reach_m)) continue;
-    const Box own = ego_box(rear_axle, parameters);
-    const float gap_m = separation(own, {mode.steps[i], track.length_m, track.width_m});
-    if (gap_m >= least_m) continue;
-    if (i > 0) return i;
-    // So near already, and nothing can be done about the first step: it must not get much worse.
-    least_m = gap_m > 0.0F ? kShareKept * gap_m : gap_m - kDeeperM;
-  }
-  return -1;
+  OwnBoxes own(trajectory, parameters);
+  return first_collision(own, mode, track, steps, margin_m);
 }
 
 CheckReport check_trajectory(const Scene& scene, int ego_path, const Trajectory& trajectory,
@@ -135,11 +190,12 @@ CheckReport check_trajectory(const Scene& scene, int ego_path, const Trajectory&
     report.result = CheckResult::kInfeasible;
     return report;
   }
+  OwnBoxes own(trajectory, parameters);
   const TerminalVerdict verdict = judge_terminal(scene, ego_path, trajectory, parameters);
   if (ego_path < 0 || ego_path >= scene.ego_paths.size() ||  // then nothing is known of the end
-      (clear_of(scene, ego_path, trajectory, keep_going, verdict.trusted, parameters, report) &&
-       clear_of(scene, ego_path, trajectory, unconditioned, verdict.trusted, parameters, report) &&
-       clear_of(scene, ego_path, trajectory, conditioned, verdict.trusted, parameters, report))) {
+      (clear_of(scene, ego_path, trajectory, own, keep_going, verdict.trusted, parameters, report) &&
+       clear_of(scene, ego_path, trajectory, own, unconditioned, verdict.trusted, parameters, report) &&
+       clear_of(scene, ego_path, trajectory, own, conditioned, verdict.trusted, parameters, report))) {
     if (!verdict.safe()) {
       report = {CheckResult::kTerminal, verdict.agent, 0, verdict.cause, verdict.arrives_s, verdict.needed_s};
     }
