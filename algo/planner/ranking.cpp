@@ -31,7 +31,7 @@ class Planner::Ranking final : public CandidateVisitor {
       return;
     }
     CheckReport report;
-    rejection = planner_.judge(candidate.path, planner_.conditioned_, report);
+    rejection = planner_.judge(candidate.path, planner_.conditioned_, true, report);
     if (rejection == Rejection::kNone) {
       score(index, candidate, previous);
     } else {

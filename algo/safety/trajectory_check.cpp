@@ -15,10 +15,12 @@ constexpr float kInLaneM = 1.0F;  // nearer to a path's centre we are in that la
 constexpr float kDeeperM = 0.3F;  // boxes that touch from the start count once this much deeper
 constexpr float kShareKept = 0.5F;  // of a gap that was below the margin from the start
 
+/// 0 times anything else is not a number.
 bool finite(const TrajectoryPoint& point) {
-  return is_finite(point.rear_axle.x_m) && is_finite(point.rear_axle.y_m) &&
-         is_finite(point.rear_axle.heading_rad) && is_finite(point.speed_mps) &&
-         is_finite(point.acceleration_mps2) && is_finite(point.curvature_1pm);
+  const Pose& pose = point.rear_axle;
+  return 0.0F * pose.x_m + 0.0F * pose.y_m + 0.0F * pose.heading_rad + 0.0F * point.speed_mps +
+             0.0F * point.acceleration_mps2 + 0.0F * point.curvature_1pm ==
+         0.0F;
 }
 
 bool finite(const Trajectory& trajectory) {
@@ -182,12 +184,17 @@ CheckReport check_trajectory(const Scene& scene, int ego_path, const Trajectory&
                              const PredictionSet& unconditioned, const PredictionSet& conditioned,
                              const KinematicSet& keep_going, const Parameters& parameters) {
   CheckReport report;
+  report.result = CheckResult::kInfeasible;
+  if (finite(trajectory) && !feasible(trajectory, parameters)) return report;
+  return check_feasible(scene, ego_path, trajectory, unconditioned, conditioned, keep_going, parameters);
+}
+
+CheckReport check_feasible(const Scene& scene, int ego_path, const Trajectory& trajectory,
+                           const PredictionSet& unconditioned, const PredictionSet& conditioned,
+                           const KinematicSet& keep_going, const Parameters& parameters) {
+  CheckReport report;
   if (!finite(trajectory)) {
     report.result = CheckResult::kNotFinite;
-    return report;
-  }
-  if (!feasible(trajectory, parameters)) {
-    report.result = CheckResult::kInfeasible;
     return report;
   }
   OwnBoxes own(trajectory, parameters);
