@@ -69,14 +69,10 @@ GapAim gap_to_aim_at(const Scene& scene, const Outlook& outlook, const Parameter
   return lane < 0 ? GapAim{} : outlook.gap_aim(scene, lane);
 }
 
-CostBreakdown score_motion(const Scene& scene, const Outlook& outlook, int path_index,
+CostBreakdown score_motion(const Scene& scene, const Outlook& outlook, int path_index, float start_s_m,
                            const Trajectory& trajectory, bool other_lane, bool careful,
                            const Parameters& parameters) {
   const EgoPath& path = scene.ego_paths[path_index];
-  const TrajectoryPoint& start = trajectory.points[0];
-  const float start_s_m =
-      project(*scene.map, path.path, position(start.rear_axle), path.frenet.s_m, 15.0F).s_m;
-
   float s_m = start_s_m;
   float speed_sum = 0.0F;
   float jerk_sum = 0.0F;

@@ -159,9 +159,8 @@ bool clear_of(const Scene& scene, int path, const Trajectory& trajectory, OwnBox
     const Agent& agent = scene.agents[i];
     const bool stays = has(trusted, i) && is_standing(agent);
     if (has(trusted, i) && !stays) continue;
-    const int step =
-        first_collision(own, keep_going.agents[i], agent.track, stays ? kHorizonSteps : kKeepGoingSteps,
-                        parameters.safety.margin_m);
+    const int step = first_collision(own, keep_going.agents[i], agent.track,
+                                     stays ? kHorizonSteps : kKeepGoingSteps, parameters.safety.margin_m);
     if (step < 0 || will_yield(scene.ego_paths[path], agent) ||
         lets_us_in(scene, scene.ego_paths[path], trajectory, agent, parameters) ||
         follows_us(scene, path, agent, parameters))
@@ -186,19 +185,22 @@ CheckReport check_trajectory(const Scene& scene, int ego_path, const Trajectory&
   CheckReport report;
   report.result = CheckResult::kInfeasible;
   if (finite(trajectory) && !feasible(trajectory, parameters)) return report;
-  return check_feasible(scene, ego_path, trajectory, unconditioned, conditioned, keep_going, parameters);
+  const PathSight sight = look_along(scene, ego_path, trajectory.points[0], parameters);
+  return check_feasible(scene, ego_path, sight, trajectory, unconditioned, conditioned, keep_going,
+                        parameters);
 }
 
-CheckReport check_feasible(const Scene& scene, int ego_path, const Trajectory& trajectory,
-                           const PredictionSet& unconditioned, const PredictionSet& conditioned,
-                           const KinematicSet& keep_going, const Parameters& parameters) {
+CheckReport check_feasible(const Scene& scene, int ego_path, const PathSight& sight,
+                           const Trajectory& trajectory, const PredictionSet& unconditioned,
+                           const PredictionSet& conditioned, const KinematicSet& keep_going,
+                           const Parameters& parameters) {
   CheckReport report;
   if (!finite(trajectory)) {
     report.result = CheckResult::kNotFinite;
     return report;
   }
   OwnBoxes own(trajectory, parameters);
-  const TerminalVerdict verdict = judge_terminal(scene, ego_path, trajectory, parameters);
+  const TerminalVerdict verdict = judge_terminal(scene, ego_path, sight, trajectory, parameters);
   if (ego_path < 0 || ego_path >= scene.ego_paths.size() ||  // then nothing is known of the end
       (clear_of(scene, ego_path, trajectory, own, keep_going, verdict.trusted, parameters, report) &&
        clear_of(scene, ego_path, trajectory, own, unconditioned, verdict.trusted, parameters, report) &&

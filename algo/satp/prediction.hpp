@@ -13,7 +13,8 @@ namespace s4tp {
 struct Mode {
   float probability = 0.0F;
   bool yields = false;  ///< this future brakes for us
-  std::uint16_t longest_step_cm = 65535;  ///< upper bound of the way from a step to the next; so large: unknown
+  std::uint16_t longest_step_cm =
+      65535;  ///< upper bound of the way from a step to the next; so large: unknown
   Pose steps[kHorizonSteps];
 };
 
