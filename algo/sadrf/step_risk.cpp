@@ -182,6 +182,7 @@ StepInputs step_inputs(const Scene& scene, const Futures& futures, const Traject
 StepRisk risk_at(const StepInputs& inputs, int step, CostBoxes& felt) {
   const Driver driver = driver_at(inputs, step);
   StepRisk risk;
+  for (int i = 0; i < inputs.scene.agents.size(); ++i) risk.share[i] = 0.0F;
   for_felt(inputs, driver.field, step, felt, [&](const CostBox& one, float part, float whole) {
     risk.obstacle += part * whole;
     risk.share[one.agent] += part * whole;

@@ -13,7 +13,8 @@ namespace {
 constexpr int kKeepGoingSteps = 15;  // 1.5 s: longer nobody just keeps going
 constexpr float kInLaneM = 1.0F;  // nearer to a path's centre we are in that lane, and those behind follow us
 constexpr float kDeeperM = 0.3F;  // boxes that touch from the start count once this much deeper
-constexpr float kShareKept = 0.5F;  // of a gap that was below the margin from the start
+constexpr float kRoundingM = 0.01F;  // more than what rounding can change in a distance within reach
+constexpr float kShareKept = 0.5F;   // of a gap that was below the margin from the start
 
 /// 0 times anything else is not a number.
 bool finite(const TrajectoryPoint& point) {
@@ -84,14 +85,23 @@ class OwnBoxes {
            0.5F * (vehicle_.length_m + vehicle_.width_m + other.length_m + other.width_m);
   }
 
-  [[nodiscard]] float separation_from(const Box& other, int point) {
+  /// Separation at trajectory point `point`, or something smaller that is more than `enough_m`.
+  /// \param half_diagonal_m  of the other
+  [[nodiscard]] float separation_from(const Box& other, float half_diagonal_m, float enough_m, int point) {
     if ((known_ >> point & 1U) == 0) {
       known_ |= 1U << point;
       ahead_[point] = direction(trajectory_.points[point].rear_axle.heading_rad);
     }
-    const Point centre = rear_axle(point) + centre_m_ * ahead_[point];
+    const Point ahead = ahead_[point];
+    const Point centre = rear_axle(point) + centre_m_ * ahead;
+    const Point offset = position(other.centre) - centre;
+    // However it is turned, it reaches no further along our axes than its half diagonal.
+    const float along_m = abs(dot(ahead, offset)) - 0.5F * vehicle_.length_m;
+    const float across_m = abs(cross(ahead, offset)) - 0.5F * vehicle_.width_m;
+    const float least_m = max(along_m, across_m) - half_diagonal_m - kRoundingM;
+    if (least_m > enough_m) return least_m;
     const Box own = {{centre.x_m, centre.y_m, 0.0F}, vehicle_.length_m, vehicle_.width_m};
-    return separation(own, ahead_[point], other, direction(other.centre.heading_rad));
+    return separation(own, ahead, other, direction(other.centre.heading_rad));
   }
 
  private:
@@ -106,12 +116,12 @@ static_assert(kTrajectoryPoints <= 32);
 
 /// Steps during which two whose distance is `apart_m` more than counts surely stay apart.
 int surely_apart(float apart_m, float closing_m) {
-  constexpr float kRoundingM = 0.01F;
   return to_int((apart_m - kRoundingM) / max(closing_m, kRoundingM) - 0.5F, 0, kHorizonSteps);
 }
 
 int first_collision(OwnBoxes& own, const Mode& mode, const Track& track, int steps, float margin_m) {
   const float reach_m = own.reach_m(track, margin_m);
+  const float half_diagonal_m = 0.5F * norm({track.length_m, track.width_m});
   const float closing_m = own.longest_step_m() + 0.01F * static_cast<float>(mode.longest_step_cm);
   float least_m = margin_m;
   for (int i = 0; i < steps && i < kHorizonSteps; ++i) {
@@ -121,7 +131,8 @@ int first_collision(OwnBoxes& own, const Mode& mode, const Track& track, int ste
       i += surely_apart(sqrt(apart_m2) - reach_m, closing_m);
       continue;
     }
-    const float gap_m = own.separation_from({mode.steps[i], track.length_m, track.width_m}, i + 1);
+    const Box box = {mode.steps[i], track.length_m, track.width_m};
+    const float gap_m = own.separation_from(box, half_diagonal_m, least_m, i + 1);
     if (gap_m >= least_m) continue;
     if (i > 0) return i;
     // So near already, and nothing can be done about the first step: it must not get much worse.
