@@ -88,8 +88,8 @@ CostBreakdown score_motion(const Scene& scene, const Outlook& outlook, int path_
     const float lateral = point.speed_mps * point.speed_mps * point.curvature_1pm;
     lateral_sum = lateral_sum + lateral * lateral;
     if (i % 5 != 0) continue;  // lane data change slowly: every half second is enough
-    const Frenet frenet = project(*scene.map, path.path, position(point.rear_axle), s_m, 5.0F);
-    const PathPoint centre = path_point(*scene.map, path.path, frenet.s_m);
+    PathPoint centre;
+    const Frenet frenet = project(*scene.map, path.path, position(point.rear_axle), s_m, 5.0F, centre);
     float wanted_mps = centre.speed_limit_mps;
     const float bend = abs(centre.curvature_1pm);
     if (bend * wanted_mps * wanted_mps > parameters.comfort.lateral_mps2) {

@@ -114,21 +114,21 @@ class OwnBoxes {
 };
 static_assert(kTrajectoryPoints <= 32);
 
-/// Steps during which two whose distance is `apart_m` more than counts surely stay apart.
-int surely_apart(float apart_m, float closing_m) {
-  return to_int((apart_m - kRoundingM) / max(closing_m, kRoundingM) - 0.5F, 0, kHorizonSteps);
-}
-
 int first_collision(OwnBoxes& own, const Mode& mode, const Track& track, int steps, float margin_m) {
   const float reach_m = own.reach_m(track, margin_m);
   const float half_diagonal_m = 0.5F * norm({track.length_m, track.width_m});
   const float closing_m = own.longest_step_m() + 0.01F * static_cast<float>(mode.longest_step_cm);
+  constexpr int kFarSteps = 12;
+  constexpr int kNearSteps = 3;
+  const float far_m = reach_m + kRoundingM + static_cast<float>(kFarSteps) * closing_m;
+  const float near_m = reach_m + kRoundingM + static_cast<float>(kNearSteps) * closing_m;
   float least_m = margin_m;
   for (int i = 0; i < steps && i < kHorizonSteps; ++i) {
     const Point apart = own.rear_axle(i + 1) - position(mode.steps[i]);
     const float apart_m2 = dot(apart, apart);
     if (apart_m2 > square(reach_m)) {
-      i += surely_apart(sqrt(apart_m2) - reach_m, closing_m);
+      // So far apart they stay out of reach for some steps to come.
+      i += apart_m2 > square(far_m) ? kFarSteps : (apart_m2 > square(near_m) ? kNearSteps : 0);
       continue;
     }
     const Box box = {mode.steps[i], track.length_m, track.width_m};
