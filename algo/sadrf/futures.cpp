@@ -8,14 +8,15 @@ Futures all_modes(const Scene& scene, const PredictionSet& prediction, const Kin
   Futures futures;
   bool room = true;
   for (int agent = 0; agent < scene.agents.size(); ++agent) {
+    const Track* const track = &scene.agents[agent].track;
     bool predicted = false;
     for (const AgentPrediction& of : prediction.agents) {
       if (of.agent != agent) continue;
       predicted = true;
-      for (const Mode& mode : of.modes) room = room && futures.push({&mode, mode.probability, agent});
+      for (const Mode& mode : of.modes) room = room && futures.push({&mode, mode.probability, agent, track});
     }
     if (predicted || agent >= others.agents.size()) continue;
-    room = room && futures.push({&others.agents[agent], 1.0F, agent});
+    room = room && futures.push({&others.agents[agent], 1.0F, agent, track});
   }
   S4TP_ASSERT(room);
   return futures;

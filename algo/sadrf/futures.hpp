@@ -11,7 +11,8 @@ namespace s4tp {
 struct Future {
   const Mode* mode = nullptr;
   float probability = 0.0F;
-  int agent = 0;  ///< index into Scene::agents
+  int agent = 0;                 ///< index into Scene::agents
+  const Track* track = nullptr;  ///< the agent's
 };
 
 /// In the order of agents, the modes of one side by side.

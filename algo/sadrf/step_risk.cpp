@@ -94,7 +94,7 @@ void for_felt(const StepInputs& inputs, const Field& field, int step, CostBoxes&
   felt.clear();
   float risks[CostBoxes::kCapacity];
   for (const Future& future : inputs.futures) {
-    const Track& track = inputs.scene.agents[future.agent].track;
+    const Track& track = *future.track;
     const Pose& centre = future.mode->steps[step];
     if (out_of_reach(field, position(centre), radius(track.length_m, track.width_m))) continue;
     const Box box = {centre, track.length_m, track.width_m};
@@ -134,17 +134,15 @@ template <typename Each>
 void for_feeling(const StepInputs& inputs, const Driver& driver, int step, const Each& each) {
   const Box& ego = driver.box;
   const float ego_radius_m = radius(ego.length_m, ego.width_m);
-  const float look_ahead_s = driver.params.look_ahead_s;
+  const float look_ahead_per_moved = driver.params.look_ahead_s / kMotionWindowS;
   FieldParams params = driver.params;
   for (const Future& future : inputs.futures) {
-    const Track& track = inputs.scene.agents[future.agent].track;
+    const Track& track = *future.track;
     const Pose& centre = future.mode->steps[step];
     const float margin_m = ego_radius_m + track.length_m + 1.0F;
-    if (unseen(moved_at(*future.mode, step), look_ahead_s / kMotionWindowS,
-               position(ego.centre) - position(centre), margin_m)) {
-      continue;
-    }
-    const Motion motion = motion_at(*future.mode, step);
+    const Point moved = moved_at(*future.mode, step);
+    if (unseen(moved, look_ahead_per_moved, position(ego.centre) - position(centre), margin_m)) continue;
+    const Motion motion = motion_at(*future.mode, step, moved);
     params.base_width_m = 0.25F * track.width_m;
     const Field field = field_of_other(params, centre, motion, track.length_m);
     if (out_of_reach(field, position(ego.centre), ego_radius_m)) continue;
