@@ -127,15 +127,20 @@ void road_risk(const DrivableArea& area, const Trajectory& trajectory, const Par
   NearStrips near;
   near_strips(area, bounds, reach_m, near);
   CrossSection section;
-  for (Station& station : stations) {
+  int last_charged = -1;  // station: who is past it pays nothing
+  for (int j = 0; j < kStations; ++j) {
+    Station& station = stations[j];
     cross_section(area, near, station.pose, reach_m, section);
     if (section.ours.size() == 1 && section.ours[0].left_m - section.ours[0].right_m >= 2.0F * reach_m)
       continue;
     station.narrow_cost = cost_across(section, narrow_m, parameters);
     station.wide_cost = cost_across(section, wide_m, parameters);
+    if (station.narrow_cost != 0.0F || station.wide_cost != 0.0F) last_charged = j;
   }
   for (int point = first; point < kTrajectoryPoints; point += stride) {
-    road[point - 1] = along(stations, point, look_ahead_m(point), furthest_m, parameters.risk.steepness);
+    const bool past = point / kSpacing > last_charged;
+    road[point - 1] =
+        past ? 0.0F : along(stations, point, look_ahead_m(point), furthest_m, parameters.risk.steepness);
   }
 }
 

@@ -90,9 +90,9 @@ class OwnBoxes {
   [[nodiscard]] float separation_from(const Box& other, float half_diagonal_m, float enough_m, int point) {
     if ((known_ >> point & 1U) == 0) {
       known_ |= 1U << point;
-      ahead_[point] = direction(trajectory_.points[point].rear_axle.heading_rad);
+      turned_[point] = sin_cos(trajectory_.points[point].rear_axle.heading_rad);
     }
-    const Point ahead = ahead_[point];
+    const Point ahead = {turned_[point].cos, turned_[point].sin};
     const Point centre = rear_axle(point) + centre_m_ * ahead;
     const Point offset = position(other.centre) - centre;
     // However it is turned, it reaches no further along our axes than its half diagonal.
@@ -110,7 +110,7 @@ class OwnBoxes {
   float centre_m_;
   float longest_step_m_;
   std::uint32_t known_ = 0;  ///< a bit a point
-  Point ahead_[kTrajectoryPoints];
+  SinCos turned_[kTrajectoryPoints];
 };
 static_assert(kTrajectoryPoints <= 32);
 
