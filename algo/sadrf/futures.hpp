@@ -22,7 +22,7 @@ using Futures = BoundedVector<Future, kMaxAgents * kMaxModes + kMaxTracks>;
 [[nodiscard]] Futures all_modes(const Scene& scene, const PredictionSet& prediction,
                                 const KinematicSet& others);
 
-/// The likeliest mode of each vehicle, as if it were certain.
-[[nodiscard]] Futures likeliest(const Futures& modes);
+/// Keeps the likeliest mode of each vehicle, as if it were certain.
+void keep_likeliest(Futures& futures);
 
 }  // namespace s4tp
