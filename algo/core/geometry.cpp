@@ -31,9 +31,11 @@ bool overlap(const Box& a, const Box& b, float margin_m) {
 }
 
 float separation(const Box& a, const Box& b) {
+  return separation(a, direction(a.centre.heading_rad), b, direction(b.centre.heading_rad));
+}
+
+float separation(const Box& a, Point axis_a, const Box& b, Point axis_b) {
   const Point offset = position(b.centre) - position(a.centre);
-  const Point axis_a = direction(a.centre.heading_rad);
-  const Point axis_b = direction(b.centre.heading_rad);
   // |cos| and |sin| of the angle between the boxes turn the extents of one into the frame of the other.
   const float along = abs(dot(axis_a, axis_b));
   const float across = abs(cross(axis_a, axis_b));

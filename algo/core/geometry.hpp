@@ -42,5 +42,7 @@ struct Box {
 [[nodiscard]] bool overlap(const Box& a, const Box& b, float margin_m);
 /// Lower bound of the distance between two boxes, by their separating axes [m]; <= 0 when they overlap.
 [[nodiscard]] float separation(const Box& a, const Box& b);
+/// The same, for who knows the unit vectors of their headings already.
+[[nodiscard]] float separation(const Box& a, Point axis_a, const Box& b, Point axis_b);
 
 }  // namespace s4tp

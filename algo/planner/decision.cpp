@@ -1,5 +1,7 @@
 #include "algo/planner/decision.hpp"
 
+#include "algo/core/inline.hpp"
+
 namespace s4tp {
 namespace {
 
@@ -22,11 +24,12 @@ DecisionKey decision_key(const Scene& scene, int path_index, const Trajectory& t
   for (int i = 0; i < path.zones.size(); ++i) {
     if (reached_m > path.zones[i].entry_s_m) key |= DecisionKey{1} << (kZoneBit + i);
   }
+  const Point ahead = direction(end.heading_rad);
   for (int i = 0; i < unconditioned.agents.size(); ++i) {
     const AgentPrediction& agent = unconditioned.agents[i];
     if (agent.modes.empty()) continue;
     const Point there = position(agent.modes[0].steps[kHorizonSteps - 1]);
-    if (to_local(end, there).x_m < 0.0F) key |= DecisionKey{1} << (kVehicleBit + i);
+    if (dot(ahead, there - position(end)) < 0.0F) key |= DecisionKey{1} << (kVehicleBit + i);
   }
   return key;
 }

@@ -163,9 +163,11 @@ std::uint8_t Planner::track_id(int agent) const {
   return agent >= 0 && agent < scene_.agents.size() ? scene_.agents[agent].track.id : kNobody;
 }
 
-Rejection Planner::judge(int path, const PredictionSet& conditioned, CheckReport& report) const {
-  if (!guarded) return feasible(chosen_, parameters_) ? Rejection::kNone : Rejection::kInfeasible;
-  report = check_trajectory(scene_, path, chosen_, unconditioned_, conditioned, keep_going_, parameters_);
+Rejection Planner::judge(int path, const PathSight& sight, const PredictionSet& conditioned,
+                         CheckReport& report) const {
+  if (!guarded) return Rejection::kNone;
+  report =
+      check_feasible(scene_, path, sight, chosen_, unconditioned_, conditioned, keep_going_, parameters_);
   switch (report.result) {
     case CheckResult::kPassed:
       return Rejection::kNone;
@@ -246,7 +248,8 @@ bool Planner::evaluate(int index, Explanation& explanation) {
   {
     const StageScope scope(probe, Stage::kCheck);
     CheckReport report;
-    explanation.rejections[index] = judge(candidate.path, conditioned_, report);
+    const PathSight sight = look_along(scene_, candidate.path, start_, parameters_);
+    explanation.rejections[index] = judge(candidate.path, sight, conditioned_, report);
     count(explanation, Stage::kCheck, 1);
     if (explanation.rejections[index] != Rejection::kNone) return false;
   }

@@ -80,7 +80,9 @@ class Planner {
   [[nodiscard]] int shortlisted() const;  ///< decisions that get a prediction of their own
   [[nodiscard]] std::uint8_t track_id(int agent) const;
   void explain_risk(Status status, Explanation& explanation);
-  [[nodiscard]] Rejection judge(int path, const PredictionSet& conditioned, CheckReport& report) const;
+  /// \pre chosen_ is feasible
+  [[nodiscard]] Rejection judge(int path, const PathSight& sight, const PredictionSet& conditioned,
+                                CheckReport& report) const;
   /// What stands for the check in an unguarded planner's score; 0 in a guarded one's.
   [[nodiscard]] float crash_cost(const PredictionSet& prediction) const;
   void refine(const Candidate& candidate, Explanation& explanation);

@@ -31,7 +31,8 @@ class Planner::Ranking final : public CandidateVisitor {
       return;
     }
     CheckReport report;
-    rejection = planner_.judge(candidate.path, planner_.conditioned_, report);
+    const PathSight& sight = sight_along(candidate.path);
+    rejection = planner_.judge(candidate.path, sight, planner_.conditioned_, report);
     if (rejection == Rejection::kNone) {
       score(index, candidate, previous);
     } else {
@@ -40,13 +41,22 @@ class Planner::Ranking final : public CandidateVisitor {
   }
 
  private:
+  const PathSight& sight_along(int path) {
+    if (!seen_[path]) {
+      sights_[path] = look_along(planner_.scene_, path, planner_.start_, planner_.parameters_);
+    }
+    seen_[path] = true;
+    return sights_[path];
+  }
+
   void score(int index, const Candidate& candidate, bool previous) {
     const Scene& scene = planner_.scene_;
     const Parameters& parameters = planner_.parameters_;
     DecisionList& decisions = planner_.decisions_;
     CostBreakdown& cost = planner_.costs_[index];
     const bool other_lane = candidate.path != plan_path_;
-    cost = score_motion(scene, outlook_, candidate.path, rolled_out, other_lane, careful_, parameters);
+    cost = score_motion(scene, outlook_, candidate.path, sight_along(candidate.path).start_s_m, rolled_out,
+                        other_lane, careful_, parameters);
     count(explanation_, Stage::kRank, 1);
     const DecisionKey key = decision_key(scene, candidate.path, rolled_out, planner_.unconditioned_);
     if (previous) {
@@ -78,6 +88,8 @@ class Planner::Ranking final : public CandidateVisitor {
   const bool careful_;
   Explanation& explanation_;
   Outlook outlook_;
+  PathSight sights_[decltype(Scene::ego_paths)::kCapacity];  ///< made when a path is first looked along
+  bool seen_[decltype(Scene::ego_paths)::kCapacity] = {};
   int plan_path_ = 0;  ///< where the running plan leads, as far as it can go on; our own lane's path else
 };
 

@@ -69,14 +69,10 @@ GapAim gap_to_aim_at(const Scene& scene, const Outlook& outlook, const Parameter
   return lane < 0 ? GapAim{} : outlook.gap_aim(scene, lane);
 }
 
-CostBreakdown score_motion(const Scene& scene, const Outlook& outlook, int path_index,
+CostBreakdown score_motion(const Scene& scene, const Outlook& outlook, int path_index, float start_s_m,
                            const Trajectory& trajectory, bool other_lane, bool careful,
                            const Parameters& parameters) {
   const EgoPath& path = scene.ego_paths[path_index];
-  const TrajectoryPoint& start = trajectory.points[0];
-  const float start_s_m =
-      project(*scene.map, path.path, position(start.rear_axle), path.frenet.s_m, 15.0F).s_m;
-
   float s_m = start_s_m;
   float speed_sum = 0.0F;
   float jerk_sum = 0.0F;
@@ -92,8 +88,8 @@ CostBreakdown score_motion(const Scene& scene, const Outlook& outlook, int path_
     const float lateral = point.speed_mps * point.speed_mps * point.curvature_1pm;
     lateral_sum = lateral_sum + lateral * lateral;
     if (i % 5 != 0) continue;  // lane data change slowly: every half second is enough
-    const Frenet frenet = project(*scene.map, path.path, position(point.rear_axle), s_m, 5.0F);
-    const PathPoint centre = path_point(*scene.map, path.path, frenet.s_m);
+    PathPoint centre;
+    const Frenet frenet = project(*scene.map, path.path, position(point.rear_axle), s_m, 5.0F, centre);
     float wanted_mps = centre.speed_limit_mps;
     const float bend = abs(centre.curvature_1pm);
     if (bend * wanted_mps * wanted_mps > parameters.comfort.lateral_mps2) {

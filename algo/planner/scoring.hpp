@@ -14,10 +14,11 @@ namespace s4tp {
 
 /// All terms but risk. From the lane we are in, one we had rather be in also asks how soon the end leads into
 /// a gap there: a driver who has to merge looks for his gap before he signals. \param path  index of the ego
-/// path the trajectory follows \param other_lane  than the running plan's: starting a lane change has its
-/// price, and so has dropping one \param careful  degraded driving: the speed wanted is lower
+/// path the trajectory follows \param start_s_m  of its start, along it \param other_lane  than the running
+/// plan's: starting a lane change has its price, and so has dropping one \param careful  degraded driving:
+/// the speed wanted is lower
 [[nodiscard]] CostBreakdown score_motion(const Scene& scene, const Outlook& outlook, int path,
-                                         const Trajectory& trajectory, bool other_lane, bool careful,
-                                         const Parameters& parameters);
+                                         float start_s_m, const Trajectory& trajectory, bool other_lane,
+                                         bool careful, const Parameters& parameters);
 
 }  // namespace s4tp

@@ -19,15 +19,9 @@ float sigma_at(const Field& field, float s_m, float e_m) {
   return (e_m > 0.0F ? field.widening_left : field.widening_right) * s_m + field.base_width_m;
 }
 
-/// Integral of exp(-e^2 / (2 sigma^2)) over e between the ends of the line, sigma taken at s_m.
-float across(const Field& field, float s_m, float e_right_m, float e_left_m) {
-  return gauss_integral(e_left_m, sigma_at(field, s_m, e_left_m)) -
-         gauss_integral(e_right_m, sigma_at(field, s_m, e_right_m));
-}
-
 /// Integral of e exp(-e^2 / (2 sigma^2)) from 0 to e; positive on both sides.
-float first_moment(const Field& field, float s_m, float e_m) {
-  const float variance = square(sigma_at(field, s_m, e_m));
+float first_moment(float e_m, float sigma_m) {
+  const float variance = square(sigma_m);
   return variance * (1.0F - exp(-0.5F * square(e_m) / variance));
 }
 
@@ -49,14 +43,19 @@ float over_line(const Field& field, const Line& line) {
   s_m = clamp(s_m, 0.0F, field.look_ahead_m);
   const float e_right_m = line.e_m + line.de * right_m;
   const float e_left_m = line.e_m + line.de * left_m;
-  float integral = across(field, s_m, e_right_m, e_left_m);
+  // Integral of exp(-e^2 / (2 sigma^2)) over e between the ends of the line, sigma taken at s_m.
+  float right_sigma_m = sigma_at(field, s_m, e_right_m);
+  float left_sigma_m = sigma_at(field, s_m, e_left_m);
+  float integral = gauss_integral(e_left_m, left_sigma_m) - gauss_integral(e_right_m, right_sigma_m);
   if (integral <= 1e-9F) return 0.0F;
   if (skewed) {
     // The mass of the line lies about its centroid: a(s) and sigma(s) are right there to first order.
-    const float moment = first_moment(field, s_m, e_left_m) - first_moment(field, s_m, e_right_m);
+    const float moment = first_moment(e_left_m, left_sigma_m) - first_moment(e_right_m, right_sigma_m);
     const float t = clamp((moment / integral - line.e_m) / line.de, right_m, left_m);
     s_m = clamp(line.s_m + line.ds * t, 0.0F, field.look_ahead_m);
-    integral = across(field, s_m, e_right_m, e_left_m);
+    right_sigma_m = sigma_at(field, s_m, e_right_m);
+    left_sigma_m = sigma_at(field, s_m, e_left_m);
+    integral = gauss_integral(e_left_m, left_sigma_m) - gauss_integral(e_right_m, right_sigma_m);
   }
   return field.steepness * square(field.look_ahead_m - s_m) * integral / line.de;
 }
@@ -78,6 +77,10 @@ bool out_of_reach(const Field& field, Point box_centre, float box_radius_m) {
 }
 
 float field_over_box(const Field& field, const Box& box) {
+  return field_over_box(field, box, direction(box.centre.heading_rad));
+}
+
+float field_over_box(const Field& field, const Box& box, Point axis) {
   const Point offset = position(box.centre) - field.origin;
   const PathCoordinates at =
       path_coordinates(field.curvature_1pm, dot(field.ahead, offset), cross(field.ahead, offset));
@@ -87,7 +90,6 @@ float field_over_box(const Field& field, const Box& box) {
   if (abs(at.e_m) > kFieldReach * widest_m + radius_m) return 0.0F;
 
   // The box's heading relative to the path; the steps go along its side that is more along the path.
-  const Point axis = direction(box.centre.heading_rad);
   const float axis_x = dot(field.ahead, axis);
   const float axis_y = cross(field.ahead, axis);
   float along = axis_x * at.tangent_x + axis_y * at.tangent_y;

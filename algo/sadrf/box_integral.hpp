@@ -24,6 +24,8 @@ namespace s4tp {
 ///
 /// \return >= 0; 0 beyond kFieldReach sigma
 [[nodiscard]] float field_over_box(const Field& field, const Box& box);
+/// The same, for who knows the box's heading as a unit vector already.
+[[nodiscard]] float field_over_box(const Field& field, const Box& box, Point axis);
 
 /// erf(e / (sqrt(2) sigma)) sigma sqrt(pi / 2): the integral of exp(-e^2 / (2 sigma^2)) from 0 to e.
 [[nodiscard]] float gauss_integral(float e_m, float sigma_m);

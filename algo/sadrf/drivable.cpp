@@ -191,6 +191,7 @@ void cross_section(const DrivableArea& area, const NearStrips& near, const Pose&
                    CrossSection& section) {
   section.ours.clear();
   section.drivable.clear();
+  section.opposite = false;
   const Point at = position(station);
   const Point ahead = direction(station.heading_rad);
   const Point left = {-ahead.y_m, ahead.x_m};
@@ -212,7 +213,12 @@ void cross_section(const DrivableArea& area, const NearStrips& near, const Pose&
     for (int i = 0; i + 1 < lane.point_count; ++i) {
       const Interval covered =
           across_segment(lane.points[i], lane.points[i + 1], 0.5F * lane.width_m, at, left, reach_m);
-      if (strip.ours) add(covered, section.ours);
+      if (covered.left_m <= covered.right_m) continue;  // as most
+      if (strip.ours) {
+        add(covered, section.ours);
+      } else {
+        section.opposite = true;
+      }
       add(covered, section.drivable);
     }
   }

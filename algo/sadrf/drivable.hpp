@@ -39,7 +39,8 @@ using Intervals = BoundedVector<Interval, kMaxIntervals>;
 /// The road across the path at one point: disjoint intervals.
 struct CrossSection {
   Intervals ours;
-  Intervals drivable;  ///< ours and opposite lanes together
+  Intervals drivable;     ///< ours and opposite lanes together
+  bool opposite = false;  ///< whether that is any different
 };
 
 /// What is worth computing of a LaneMap once per cycle.

@@ -8,31 +8,31 @@ Futures all_modes(const Scene& scene, const PredictionSet& prediction, const Kin
   Futures futures;
   bool room = true;
   for (int agent = 0; agent < scene.agents.size(); ++agent) {
+    const Track* const track = &scene.agents[agent].track;
     bool predicted = false;
     for (const AgentPrediction& of : prediction.agents) {
       if (of.agent != agent) continue;
       predicted = true;
-      for (const Mode& mode : of.modes) room = room && futures.push({&mode, mode.probability, agent});
+      for (const Mode& mode : of.modes) room = room && futures.push({&mode, mode.probability, agent, track});
     }
     if (predicted || agent >= others.agents.size()) continue;
-    room = room && futures.push({&others.agents[agent], 1.0F, agent});
+    room = room && futures.push({&others.agents[agent], 1.0F, agent, track});
   }
   S4TP_ASSERT(room);
   return futures;
 }
 
-Futures likeliest(const Futures& modes) {
-  Futures futures;
-  for (const Future& future : modes) {
-    const int last = futures.size() - 1;
-    if (last < 0 || futures[last].agent != future.agent) {
-      if (!futures.push(future)) break;
-    } else if (future.probability > futures[last].probability) {
-      futures[last] = future;
+void keep_likeliest(Futures& futures) {
+  int kept = 0;
+  for (const Future& future : futures) {
+    if (kept == 0 || futures[kept - 1].agent != future.agent) {
+      futures[kept++] = future;
+    } else if (future.probability > futures[kept - 1].probability) {
+      futures[kept - 1] = future;
     }
   }
+  futures.truncate(kept);
   for (Future& future : futures) future.probability = 1.0F;
-  return futures;
 }
 
 }  // namespace s4tp

@@ -11,7 +11,8 @@ namespace s4tp {
 struct Future {
   const Mode* mode = nullptr;
   float probability = 0.0F;
-  int agent = 0;  ///< index into Scene::agents
+  int agent = 0;                 ///< index into Scene::agents
+  const Track* track = nullptr;  ///< the agent's
 };
 
 /// In the order of agents, the modes of one side by side.
@@ -21,7 +22,7 @@ using Futures = BoundedVector<Future, kMaxAgents * kMaxModes + kMaxTracks>;
 [[nodiscard]] Futures all_modes(const Scene& scene, const PredictionSet& prediction,
                                 const KinematicSet& others);
 
-/// The likeliest mode of each vehicle, as if it were certain.
-[[nodiscard]] Futures likeliest(const Futures& modes);
+/// Keeps the likeliest mode of each vehicle, as if it were certain.
+void keep_likeliest(Futures& futures);
 
 }  // namespace s4tp

@@ -20,12 +20,16 @@ Point moved_at(const Mode& mode, int step) {
 }
 
 Motion motion_at(const Mode& mode, int step) {
+  return motion_at(mode, step, moved_at(mode, step));
+}
+
+Motion motion_at(const Mode& mode, int step, Point moved) {
   constexpr float kShortestM = 0.5F;
   constexpr float kSharpest_1pm = 0.2F;
   const int first = first_of_window(step);
   const float turned_rad =
       wrap_angle(mode.steps[first + kWindow].heading_rad - mode.steps[first].heading_rad);
-  const float moved_m = norm(moved_at(mode, step));
+  const float moved_m = norm(moved);
   return {moved_m / kMotionWindowS,
           clamp(turned_rad / max(moved_m, kShortestM), -kSharpest_1pm, kSharpest_1pm)};
 }

@@ -18,6 +18,8 @@ struct Motion {
 [[nodiscard]] Point moved_at(const Mode& mode, int step);
 
 [[nodiscard]] Motion motion_at(const Mode& mode, int step);
+/// \param moved  moved_at() of the same
+[[nodiscard]] Motion motion_at(const Mode& mode, int step, Point moved);
 
 /// The field of the driver of a vehicle of `length_m`: wheelbase 0.6 x length, rear axle 0.3 x length behind
 /// the box centre (METHOD section 3).

@@ -68,7 +68,8 @@ float rank_risk(const Scene& scene, const DrivableArea& area, const PredictionSe
                 const KinematicSet& others, const Trajectory& trajectory, const Parameters& parameters) {
   constexpr int kStride = 3;
   constexpr int kMiddle = 1;  // of three steps: their sum is three times it to first order
-  const Futures futures = likeliest(all_modes(scene, prediction, others));
+  Futures futures = all_modes(scene, prediction, others);
+  keep_likeliest(futures);
   float road[kHorizonSteps] = {};
   road_risk(area, trajectory, parameters, kMiddle + 1, kStride, road);
   const StepInputs inputs = step_inputs(scene, futures, trajectory, parameters, Precision::kLines);

@@ -34,7 +34,7 @@ float covered(const Intervals& intervals, float sigma_m) {
 float cost_across(const CrossSection& section, float sigma_m, const Parameters& parameters) {
   constexpr float kWhole = 2.50662827F;  // sqrt(2 pi)
   const float ours = covered(section.ours, sigma_m);
-  const float drivable = covered(section.drivable, sigma_m);
+  const float drivable = section.opposite ? covered(section.drivable, sigma_m) : ours;
   return parameters.risk.cost_off_road * max(kWhole * sigma_m - drivable, 0.0F) +
          parameters.risk.cost_opposite * max(drivable - ours, 0.0F);
 }
@@ -126,16 +126,21 @@ void road_risk(const DrivableArea& area, const Trajectory& trajectory, const Par
   for (const Station& station : stations) include(bounds, position(station.pose));
   NearStrips near;
   near_strips(area, bounds, reach_m, near);
-  for (Station& station : stations) {
-    CrossSection section;
+  CrossSection section;
+  int last_charged = -1;  // station: who is past it pays nothing
+  for (int j = 0; j < kStations; ++j) {
+    Station& station = stations[j];
     cross_section(area, near, station.pose, reach_m, section);
     if (section.ours.size() == 1 && section.ours[0].left_m - section.ours[0].right_m >= 2.0F * reach_m)
       continue;
     station.narrow_cost = cost_across(section, narrow_m, parameters);
     station.wide_cost = cost_across(section, wide_m, parameters);
+    if (station.narrow_cost != 0.0F || station.wide_cost != 0.0F) last_charged = j;
   }
   for (int point = first; point < kTrajectoryPoints; point += stride) {
-    road[point - 1] = along(stations, point, look_ahead_m(point), furthest_m, parameters.risk.steepness);
+    const bool past = point / kSpacing > last_charged;
+    road[point - 1] =
+        past ? 0.0F : along(stations, point, look_ahead_m(point), furthest_m, parameters.risk.steepness);
   }
 }
 

@@ -15,8 +15,9 @@ float radius(float length_m, float width_m) {
   return 0.5F * (length_m + width_m);
 }
 
-float risk_of_box(const Field& field, const Box& box, float cost, Precision precision) {
-  const float risk = cost * field_over_box(field, box);
+/// \param ahead  unit vector of the box's heading
+float risk_of_box(const Field& field, const Box& box, Point ahead, float cost, Precision precision) {
+  const float risk = cost * field_over_box(field, box, ahead);
   if (precision == Precision::kLines || risk < kWorthSlices) return risk;
   return cost * field_over_slices(field, box);
 }
@@ -24,7 +25,7 @@ float risk_of_box(const Field& field, const Box& box, float cost, Precision prec
 /// Our driver at step `step` + 1.
 struct Driver {
   FieldParams params;
-  Field field;
+  Field field;  ///< field.ahead is the heading of the box, too
   float steering_rad;
   Box box;
 };
@@ -33,7 +34,7 @@ Driver driver_at(const StepInputs& inputs, int step) {
   const auto& vehicle = inputs.parameters.vehicle;
   const TrajectoryPoint& point = inputs.trajectory.points[step + 1];
   Driver driver;
-  driver.params = field_params(inputs.parameters, vehicle.width_m);
+  driver.params = inputs.params;
   driver.params.look_ahead_s =
       look_ahead_at(inputs.parameters.risk.look_ahead_s, inputs.parameters.risk.look_ahead_shrinks > 0.5F,
                     static_cast<float>(step + 1) * kStepS);
@@ -93,16 +94,17 @@ void for_felt(const StepInputs& inputs, const Field& field, int step, CostBoxes&
   felt.clear();
   float risks[CostBoxes::kCapacity];
   for (const Future& future : inputs.futures) {
-    const Track& track = inputs.scene.agents[future.agent].track;
+    const Track& track = *future.track;
     const Pose& centre = future.mode->steps[step];
     if (out_of_reach(field, position(centre), radius(track.length_m, track.width_m))) continue;
     const Box box = {centre, track.length_m, track.width_m};
+    const Point ahead = direction(centre.heading_rad);
     const float cost =
         inputs.parameters.risk.cost_obstacle * future.probability * inputs.modulation[future.agent];
-    const float risk = risk_of_box(field, box, cost, inputs.precision);
+    const float risk = risk_of_box(field, box, ahead, cost, inputs.precision);
     if (risk <= 0.0F) continue;
     risks[felt.size()] = risk;
-    if (!felt.push({box, direction(centre.heading_rad), cost, future.agent})) break;
+    if (!felt.push({box, ahead, cost, future.agent})) break;
   }
   for (int i = 0; i < felt.size(); ++i) each(felt[i], own_part(field, felt, i), risks[i]);
 }
@@ -129,19 +131,18 @@ bool unseen(Point moved, float look_ahead_per_moved, Point towards_us, float mar
 
 /// R_soc: their fields over our box. Calls each(future, their field, how it was made, cost).
 template <typename Each>
-void for_feeling(const StepInputs& inputs, const Box& ego, float look_ahead_s, int step, const Each& each) {
+void for_feeling(const StepInputs& inputs, const Driver& driver, int step, const Each& each) {
+  const Box& ego = driver.box;
   const float ego_radius_m = radius(ego.length_m, ego.width_m);
-  FieldParams params = field_params(inputs.parameters, ego.width_m);
-  params.look_ahead_s = look_ahead_s;
+  const float look_ahead_per_moved = driver.params.look_ahead_s / kMotionWindowS;
+  FieldParams params = driver.params;
   for (const Future& future : inputs.futures) {
-    const Track& track = inputs.scene.agents[future.agent].track;
+    const Track& track = *future.track;
     const Pose& centre = future.mode->steps[step];
     const float margin_m = ego_radius_m + track.length_m + 1.0F;
-    if (unseen(moved_at(*future.mode, step), look_ahead_s / kMotionWindowS,
-               position(ego.centre) - position(centre), margin_m)) {
-      continue;
-    }
-    const Motion motion = motion_at(*future.mode, step);
+    const Point moved = moved_at(*future.mode, step);
+    if (unseen(moved, look_ahead_per_moved, position(ego.centre) - position(centre), margin_m)) continue;
+    const Motion motion = motion_at(*future.mode, step, moved);
     params.base_width_m = 0.25F * track.width_m;
     const Field field = field_of_other(params, centre, motion, track.length_m);
     if (out_of_reach(field, position(ego.centre), ego_radius_m)) continue;
@@ -168,7 +169,8 @@ FieldGradient by_the_box(const FieldGradient& by_field, Point field_origin, Poin
 
 StepInputs step_inputs(const Scene& scene, const Futures& futures, const Trajectory& trajectory,
                        const Parameters& parameters, Precision precision) {
-  StepInputs inputs = {scene, futures, trajectory, parameters, precision, {}};
+  const FieldParams params = field_params(parameters, parameters.vehicle.width_m);
+  StepInputs inputs = {scene, futures, trajectory, parameters, precision, params, {}};
   for (int i = 0; i < scene.agents.size(); ++i) {
     inputs.modulation[i] = modulation(scene.ego, scene.agents[i].track, parameters);
   }
@@ -178,16 +180,16 @@ StepInputs step_inputs(const Scene& scene, const Futures& futures, const Traject
 StepRisk risk_at(const StepInputs& inputs, int step, CostBoxes& felt) {
   const Driver driver = driver_at(inputs, step);
   StepRisk risk;
+  for (int i = 0; i < inputs.scene.agents.size(); ++i) risk.share[i] = 0.0F;
   for_felt(inputs, driver.field, step, felt, [&](const CostBox& one, float part, float whole) {
     risk.obstacle += part * whole;
     risk.share[one.agent] += part * whole;
   });
-  for_feeling(inputs, driver.box, driver.params.look_ahead_s, step,
-              [&](const Future& future, const Field& field, float cost) {
-                const float value = risk_of_box(field, driver.box, cost, inputs.precision);
-                risk.social += value;
-                risk.share[future.agent] += inputs.parameters.risk.weight_social * value;
-              });
+  for_feeling(inputs, driver, step, [&](const Future& future, const Field& field, float cost) {
+    const float value = risk_of_box(field, driver.box, driver.field.ahead, cost, inputs.precision);
+    risk.social += value;
+    risk.share[future.agent] += inputs.parameters.risk.weight_social * value;
+  });
   return risk;
 }
 
@@ -206,14 +208,13 @@ StepSlope slope_at(const StepInputs& inputs, int step, CostBoxes& felt) {
     slope.obstacle_risk += part * one.cost * field_over_slices(driver.field, one.box, slopes, gradient);
     add(gradient, part * one.cost, slope.obstacle);
   });
-  for_feeling(inputs, driver.box, driver.params.look_ahead_s, step,
-              [&](const Future&, const Field& field, float cost) {
-                FieldGradient gradient;
-                const float value = cost * field_over_slices(field, driver.box, {}, gradient);
-                slope.social_risk += value;
-                if (value < kWorthSlope) return;
-                add(by_the_box(gradient, field.origin, position(point.rear_axle)), cost, slope.social);
-              });
+  for_feeling(inputs, driver, step, [&](const Future&, const Field& field, float cost) {
+    FieldGradient gradient;
+    const float value = cost * field_over_slices(field, driver.box, {}, gradient);
+    slope.social_risk += value;
+    if (value < kWorthSlope) return;
+    add(by_the_box(gradient, field.origin, position(point.rear_axle)), cost, slope.social);
+  });
   return slope;
 }
 

@@ -22,6 +22,7 @@ struct StepInputs {
   const Trajectory& trajectory;
   const Parameters& parameters;
   Precision precision;
+  FieldParams params;            ///< our driver's, but for the look-ahead
   float modulation[kMaxTracks];  ///< g of each agent
 };
 
@@ -29,9 +30,9 @@ struct StepInputs {
                                      const Parameters& parameters, Precision precision);
 
 struct StepRisk {
-  float obstacle = 0.0F;         ///< R_ego of the vehicles
-  float social = 0.0F;           ///< R_soc, unweighted
-  float share[kMaxTracks] = {};  ///< per agent, both sides weighted as in the sum
+  float obstacle = 0.0F;    ///< R_ego of the vehicles
+  float social = 0.0F;      ///< R_soc, unweighted
+  float share[kMaxTracks];  ///< of each of the scene's agents, both sides weighted as in the sum
 };
 
 /// Both sides at step `step` + 1 of the trajectory.

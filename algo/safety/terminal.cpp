@@ -32,12 +32,13 @@ struct Along {
   [[nodiscard]] float end_s_m() const { return s_m[kHorizonSteps]; }
 };
 
-void measure(const Scene& scene, const EgoPath& path, const Trajectory& trajectory, Along& along) {
+void measure(const Scene& scene, const EgoPath& path, float start_s_m, const Trajectory& trajectory,
+             Along& along) {
   const TrajectoryPoint& start = trajectory.points[0];
   const TrajectoryPoint& end = trajectory.points[kHorizonSteps];
   along.start_mps = start.speed_mps;
   along.end_mps = end.speed_mps;
-  along.s_m[0] = project(*scene.map, path.path, position(start.rear_axle), path.frenet.s_m, 15.0F).s_m;
+  along.s_m[0] = start_s_m;
   for (int i = 1; i < kTrajectoryPoints; ++i) {
     const float mean_mps = 0.5F * (trajectory.points[i - 1].speed_mps + trajectory.points[i].speed_mps);
     along.s_m[i] = along.s_m[i - 1] + mean_mps * kStepS;
@@ -189,24 +190,47 @@ bool follower_safe(const Leader& follower, const Along& along, const Parameters&
   return gap_m >= change_gap_to_follower_m(end_mps, follower.speed_mps);
 }
 
+bool knows_path(const Scene& scene, int path) {
+  return scene.map != nullptr && path >= 0 && path < scene.ego_paths.size();
+}
+
 }  // namespace
+
+PathSight look_along(const Scene& scene, int path_index, const TrajectoryPoint& start,
+                     const Parameters& parameters) {
+  PathSight sight;
+  if (!knows_path(scene, path_index)) return sight;
+  const EgoPath& path = scene.ego_paths[path_index];
+  sight.start_s_m = project(*scene.map, path.path, position(start.rear_axle), path.frenet.s_m, 15.0F).s_m;
+  sight.changes = changes_lane(scene, path);
+  if (sight.changes) {
+    sight.under_way = change_under_way(scene, path, start, parameters);
+    sight.neighbours = find_neighbours(scene, path, parameters);
+  } else {
+    sight.neighbours.leader = find_leader(scene, path, path.frenet.s_m, parameters);
+  }
+  return sight;
+}
 
 TerminalVerdict judge_terminal(const Scene& scene, int path_index, const Trajectory& trajectory,
                                const Parameters& parameters) {
-  if (scene.map == nullptr || path_index < 0 || path_index >= scene.ego_paths.size()) {
-    return blame(TerminalCause::kNoPath);
-  }
+  const PathSight sight = look_along(scene, path_index, trajectory.points[0], parameters);
+  return judge_terminal(scene, path_index, sight, trajectory, parameters);
+}
+
+TerminalVerdict judge_terminal(const Scene& scene, int path_index, const PathSight& sight,
+                               const Trajectory& trajectory, const Parameters& parameters) {
+  if (!knows_path(scene, path_index)) return blame(TerminalCause::kNoPath);
   const EgoPath& path = scene.ego_paths[path_index];
   Along along;
-  measure(scene, path, trajectory, along);
+  measure(scene, path, sight.start_s_m, trajectory, along);
 
   const float end_of_road_m = dead_end_s_m(scene, path) - rear_axle_to_front_m(parameters);
   // With the bumper over the end of the road already, what is left is to stop at once.
   const float at_once_m =
       along.start_s_m() + square(along.start_mps) / (2.0F * parameters.comfort.braking_mps2);
   if (!stops_before(along, max(end_of_road_m, at_once_m), parameters)) return blame(TerminalCause::kRoadEnd);
-  const bool changes = changes_lane(scene, path);
-  const bool under_way = changes && change_under_way(scene, path, trajectory.points[0], parameters);
+  const bool under_way = sight.under_way;
   // Where the road ends in the wrong lane, room is left to change lanes from rest. Who is past that stops at
   // once, for what is left is better than nothing; but a change under way is finished before: nobody is to
   // stand astride two lanes.
@@ -226,12 +250,11 @@ TerminalVerdict judge_terminal(const Scene& scene, int path_index, const Traject
   for (const ConflictZone& zone : path.zones) {
     if (!judge_zone(passing, zone)) return verdict;
   }
-  if (!changes) {
-    const Leader leader = find_leader(scene, path, path.frenet.s_m, parameters);
+  const auto& [leader, follower, joins_beside] = sight.neighbours;
+  if (!sight.changes) {
     return leader_safe(path, leader, along, false, parameters) ? verdict
                                                                : blame(TerminalCause::kLeader, leader.agent);
   }
-  const auto [leader, follower, joins_beside] = find_neighbours(scene, path, parameters);
   // To brake for who joins it at the same time is to stay beside him: who is under way goes on.
   if (!under_way && joins_beside >= 0) return blame(TerminalCause::kFollower, joins_beside);
   if (!leader_safe(path, leader, along, !under_way && !path.bound_for, parameters))

@@ -5,6 +5,7 @@
 
 #include "algo/core/parameters.hpp"
 #include "algo/core/trajectory.hpp"
+#include "algo/safety/lane_change.hpp"
 #include "algo/safety/right_of_way.hpp"
 #include "algo/scene/scene.hpp"
 
@@ -30,6 +31,18 @@ struct TerminalVerdict {
   [[nodiscard]] bool safe() const { return cause == TerminalCause::kNone; }
 };
 
+/// What is the same for every trajectory from one start along one path.
+struct PathSight {
+  float start_s_m = 0.0F;  ///< of our rear axle along the path
+  bool changes = false;    ///< the path leads into a lane beside,
+  bool under_way = false;  ///< and the change is under way
+  Neighbours neighbours;   ///< without a change: the leader alone
+};
+
+/// \param path  as in judge_terminal
+[[nodiscard]] PathSight look_along(const Scene& scene, int path, const TrajectoryPoint& start,
+                                   const Parameters& parameters);
+
 /// Safe for ever means, for each conflict zone of the path not yet left at the start:
 /// - the end can still stop before it (TERM-001), at comfortable deceleration or as hard as the start already
 ///   demands: at the stop line, or, for who stood there, before the ground shared (TERM-014); or
@@ -51,7 +64,11 @@ struct TerminalVerdict {
 /// is not counted on for it; and it is not begun beside one who comes into the same lane from its other side.
 /// Once begun (lane_change.hpp) the leader counts as any other (TERM-030); once under way the one behind
 /// needs room only to stay there, and no room is kept for the next change (TERM-020).
-/// \param path  index of the ego path the trajectory follows
+/// \param path  index of the ego path the trajectory follows \param sight  along it, from the trajectory's
+/// start
+[[nodiscard]] TerminalVerdict judge_terminal(const Scene& scene, int path, const PathSight& sight,
+                                             const Trajectory& trajectory, const Parameters& parameters);
+/// The same for one trajectory alone.
 [[nodiscard]] TerminalVerdict judge_terminal(const Scene& scene, int path, const Trajectory& trajectory,
                                              const Parameters& parameters);
 

@@ -40,6 +40,12 @@ struct CheckReport {
                                            const PredictionSet& conditioned, const KinematicSet& keep_going,
                                            const Parameters& parameters);
 
+/// The same for a trajectory known to be feasible already. \param sight  along `ego_path`, from its start
+[[nodiscard]] CheckReport check_feasible(const Scene& scene, int ego_path, const PathSight& sight,
+                                         const Trajectory& trajectory, const PredictionSet& unconditioned,
+                                         const PredictionSet& conditioned, const KinematicSet& keep_going,
+                                         const Parameters& parameters);
+
 /// First step whose boxes are nearer than `margin_m`, or -1. Who is nearer than that from the first step on
 /// counts when the gap has halved, or, touching already, when it is 0.3 m deeper: standing close is not a
 /// collision (CHECK-008).

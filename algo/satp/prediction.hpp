@@ -13,8 +13,13 @@ namespace s4tp {
 struct Mode {
   float probability = 0.0F;
   bool yields = false;  ///< this future brakes for us
+  std::uint16_t longest_step_cm =
+      65535;  ///< upper bound of the way from a step to the next; so large: unknown
   Pose steps[kHorizonSteps];
 };
+
+/// Sets longest_step_cm from the steps.
+void measure_steps(Mode& mode);
 
 /// The futures of one vehicle. Probabilities of the modes add up to 1.
 struct AgentPrediction {

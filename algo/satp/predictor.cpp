@@ -24,6 +24,7 @@ void place_on_arc(const Track& track, float lead_s, Mode& mode) {
     advance(kStepS);
     step = pose;
   }
+  measure_steps(mode);
 }
 
 // Chance that the driver brakes for us at a crossing, by the braking it takes: 1 up to `easy`, 0 from `hard`.

@@ -113,6 +113,7 @@ void place(const LaneMap& map, const LanePath& path, const Frenet& start, const 
     const Point point = offset_point(centre.pose, 0.0F, d_m);
     mode.steps[i] = {point.x_m, point.y_m, wrap_angle(centre.pose.heading_rad + clamp(slope, -1.0F, 1.0F))};
   }
+  measure_steps(mode);
 }
 
 }  // namespace s4tp

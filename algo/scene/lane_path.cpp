@@ -142,6 +142,12 @@ PathPoint path_point(const LaneMap& map, const LanePath& path, float s_m) {
 }
 
 Frenet project(const LaneMap& map, const LanePath& path, Point point, float guess_s_m, float reach_m) {
+  PathPoint foot;
+  return project(map, path, point, guess_s_m, reach_m, foot);
+}
+
+Frenet project(const LaneMap& map, const LanePath& path, Point point, float guess_s_m, float reach_m,
+               PathPoint& foot) {
   const bool whole = reach_m < 0.0F;
   const float low_s_m = whole ? -1e6F : guess_s_m - reach_m;
   const float high_s_m = whole ? 1e6F : guess_s_m + reach_m;
@@ -177,17 +183,17 @@ Frenet project(const LaneMap& map, const LanePath& path, Point point, float gues
   }
 
   PathCursor cursor(map, path);
-  PathPoint centre = cursor.at(best_s_m);
-  Point local = to_local(centre.pose, point);
+  foot = cursor.at(best_s_m);
+  Point local = to_local(foot.pose, point);
   for (int i = 0; i < kCorrections; ++i) {
-    const float stretch = max(1.0F - centre.curvature_1pm * local.y_m, 0.3F);
+    const float stretch = max(1.0F - foot.curvature_1pm * local.y_m, 0.3F);
     const float corrected_s_m = clamp(best_s_m + local.x_m / stretch, low_s_m, high_s_m);
     if (corrected_s_m == best_s_m) break;
     best_s_m = corrected_s_m;
-    centre = cursor.at(best_s_m);
-    local = to_local(centre.pose, point);
+    foot = cursor.at(best_s_m);
+    local = to_local(foot.pose, point);
   }
-  return {best_s_m, local.y_m, centre.pose.heading_rad};
+  return {best_s_m, local.y_m, foot.pose.heading_rad};
 }
 
 float centre_line_length(const Lane& lane) {

@@ -86,6 +86,9 @@ class PathCursor {
 /// Bounded: one pass over the segments in reach and three corrections. \pre as path_point
 [[nodiscard]] Frenet project(const LaneMap& map, const LanePath& path, Point point, float guess_s_m,
                              float reach_m);
+/// The same, with the centre line there. \param foot  receives path_point at the result's s_m
+[[nodiscard]] Frenet project(const LaneMap& map, const LanePath& path, Point point, float guess_s_m,
+                             float reach_m, PathPoint& foot);
 
 /// Sum of the chords of a centre line [m].
 [[nodiscard]] float centre_line_length(const Lane& lane);

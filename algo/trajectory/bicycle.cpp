@@ -10,6 +10,7 @@ namespace {
 constexpr float kTolerance = 1.01F;
 constexpr float kLateralToleranceMps2 = 0.01F;
 constexpr float kRateToleranceRadps = 0.02F;
+constexpr float kSurely = 0.999F;       // more than rounding of what is compared
 constexpr float kWayTolerance = 0.05F;  // of the way, for a curvature that changes within the step, and:
 constexpr float kWayToleranceM = 0.05F;
 
@@ -84,14 +85,18 @@ bool feasible(const Trajectory& trajectory, const Parameters& parameters) {
   const float brake_limit_mps2 = kTolerance * max(vehicle.braking_max_mps2, -start.acceleration_mps2);
   const float rate_limit_radps = vehicle.steering_rate_max_radps + kRateToleranceRadps;
 
-  float steering_before_rad = steering_for(start.curvature_1pm, vehicle.wheelbase_m);
+  // atan(x) <= x and d atan(x) <= dx: who stays this far within the limits needs no arc tangent.
+  const float surely_1pm = kSurely * steering_limit_rad / vehicle.wheelbase_m;
+  const float surely_slew_1pm = kSurely * rate_limit_radps * kStepS / vehicle.wheelbase_m;
   for (int i = 1; i < kTrajectoryPoints; ++i) {
     const TrajectoryPoint& point = trajectory.points[i];
-    const float steering_rad = steering_for(point.curvature_1pm, vehicle.wheelbase_m);
-    const float rate_radps = (steering_rad - steering_before_rad) / kStepS;
+    const float before_1pm = trajectory.points[i - 1].curvature_1pm;
+    if (abs(point.curvature_1pm) > surely_1pm || abs(point.curvature_1pm - before_1pm) > surely_slew_1pm) {
+      const float steering_rad = steering_for(point.curvature_1pm, vehicle.wheelbase_m);
+      const float rate_radps = (steering_rad - steering_for(before_1pm, vehicle.wheelbase_m)) / kStepS;
+      if (abs(steering_rad) > steering_limit_rad || abs(rate_radps) > rate_limit_radps) return false;
+    }
     const float lateral_mps2 = square(point.speed_mps) * abs(point.curvature_1pm);
-    steering_before_rad = steering_rad;
-    if (abs(steering_rad) > steering_limit_rad || abs(rate_radps) > rate_limit_radps) return false;
     if (lateral_mps2 > lateral_limit_mps2 || point.speed_mps < 0.0F) return false;
     if (point.acceleration_mps2 > drive_limit_mps2 || point.acceleration_mps2 < -brake_limit_mps2)
       return false;

@@ -155,13 +155,30 @@ void build_reference(const LaneMap& map, const LanePath& path, float from_s_m, f
   cap_speeds(parameters, line);
 }
 
-ReferencePlace place_on(const ReferenceLine& line, float s_m) {
+namespace {
+
+/// Between which samples `s_m` lies: index and index + 1, t in [0, 1] except beyond the ends.
+struct ReferencePlace {
+  int index;
+  float t;
+};
+
+inline ReferencePlace place_on(const ReferenceLine& line, float s_m) {
+  constexpr int kLast = kReferenceSamples - 2;
+  constexpr float kNoHalves = 8388608.0F;
   const float place = (s_m - line.start_s_m) / line.spacing_m;
-  const int index = to_int(place - 0.5F, 0, kReferenceSamples - 2);  // the nearest below: t in [0, 1]
+  const float below = place - 0.5F;  // to_int(below, 0, kLast) without the cases it does not have
+  int index = 0;
+  if (below >= static_cast<float>(kLast)) {
+    index = kLast;
+  } else if (below > 0.0F) {
+    index = static_cast<int>((below + kNoHalves) - kNoHalves);
+  }
   return {index, place - static_cast<float>(index)};
 }
 
-ReferenceLine::Sample reference_at(const ReferenceLine& line, float s_m) {
+/// Inline: what its callers do not use of the sample costs nothing.
+inline ReferenceLine::Sample interpolate(const ReferenceLine& line, float s_m) {
   const ReferencePlace place = place_on(line, s_m);
   const ReferenceLine::Sample& a = line.samples[place.index];
   const ReferenceLine::Sample& b = line.samples[place.index + 1];
@@ -179,15 +196,32 @@ ReferenceLine::Sample reference_at(const ReferenceLine& line, float s_m) {
   return sample;
 }
 
+}  // namespace
+
+ReferenceLine::Sample reference_at(const ReferenceLine& line, float s_m) {
+  return interpolate(line, s_m);
+}
+
+float curvature_at(const ReferenceLine& line, float s_m) {
+  return interpolate(line, s_m).curvature_1pm;
+}
+
+float speed_cap_at(const ReferenceLine& line, float s_m) {
+  return interpolate(line, s_m).speed_cap_mps;
+}
+
 ReferenceCoordinates locate_on(const ReferenceLine& line, Point point, float guess_s_m) {
   constexpr int kIterations = 4;  // Newton on a smooth line: each one squares the error over the radius
   ReferenceCoordinates found{guess_s_m, 0.0F};
   for (int i = 0; i < kIterations; ++i) {
-    const ReferenceLine::Sample sample = reference_at(line, found.s_m);
-    const Point local = to_local(sample.pose, point);
-    const float stretch = max(0.3F, 1.0F - sample.curvature_1pm * local.y_m);
-    found.s_m = found.s_m + local.x_m / stretch;
-    found.d_m = local.y_m;
+    const ReferenceLine::Sample sample = interpolate(line, found.s_m);
+    const Point ahead = direction(sample.pose.heading_rad);
+    const Point offset = point - position(sample.pose);
+    found.d_m = cross(ahead, offset);
+    const float stretch = max(0.3F, 1.0F - sample.curvature_1pm * found.d_m);
+    const float before_s_m = found.s_m;
+    found.s_m = before_s_m + dot(ahead, offset) / stretch;
+    if (found.s_m == before_s_m) break;  // nothing changes any more
   }
   return found;
 }

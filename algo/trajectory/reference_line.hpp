@@ -40,15 +40,12 @@ struct ReferenceCoordinates {
 void build_reference(const LaneMap& map, const LanePath& path, float from_s_m, float speed_mps,
                      const Parameters& parameters, ReferenceLine& line);
 
-/// Between which samples `s_m` lies: index and index + 1, t in [0, 1] except beyond the ends.
-struct ReferencePlace {
-  int index;
-  float t;
-};
-[[nodiscard]] ReferencePlace place_on(const ReferenceLine& line, float s_m);
-
 /// The line at `s_m`, interpolated; the heading may be outside [-pi, pi) by a step's turn.
 [[nodiscard]] ReferenceLine::Sample reference_at(const ReferenceLine& line, float s_m);
+
+/// Of that, one number alone.
+[[nodiscard]] float curvature_at(const ReferenceLine& line, float s_m);
+[[nodiscard]] float speed_cap_at(const ReferenceLine& line, float s_m);
 
 /// Foot of `point` on the line, near `guess_s_m`.
 [[nodiscard]] ReferenceCoordinates locate_on(const ReferenceLine& line, Point point, float guess_s_m);

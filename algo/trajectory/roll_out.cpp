@@ -43,12 +43,6 @@ Lateral lateral_at(const Candidate& candidate, float s_m) {
   return {d, d1 * per_m, d2 * per_m * per_m};
 }
 
-float curvature_at(const ReferenceLine& line, float s_m) {
-  const ReferencePlace place = place_on(line, s_m);
-  return lerp(line.samples[place.index].curvature_1pm, line.samples[place.index + 1].curvature_1pm,
-              clamp(place.t, 0.0F, 1.0F));
-}
-
 /// Slope of the line's curvature [1/m^2].
 float curvature_slope(const ReferenceLine& line, float s_m) {
   const float h_m = line.spacing_m;
@@ -80,6 +74,7 @@ void march(const ReferenceLine& line, const Candidate& candidate, int first, con
            Trajectory& trajectory) {
   const TrajectoryPoint& from = trajectory.points[first];
   LongitudinalState state{candidate.start_s_m, from.speed_mps, from.acceleration_mps2};
+  const SteeringLimits limits = candidate.steered ? steering_limits(parameters) : SteeringLimits{};
   TrajectoryPoint scratch;
   float s_per_m = candidate.steered ? 1.0F : place(line, candidate, state.s_m, scratch);
   for (int i = first + 1; i < kTrajectoryPoints; ++i) {
@@ -90,7 +85,7 @@ void march(const ReferenceLine& line, const Candidate& candidate, int first, con
     point = trajectory.points[i - 1];  // at rest pose and curvature stay, bit for bit
     point.speed_mps = state.speed_mps;
     if (way_m > 0.0F && candidate.steered) {
-      steer_step(line, way_m, parameters, state.s_m, point);
+      steer_step(line, way_m, limits, state.s_m, point);
     } else if (way_m > 0.0F) {
       state.s_m = state.s_m + way_m * s_per_m;
       s_per_m = place(line, candidate, state.s_m, point);
@@ -102,13 +97,14 @@ void march(const ReferenceLine& line, const Candidate& candidate, int first, con
 /// Steers points[first + 1] to points[last] to the line, each at its own speed. \return s at the last one
 float steer_to_line(const ReferenceLine& line, int first, int last, float s_m, const Parameters& parameters,
                     Trajectory& trajectory) {
+  const SteeringLimits limits = steering_limits(parameters);
   for (int i = first + 1; i <= last; ++i) {
     const TrajectoryPoint& before = trajectory.points[i - 1];
     TrajectoryPoint& point = trajectory.points[i];
     const float way_m = 0.5F * (before.speed_mps + point.speed_mps) * kStepS;
     point.rear_axle = before.rear_axle;
     point.curvature_1pm = before.curvature_1pm;
-    if (way_m > 0.0F) steer_step(line, way_m, parameters, s_m, point);
+    if (way_m > 0.0F) steer_step(line, way_m, limits, s_m, point);
   }
   return s_m;
 }

@@ -22,9 +22,7 @@ constexpr float kHardMps2 = -3.5F;
 
 /// Acceleration that meets the speed cap kReactS ahead.
 float for_cap(const ReferenceLine& line, const LongitudinalState& state) {
-  const ReferencePlace place = place_on(line, state.s_m + kReactS * state.speed_mps);
-  const float cap_mps = lerp(line.samples[place.index].speed_cap_mps,
-                             line.samples[place.index + 1].speed_cap_mps, clamp(place.t, 0.0F, 1.0F));
+  const float cap_mps = speed_cap_at(line, state.s_m + kReactS * state.speed_mps);
   return max(-kCapBrakingMps2, (cap_mps - state.speed_mps) / kReactS);
 }
 

@@ -101,6 +101,23 @@ TEST(LanePath, ReachKeepsTheProjectionOnItsOwnBranch) {
   EXPECT_GT(nearest.s_m, 80.0F);
 }
 
+// What project() gives as the centre line at the foot is path_point() there, to the bit: along a curve of 10
+// m, 2 m beside it, on all three lanes and beyond both ends.
+TEST(LanePath, TheFootIsAPointOfThePath) {
+  const LaneMap map = test::curved_road(10.0F, 1.5F);
+  const LanePath path = test::path_along(map, {0, 1, 2});
+  for (float s_m = -5.0F; s_m < path.length_m + 5.0F; s_m += 0.7F) {
+    const Point beside = offset_point(path_point(map, path, s_m).pose, 0.0F, 2.0F);
+    PathPoint foot;
+    const Frenet found = project(map, path, beside, s_m + 1.0F, 5.0F, foot);
+    const PathPoint there = path_point(map, path, found.s_m);
+    EXPECT_EQ(foot.pose.x_m, there.pose.x_m);
+    EXPECT_EQ(foot.pose.heading_rad, there.pose.heading_rad);
+    EXPECT_EQ(foot.curvature_1pm, there.curvature_1pm);
+    EXPECT_EQ(foot.lane, there.lane);
+  }
+}
+
 // Three lanes of 3.2 m: y = 3.5 belongs to lane 1; against the direction of travel, or 5 m outside, to none.
 TEST(LanePath, LocatesByDistanceAndHeading) {
   const LaneMap map = test::straight_road(3, 100.0F);
