@@ -22,6 +22,7 @@ constexpr float kGentlyMps2 = 2.0F;  // easily braked with
 constexpr float kSlowMps = 5.0F;     // who is no faster is easily stopped; a faster one may pass who stands
 constexpr float kFollowingS = 1.0F;  // from one who sets off to the next
 constexpr float kFirmly = 1.4F;      // times comfort: a stop at the line, a little late, is no crossing begun
+constexpr float kForEverS = 20.0F;   // who has waited so long will not be let in where he stands
 constexpr float kAtLineM = 2.0F;     // this near before a stop line is at it
 constexpr float kWaitingPlaceM = 2.5F;  // between two zones there is room to wait, clear of both
 
@@ -131,7 +132,7 @@ float zone_margin_s(const Scene& scene, Resolve resolve, const Parameters& param
 }
 
 bool waits_beyond_line(const Scene& scene, float line_s_m, float start_s_m) {
-  return scene.waited_s > 0.0F && start_s_m > line_s_m - kAtLineM;
+  return scene.waited_s > kForEverS && start_s_m > line_s_m - kAtLineM;
 }
 
 bool will_yield(const EgoPath& path, const Agent& agent) {

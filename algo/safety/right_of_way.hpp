@@ -65,8 +65,9 @@ enum class Passage : std::uint8_t {
 [[nodiscard]] Passage judge_passage(const Scene& scene, int index, const ConflictZone& zone, float in_s,
                                     float out_s, Resolve resolve, const Parameters& parameters);
 
-/// Whether who stood at the junction and is at its stop line may wait further on, up to the ground shared:
-/// nobody's way is blocked there, and the gap needed is shorter by what is driven already (TERM-014).
+/// Whether who is at its stop line may wait further on, up to the ground shared: the gap needed is shorter by
+/// what is driven already. But drivers with the right of way brake for a nose in the junction, and stand in
+/// our way then: only who has waited for 20 s creeps (TERM-014).
 [[nodiscard]] bool waits_beyond_line(const Scene& scene, float line_s_m, float start_s_m);
 
 /// Whether, at every zone of `path` that it may reach, the vehicle owes us the way or is already braking to a

@@ -45,7 +45,7 @@ struct PathSight {
 
 /// Safe for ever means, for each conflict zone of the path not yet left at the start:
 /// - the end can still stop before it (TERM-001), at comfortable deceleration or as hard as the start already
-///   demands: at the stop line, or, for who stood there, before the ground shared (TERM-014); or
+///   demands: at the stop line, or, for who has waited there long, before the ground shared (TERM-014); or
 /// - every vehicle that may reach it leaves it to us (TERM-002): where we yield, it comes
 ///   safety.zone_margin_s after we have left, at limit * safety.over_limit and accelerating (TERM-003); where
 ///   it owes us the way, it can stop with 4 m/s^2 or less, or comes later (TERM-004); or it has plainly gone

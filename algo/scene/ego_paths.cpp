@@ -10,6 +10,7 @@ constexpr float kAheadM = 150.0F;          // the map's own horizon
 constexpr float kBehindStartM = 10.0F;     // a neighbour lane may begin this far ahead of us
 constexpr float kUsualHalfLengthM = 2.5F;  // of the boxes the map node takes for its zones
 constexpr float kStopMarginM = 1.0F;       // before the zone, where no stop line says otherwise
+constexpr float kShortOfLineM = 0.5F;      // a little too far, and others see us in the junction
 constexpr float kPassedLineM = 0.5F;       // a stop line this far behind our front no longer binds
 constexpr float kJunctionReachM = 8.0F;    // zones this close behind a junction still belong to it
 constexpr float kStraightRad = 0.05F;      // turns that differ by less are equally straight
@@ -116,7 +117,7 @@ void find_zones(const LaneTable& table, const Parameters& parameters, EgoPath& e
     const float edge_s_m = zone.entry_s_m + half_length_m - kStopMarginM;
     const float line_s_m = stop_line(table, path, index, zone.entry_s_m);
     const bool passed = centre_s_m + half_length_m > line_s_m + kPassedLineM;
-    zone.stop_s_m = passed ? edge_s_m : min(edge_s_m, line_s_m);
+    zone.stop_s_m = passed ? edge_s_m : min(edge_s_m, line_s_m - kShortOfLineM);
     add_zone(ego_path, zone);
   }
   for (int i = 1; i < ego_path.zones.size(); ++i) {

@@ -36,7 +36,7 @@ struct Agent {
 struct ConflictZone {
   float entry_s_m = 0.0F;  ///< on our path, of our box centre
   float exit_s_m = 0.0F;
-  float stop_s_m = 0.0F;  ///< where our front bumper must stand to wait for it
+  float stop_s_m = 0.0F;  ///< where our front bumper stands to wait for it, short of a stop line
   LaneIndex other_lane = kNoLaneIndex;
   float other_entry_m = 0.0F;  ///< on the other lane
   float other_exit_m = 0.0F;

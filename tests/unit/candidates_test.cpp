@@ -268,8 +268,8 @@ TEST(Candidates, StopsBeforeConflictZones) {
   EXPECT_NEAR(later->target_s_m, 80.0F - 1.5F - 1.0F, 1e-4F);
 }
 
-// CAND-006 Who has stood at the line (rear axle at 74) is offered to wait before the zone, centre 1 m short
-// of it, but not between two zones that leave no room: the second one's edge, 90.5, lies in the first.
+// CAND-006 Who has waited long at the line (rear axle at 74) is offered to wait before the zone, centre 1 m
+// short of it, but not between two zones that leave no room: the second one's edge, 90.5, lies in the first.
 TEST(Candidates, CreepToTheZone) {
   LaneMap map = straight_road(1, 300.0F);
   Scene scene;
@@ -294,7 +294,7 @@ TEST(Candidates, CreepToTheZone) {
     return furthest_m;
   };
   EXPECT_NEAR(furthest_stop_m(), 74.0F, 1e-4F);
-  scene.waited_s = 0.5F;
+  scene.waited_s = 20.5F;
   EXPECT_NEAR(furthest_stop_m(), 80.0F - 1.5F - 1.0F, 1e-4F);
 }
 

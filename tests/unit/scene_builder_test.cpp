@@ -218,13 +218,15 @@ TEST(SceneBuilder, FollowsTheRouteThroughTheJunction) {
 }
 
 // Turning left from the minor road we must yield to the straight traffic of the main one, and to who comes
-// towards us; all zones are in order and we wait at the stop line, 51.5 m along a lane of 52 m.
+// towards us; all zones are in order and we wait half a metre short of the stop line, which is 51.5 m along a
+// lane of 52 m: at 51.
 TEST(SceneBuilder, FindsTheZonesOfALeftTurn) {
   CrossJunction cross = test::cross_junction();
   test::set_route(cross, CrossJunction::kEast, CrossJunction::kLeft);
   const Scene scene = test::scene_of(cross.map, test::ego_at(-40.0F, -1.6F, 0.0F, 8.0F), {});
   const EgoPath& path = scene.ego_paths[0];
   ASSERT_FALSE(path.zones.empty());
+  EXPECT_NEAR(path.zones[0].stop_s_m, 51.0F, 1e-3F);
   bool oncoming = false;
   bool from_left = false;
   float last_s_m = 0.0F;
@@ -232,7 +234,7 @@ TEST(SceneBuilder, FindsTheZonesOfALeftTurn) {
     EXPECT_GE(zone.entry_s_m, last_s_m);
     last_s_m = zone.entry_s_m;
     EXPECT_LE(zone.entry_s_m, zone.exit_s_m);
-    EXPECT_LE(zone.stop_s_m, 51.5F + 1e-3F);
+    EXPECT_LE(zone.stop_s_m, 51.0F + 1e-3F);
     oncoming |= zone.other_lane == cross.connection[CrossJunction::kWest][CrossJunction::kStraight] &&
                 zone.priority == Priority::kFirstYields;
     from_left |= zone.other_lane == cross.connection[CrossJunction::kSouth][CrossJunction::kStraight] &&

@@ -42,13 +42,15 @@ TEST(Terminal, GapMustLastUntilWeAreGone) {
 }
 
 // TERM-014 From 91, at the line, at 2 m/s and braking with 1 m/s^2, we come to rest at 93: 1.5 m before the
-// zone. Who has stood may wait there. Whoever comes along does not stop 6 m before the line only to roll over
-// it.
-TEST(Terminal, WhoHasStoodMayWaitBeyondTheLine) {
+// zone. Who has waited for 20 s may go on waiting there: before, others would only brake for our nose.
+// Whoever comes along does not stop 6 m before the line only to roll over it.
+TEST(Terminal, WhoHasWaitedLongMayWaitBeyondTheLine) {
   Crossing crossing(Priority::kFirstYields);
   crossing.other(50.0F, 10.0F);
   EXPECT_FALSE(crossing.safe(91.0F, 2.0F, -1.0F));
-  crossing.scene.waited_s = 0.5F;
+  crossing.scene.waited_s = 19.5F;
+  EXPECT_FALSE(crossing.safe(91.0F, 2.0F, -1.0F));
+  crossing.scene.waited_s = 20.5F;
   EXPECT_TRUE(crossing.safe(91.0F, 2.0F, -1.0F));
   EXPECT_FALSE(crossing.safe(85.0F, 3.0F, -0.5625F));
   EXPECT_FALSE(crossing.safe(91.0F, 2.0F, -0.6F));  // 3.3 m: into the zone
