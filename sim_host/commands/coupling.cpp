@@ -31,11 +31,11 @@ std::vector<Variant> variants() {
     return variant;
   };
   using Coupling = world::EgoCoupling;
-  return {without("plain moveToXY", [](Coupling& c) { c.early = c.ahead = c.wishes = false; }),
+  return {without("plain moveToXY", [](Coupling& c) { c.early = c.ahead = c.wishes = c.on_route = false; }),
           without("without early", [](Coupling& c) { c.early = false; }),
           without("without ahead", [](Coupling& c) { c.ahead = false; }),
           without("without wishes", [](Coupling& c) { c.wishes = false; }),
-          without("keepRoute 3", [](Coupling& c) { c.keep_route = 3; }),
+          without("without its route", [](Coupling& c) { c.on_route = false; }),
           without("as it is", [](Coupling&) {})};
 }
 

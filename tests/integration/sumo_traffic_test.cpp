@@ -6,6 +6,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
@@ -48,6 +49,17 @@ EgoSeen standing_at(const Scenario& scenario, LaneId lane, double s_m) {
   ego.car.centre = pose.point;
   ego.car.heading_rad = pose.heading_rad;
   return ego;
+}
+
+/// From the mission's start through the junction: the lanes of the way that ends on the goal's edge.
+std::vector<LaneId> way_through(const Scenario& scenario) {
+  const auto lane_of = [&](LaneId id) { return scenario.network.lanes[static_cast<std::size_t>(id)]; };
+  for (const LaneId turn : lane_of(scenario.mission.start_lane).successors) {
+    std::vector<LaneId> way{scenario.mission.start_lane, turn};
+    while (lane_of(way.back()).in_junction) way.push_back(lane_of(way.back()).successors.front());
+    if (lane_of(way.back()).edge == lane_of(scenario.mission.goal_lane).edge) return way;
+  }
+  return {};
 }
 
 bool same(const std::vector<CarState>& a, const std::vector<CarState>& b) {
@@ -199,6 +211,57 @@ TEST(SumoTraffic, PlacesTheEgoAtTheStepsEnd) {
   EXPECT_NEAR(seen.centre.x, ego.car.centre.x, 1e-3);
   EXPECT_NEAR(seen.centre.y, ego.car.centre.y, 1e-3);
   EXPECT_NEAR(seen.speed_mps, 13.0, 1e-6);
+}
+
+// Half a metre beside the centre of our left turn, where six other ways cross it: SUMO has us on our route's
+// lanes all the way. Without on_route it takes the nearest lane, and that is another one on the way.
+TEST(SumoTraffic, KeepsTheEgoOnItsRoute) {
+  const Scenario scenario = shipped("left_turn");
+  const std::vector<LaneId> way = way_through(scenario);
+  ASSERT_FALSE(way.empty());
+  for (const bool on_route : {true, false}) {
+    EngineOptions options = without_ego(4);
+    options.ego = EgoDriver::kUs;
+    SumoTraffic traffic(scenario, options, {.early = false, .on_route = on_route});
+    int elsewhere = 0;
+    for (const LaneId id : way) {
+      const Polyline& centre = scenario.network.lanes[static_cast<std::size_t>(id)].centre;
+      for (double s_m = 3.0; s_m < std::min(centre.length_m(), 30.0); s_m += 0.3) {
+        EgoSeen ego = standing_at(scenario, id, s_m);
+        ego.car.centre.x += 0.5 * std::sin(ego.car.heading_rad);
+        ego.car.centre.y -= 0.5 * std::cos(ego.car.heading_rad);
+        for (int i = 0; i < 20; ++i) traffic.step(&ego);
+        const LaneId seen = traffic.ego_seen().value().lane;
+        elsewhere += std::find(way.begin(), way.end(), seen) == way.end() ? 1 : 0;
+      }
+    }
+    if (on_route) {
+      EXPECT_EQ(elsewhere, 0);
+    } else {
+      EXPECT_GT(elsewhere, 0);
+    }
+  }
+}
+
+// An ego that has left its route is seen where it is: whoever comes along there stops behind it.
+TEST(SumoTraffic, StopsBehindAnEgoOffItsRoute) {
+  const Scenario scenario = shipped("left_turn");
+  const LaneId oncoming = scenario.network.find("north_in_0");
+  EngineOptions options = without_ego(4);
+  options.ego = EgoDriver::kUs;
+  SumoTraffic traffic(scenario, options, {.early = false});
+  const EgoSeen ego = standing_at(scenario, oncoming, 60.0);
+  bool stood = false;
+  while (traffic.time_s() < 60.0) {
+    traffic.step(&ego);
+    for (const CarState& car : traffic.cars()) {
+      if (traffic.time_s() > 1.0) {
+        EXPECT_FALSE(overlap(box_of(ego.car), box_of(car)));
+      }
+      stood = stood || (car.lane == oncoming && car.speed_mps < 0.1);
+    }
+  }
+  EXPECT_TRUE(stood);
 }
 
 // Emptying a stretch takes those whose box reaches into it, for SUMO too, and nobody else.

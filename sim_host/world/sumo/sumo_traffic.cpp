@@ -22,6 +22,8 @@ constexpr int kTicksPerStep = 10;
 constexpr double kDrawnUntil_s = 240.0;
 constexpr double kBesideCentre_m = 0.2;  // further out a car is changing lanes
 constexpr double kStands_mps = 0.1;
+constexpr int kRouteOrNone = 3;  // moveToXY's keepRoute: a lane of its route, or else off the road
+constexpr int kAnyOrNone = 2;
 constexpr int kStrategicChanges = 1;  // lane change mode: those its route needs, and no others
 constexpr int kVaporized = 3;         // SUMO's reason for a removal that is no arrival
 
@@ -198,11 +200,15 @@ void SumoTraffic::enter_ego() {
   }
 }
 
+/// In a junction many ways overlap, and moveToXY takes the nearest: others then take a car that turns for one
+/// on another way, and give way to it, or not, as to that one. So it is looked for on its route first.
 void SumoTraffic::put_ego(const CarState& place) {
+  const auto known = cars_.find(kEgoName);
+  const bool lost = known != cars_.end() && known->second.lanes.empty();
   const Vec2 bumper = ahead_of(place, 0.5 * place.length_m);
   Writer value;
   value.compound(6).typed_text("").typed_integer(-1).typed_real(bumper.x).typed_real(bumper.y);
-  value.typed_real(compass_deg(place.heading_rad)).typed_byte(coupling_.keep_route);
+  value.typed_real(compass_deg(place.heading_rad)).typed_byte(coupling_.on_route && !lost ? kRouteOrNone : kAnyOrNone);
   sumo_.client->set(Domain::kVehicle, traci::kMoveToXy, kEgoName, value);
 }
 
