@@ -14,7 +14,6 @@ constexpr float kFirstInS = 0.3F;      // before another we are plainly first
 constexpr float kWellFirstS = 1.0F;    // before one who is setting off, and may not see that we do, too
 constexpr float kSettingOffMps2 = 1.0F;
 constexpr float kOverlapS = 0.3F;  // of one leaving and one who stands, starting now: less than he needs
-constexpr int kGivenUpMs = 2000;   // who stands for longer with nobody to wait for does not use his right
 constexpr float kHesitation =
     0.25F;                           // who has left it unused for long goes on so for this share of that time
 constexpr float kStartS = 0.5F;      // until somebody who stands is under way

@@ -20,11 +20,16 @@ struct History {
   std::uint16_t valid = 0;  ///< bit i: samples[i] was seen
 };
 
+/// Who has stood for longer with nobody to wait for does not use his right.
+inline constexpr int kGivenUpMs = 2000;
+
 /// A vehicle as of the scene's time (tracks are brought forward from the list's time).
 struct Agent {
   Track track;
   std::uint16_t age_ms = 0;   ///< since it was last in a list; coasted meanwhile
-  std::uint16_t idle_ms = 0;  ///< CORE-034 how long it has stood with nobody to wait for; at most a minute
+  /// CORE-034 How long it has stood with nobody to wait for; at most a minute. From kGivenUpMs on it is kept
+  /// while somebody comes, until it moves: who has let such gaps pass lets the next one pass, too.
+  std::uint16_t idle_ms = 0;
   LaneIndex lane = kNoLaneIndex;
   BoundedVector<LanePath, kPathsPerAgent> paths;  ///< ways it may go; the first is the likeliest
   float path_probability[kPathsPerAgent] = {};    ///< of each path; they add up to 1
