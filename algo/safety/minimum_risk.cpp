@@ -190,7 +190,7 @@ bool along_lane(const Scene& scene, const TrajectoryPoint& start, const Paramete
   float length_m = lateral_length_m(line, start, where, parameters);
   const Plan none;
   for (int i = 0; i < kStretches; ++i) {
-    shape_lateral(line, start, where, 0.0F, length_m, candidate);
+    shape_lateral(line, start, where, length_m, candidate);
     if (swings_wide(candidate)) break;
     roll_out(line, candidate, start, none, 0, parameters, trajectory);
     if (feasible(trajectory, parameters)) return true;

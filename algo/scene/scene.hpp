@@ -55,12 +55,13 @@ enum class Manoeuvre : std::uint8_t { kKeep = 0, kLeft = 1, kRight = 2 };
 /// One way we may go: along our lane or a neighbour, then along the route.
 struct EgoPath {
   Manoeuvre manoeuvre = Manoeuvre::kKeep;
-  LanePath path;
-  Frenet frenet;                   ///< of our rear axle
   std::int8_t changes_needed = 0;  ///< from that lane to the route's
-  float route_end_s_m = 0.0F;      ///< where a lane change must be finished, or the path's end
-  float goal_s_m = 0.0F;           ///< where the goal lies along it
   bool bound_for = false;          ///< the running plan leads there (lane_change.hpp)
+  LanePath path;
+  Frenet frenet;               ///< of our rear axle
+  float aside_m = 0.0F;        ///< left of the centre line it is driven, past who stand (standing_room.hpp)
+  float route_end_s_m = 0.0F;  ///< where a lane change must be finished, or the path's end
+  float goal_s_m = 0.0F;       ///< where the goal lies along it
   BoundedVector<ConflictZone, kMaxPathZones> zones;
 };
 

@@ -104,6 +104,7 @@ void prepare(const Scene& scene, const EgoPath& path, const TrajectoryPoint& sta
   const float guess_s_m = path.frenet.s_m + lead_s * scene.ego.speed_mps;
   const Frenet frenet = project(*scene.map, path.path, position(start.rear_axle), guess_s_m, 10.0F);
   build_reference(*scene.map, path.path, frenet.s_m, start.speed_mps, parameters, line);
+  line.aside_m = path.aside_m;
   course.where = locate_on(line, position(start.rear_axle), frenet.s_m);
   course.leader = find_leader(scene, path, path.frenet.s_m, parameters);
   course.leader_touch_s_m = path.frenet.s_m + course.leader.gap_m;
@@ -189,7 +190,7 @@ bool make_feasible(const ReferenceLine& line, const TrajectoryPoint& start, cons
                    std::uint32_t start_ms, const Parameters& parameters, Course& course, Candidate& candidate,
                    Trajectory& trajectory) {
   for (int i = 0; i < course.attempts; ++i) {
-    shape_lateral(line, start, course.where, 0.0F, course.lateral_length_m, candidate);
+    shape_lateral(line, start, course.where, course.lateral_length_m, candidate);
     if (candidate.intent != Intent::kPrevious && swings_wide(candidate)) break;  // longer swings wider
     roll_out(line, candidate, start, running, start_ms, parameters, trajectory);
     if (feasible(trajectory, parameters)) return true;

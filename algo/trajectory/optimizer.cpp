@@ -114,7 +114,8 @@ void build_refinement(const ReferenceLine& line, float start_s_m, const Surround
     const MotionState& before = i > 0 ? problem.steps[i - 1].reference : problem.start;
     set_reference(parameters, before, state_of(point, origin, before.heading_rad), step);
     where = locate_on(line, position(point.rear_axle), where.s_m + kStepS * point.speed_mps);
-    step.lane_offset_m = abs(where.d_m) < kInLaneM ? where.d_m : 0.0F;
+    const float offset_m = where.d_m - line.aside_m;
+    step.lane_offset_m = abs(offset_m) < kInLaneM ? offset_m : 0.0F;
     step.speed_cap_mps = max(reference_at(line, where.s_m).speed_cap_mps, point.speed_mps);
     step.curvature_rate_weight =
         problem.weights.curvature_rate + problem.weights.lateral_jerk * square(square(point.speed_mps));

@@ -128,13 +128,13 @@ void shift_plan(const ReferenceLine& line, const Candidate& candidate, const Pla
   tail.intent = Intent::kAccelerate;
   tail.acceleration_mps2 = clamp(end.acceleration_mps2, -kTailBrakingMps2, kTailDriveMps2);
   const ReferenceCoordinates where = locate(last);
-  if (abs(where.d_m) > kOnLineM) {
+  if (abs(where.d_m - line.aside_m) > kOnLineM) {
     // Still on its way to the line: one step more at a time, smoothed each time, would carry it across.
     const int first = last > kSteeredAnew ? last - kSteeredAnew : 0;
     tail.steered = true;
     tail.start_s_m = steer_to_line(line, first, last, locate(first).s_m, parameters, trajectory);
   } else {
-    shape_lateral(line, end, where, 0.0F, candidate.lateral_length_m, tail);
+    shape_lateral(line, end, where, candidate.lateral_length_m, tail);
   }
   march(line, tail, last, parameters, trajectory);
 }
@@ -143,7 +143,8 @@ void shift_plan(const ReferenceLine& line, const Candidate& candidate, const Pla
 
 float lateral_length_m(const ReferenceLine& line, const TrajectoryPoint& start, ReferenceCoordinates where,
                        const Parameters& parameters) {
-  const float offset_m = abs(where.d_m);
+  const float d_m = where.d_m - line.aside_m;
+  const float offset_m = abs(d_m);
   const float change_s = parameters.comfort.lane_change_s;
   const float at_speed_m =
       start.speed_mps * clamp(sqrt(kPeak * offset_m / kLateralMps2), 0.4F * change_s, change_s);
@@ -153,13 +154,13 @@ float lateral_length_m(const ReferenceLine& line, const TrajectoryPoint& start, 
   const ReferenceLine::Sample centre = reference_at(line, where.s_m);
   const float slope =
       tan(clamp(wrap_angle(start.rear_axle.heading_rad - centre.pose.heading_rad), -1.0F, 1.0F));
-  const bool towards = slope * where.d_m < 0.0F && abs(slope) > 0.02F;
+  const bool towards = slope * d_m < 0.0F && abs(slope) > 0.02F;
   if (!towards) return max(fresh_m, abs(slope) * max(kTurnBackM, kTurnBackS2pm * square(start.speed_mps)));
   return clamp(kSlopeShare * offset_m / abs(slope), max(kShortestM, 0.5F * fresh_m), fresh_m);
 }
 
 void shape_lateral(const ReferenceLine& line, const TrajectoryPoint& start, ReferenceCoordinates where,
-                   float end_d_m, float length_m, Candidate& candidate) {
+                   float length_m, Candidate& candidate) {
   const ReferenceLine::Sample centre = reference_at(line, where.s_m);
   const float k = centre.curvature_1pm;
   const float stretch = max(kMinStretch, 1.0F - k * where.d_m);
@@ -175,7 +176,7 @@ void shape_lateral(const ReferenceLine& line, const TrajectoryPoint& start, Refe
   const float c0 = where.d_m;
   const float c1 = slope * length_m;
   const float c2 = 0.5F * bend * length_m * length_m;
-  const float h = end_d_m - ((c0 + c1) + c2);
+  const float h = line.aside_m - ((c0 + c1) + c2);
   const float g = -(c1 + 2.0F * c2);
   const float f = -2.0F * c2;
   candidate.lateral[0] = c0;
@@ -190,11 +191,13 @@ void shape_lateral(const ReferenceLine& line, const TrajectoryPoint& start, Refe
 
 bool swings_wide(const Candidate& candidate) {
   const float start_m = candidate.lateral[0];
-  const float side = start_m < 0.0F ? -1.0F : 1.0F;
+  const float end_m = lateral_at(candidate, candidate.start_s_m + candidate.lateral_length_m).d_m;
+  const float right_m = min(start_m, end_m) - kSwingM;
+  const float left_m = max(start_m, end_m) + kSwingM;
   for (int i = 1; i < kSwingSamples; ++i) {
     const float part = static_cast<float>(i) / static_cast<float>(kSwingSamples);
     const float d_m = lateral_at(candidate, candidate.start_s_m + part * candidate.lateral_length_m).d_m;
-    if (side * d_m > abs(start_m) + kSwingM || side * d_m < -kSwingM) return true;
+    if (d_m < right_m || d_m > left_m) return true;
   }
   return false;
 }

@@ -11,10 +11,10 @@ namespace s4tp {
 [[nodiscard]] float lateral_length_m(const ReferenceLine& line, const TrajectoryPoint& start,
                                      ReferenceCoordinates where, const Parameters& parameters);
 
-/// Writes start_s_m and the quintic of `candidate`: from `start` (offset, heading, curvature) to `end_d_m`,
-/// parallel to the line, over `length_m` of way.
+/// Writes start_s_m and the quintic of `candidate`: from `start` (offset, heading, curvature) to the line's
+/// aside_m, parallel to it, over `length_m` of way.
 void shape_lateral(const ReferenceLine& line, const TrajectoryPoint& start, ReferenceCoordinates where,
-                   float end_d_m, float length_m, Candidate& candidate);
+                   float length_m, Candidate& candidate);
 
 /// Whether that quintic swings more than 0.3 m wider than it starts, or past the line: wheels turned the
 /// other way at the start would be turned back over its whole length. It is steered instead (CAND-017).

@@ -12,8 +12,14 @@ inline constexpr float kStandingRoomM = 0.4F;
 /// Whether the vehicle stands, as far as its measured speed tells.
 [[nodiscard]] bool is_standing(const Agent& agent);
 
-/// Whether our box, our rear axle driven along the centre line of `path` from `from_s_m` to `to_s_m` (at most
-/// 40 m), keeps kStandingRoomM from the vehicle where it is now.
+/// Sets EgoPath::aside_m of every path (CAND-018): the least of 0, 0.35 and 0.7 m to either side from which
+/// our box passes all who stand across it, over the next 30 m, with kStandingRoomM. Never beyond the lanes'
+/// edges; who cannot be passed so is not minded, and who stands along the path is a leader, not a bystander.
+/// \pre scene.map is there, or there are no ego paths
+void keep_aside(const Parameters& parameters, Scene& scene);
+
+/// Whether our box, our rear axle driven EgoPath::aside_m beside the centre line of `path` from `from_s_m` to
+/// `to_s_m` (at most 40 m), keeps kStandingRoomM from the vehicle where it is now.
 [[nodiscard]] bool leaves_room(const Scene& scene, const EgoPath& path, const Agent& agent, float from_s_m,
                                float to_s_m, const Parameters& parameters);
 

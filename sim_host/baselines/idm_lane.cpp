@@ -315,7 +315,7 @@ void IdmLanePlanner::drive(Trajectory& trajectory) const {
   const Plan none;
   Trajectory path;
   for (int attempt = 0; attempt < kStretches; ++attempt, length_m *= kStretch) {
-    shape_lateral(line_, start_, where_, 0.0F, length_m, fast);
+    shape_lateral(line_, start_, where_, length_m, fast);
     roll_out(line_, fast, start_, none, 0, parameters_, path);
     PathWalk walk(path);
     LongitudinalState state{where_.s_m, start_.speed_mps, start_.acceleration_mps2};

@@ -63,7 +63,7 @@ inline std::unique_ptr<RefinementScene> random_refinement(unsigned seed) {
   }
   float length_m = lateral_length_m(made->line, start, where, made->parameters);
   for (int i = 0; i < 4; ++i, length_m *= 1.7F) {
-    shape_lateral(made->line, start, where, 0.0F, length_m, candidate);
+    shape_lateral(made->line, start, where, length_m, candidate);
     roll_out(made->line, candidate, start, Plan{}, 0, made->parameters, made->trajectory);
     if (feasible(made->trajectory, made->parameters)) break;
   }

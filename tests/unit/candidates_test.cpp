@@ -64,6 +64,7 @@ Trajectory rolled(const Scene& scene, const Candidate& candidate, const Trajecto
   ReferenceLine line;
   build_reference(*scene.map, scene.ego_paths[candidate.path].path, candidate.start_s_m, start.speed_mps,
                   Parameters{}, line);
+  line.aside_m = scene.ego_paths[candidate.path].aside_m;
   Trajectory trajectory;
   roll_out(line, candidate, start, running, kNow, Parameters{}, trajectory);
   return trajectory;
@@ -458,6 +459,29 @@ TEST(Candidates, APlanIsNotCarriedAcrossItsLine) {
   EXPECT_NEAR(end_of(running.trajectory).rear_axle.y_m, line_y_m, 0.3F);
 }
 
+// CAND-018 0.35 m to the left at 8 m/s: a drive settles there within its 3 s, the plan it becomes goes on
+// there a second later, and who is steered comes there too.
+TEST(Candidates, SettleAside) {
+  Roads roads(100.0F, 8.0F);
+  roads.scene.ego_paths[0].aside_m = 0.35F;
+  Candidate drive = *find(generate(roads.scene, roads.start), 0, Intent::kAccelerate);
+  Plan running;
+  running.kind = PlanKind::kDrive;
+  running.trajectory = rolled(roads.scene, drive, roads.start);
+  EXPECT_NEAR(end_of(running.trajectory).rear_axle.y_m, kLaneWidthM + 0.35F, 0.01F);
+  drive.steered = true;
+  EXPECT_NEAR(end_of(rolled(roads.scene, drive, roads.start)).rear_axle.y_m, kLaneWidthM + 0.35F, 0.1F);
+
+  running.start_ms = kNow - 1000;
+  const TrajectoryPoint later = running.trajectory.points[10];
+  put_ego(roads.scene, later);
+  const CandidateList list = generate(roads.scene, later, running);
+  const Candidate* on = find(list, 0, Intent::kPrevious);
+  ASSERT_NE(on, nullptr);
+  const Trajectory going_on = rolled(roads.scene, *on, later, running);
+  EXPECT_NEAR(end_of(going_on).rear_axle.y_m, kLaneWidthM + 0.35F, 0.01F);
+}
+
 // CAND-017 Wheels turned by 0.1 / m to the right, 3.2 m to go to the left: 14 m of quintic turn them back in
 // time; 40 m swing 0.05 * 40^2 * 0.035 - 1 = 1.8 m to the right before.
 TEST(Candidates, ALongQuinticSwingsOut) {
@@ -467,9 +491,9 @@ TEST(Candidates, ALongQuinticSwingsOut) {
   build_reference(roads.map, roads.scene.ego_paths[1].path, 50.0F, 1.0F, Parameters{}, line);
   const ReferenceCoordinates where = locate_on(line, position(roads.start.rear_axle), 50.0F);
   Candidate candidate;
-  shape_lateral(line, roads.start, where, 0.0F, 14.0F, candidate);
+  shape_lateral(line, roads.start, where, 14.0F, candidate);
   EXPECT_FALSE(swings_wide(candidate));
-  shape_lateral(line, roads.start, where, 0.0F, 40.0F, candidate);
+  shape_lateral(line, roads.start, where, 40.0F, candidate);
   EXPECT_TRUE(swings_wide(candidate));
 }
 

@@ -25,7 +25,7 @@ std::unique_ptr<RefinementScene> braking(float acceleration_mps2, float speed_mp
   test::put_ego(scene->scene, start);
   build_reference(scene->map, path, 50.0F, start.speed_mps, scene->parameters, scene->line);
   scene->candidate.acceleration_mps2 = acceleration_mps2;
-  shape_lateral(scene->line, start, {50.0F, 0.0F}, 0.0F, 20.0F, scene->candidate);
+  shape_lateral(scene->line, start, {50.0F, 0.0F}, 20.0F, scene->candidate);
   roll_out(scene->line, scene->candidate, start, Plan{}, 0, scene->parameters, scene->trajectory);
   return scene;
 }

@@ -73,6 +73,15 @@ TEST(Terminal, WhoLetsUsGoMustLeaveRoom) {
   }
 }
 
+// TERM-023 With his front 1.2 m from our centre line he leaves 0.3 m, and 0.65 m to us 0.35 m further on.
+TEST(Terminal, RoomIsLeftToWhereWeDrive) {
+  Crossing crossing(Priority::kFirstYields);
+  crossing.other(100.0F - 1.2F - 2.5F, 0.0F).idle_ms = 20'000;
+  EXPECT_FALSE(crossing.safe(91.0F, 0.0F, 3.0F));
+  crossing.scene.ego_paths[0].aside_m = 0.35F;
+  EXPECT_TRUE(crossing.safe(91.0F, 0.0F, 3.0F));
+}
+
 // TERM-007 Already inside, standing and driving on both are for the collision check to judge.
 TEST(Terminal, WhoIsInsideIsLeftToTheCollisionCheck) {
   Crossing crossing(Priority::kFirstYields);

@@ -1,0 +1,91 @@
+#include "algo/trajectory/standing_room.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include "tests/support/crossing.hpp"
+
+namespace s4tp {
+namespace {
+
+using test::Crossing;
+
+/// Where we drive, 20 m before the crossing, past one who stands there with its front `front_m` left of our
+/// centre line.
+struct Bystander : Crossing {
+  explicit Bystander(float front_m) : Crossing(Priority::kFirstYields) {
+    test::put_ego(scene, test::state_on(map, ours, 80.0F, 5.0F));
+    other(100.0F + front_m - 2.5F, 0.0F);
+  }
+  float aside_m() {
+    keep_aside(parameters, scene);
+    return scene.ego_paths[0].aside_m;
+  }
+};
+
+// CAND-018 Our side is 0.9 m from the centre line. With its front 1.2 m to the right of it one leaves 0.3 m:
+// 0.35 more to the left are enough, and 0.7 from 0.8 m (-0.1 + 0.7). At 1.4 m nothing is needed, and at 0.4 m
+// nothing helps (-0.5 + 0.7 < 0.4).
+TEST(StandingRoom, TheLeastThatIsEnough) {
+  EXPECT_FLOAT_EQ(Bystander(-1.2F).aside_m(), 0.35F);
+  EXPECT_FLOAT_EQ(Bystander(-0.8F).aside_m(), 0.7F);
+  EXPECT_FLOAT_EQ(Bystander(-1.4F).aside_m(), 0.0F);
+  EXPECT_FLOAT_EQ(Bystander(-0.4F).aside_m(), 0.0F);
+}
+
+// CAND-018 Who reaches in from the left is passed on the right: its rear, 1.2 m left of the line, leaves 0.3
+// m.
+TEST(StandingRoom, ToTheOtherSide) {
+  EXPECT_FLOAT_EQ(Bystander(1.2F + 5.0F).aside_m(), -0.35F);
+}
+
+// CAND-018 Our lane is our limit: in one of 2.6 m a car of 1.8 m has 0.4 m on each side.
+TEST(StandingRoom, NotBeyondTheLane) {
+  for (const float front_m : {-1.2F, -0.8F}) {
+    Bystander narrow(front_m);
+    narrow.map.lanes[0].width_m = 2.6F;
+    EXPECT_FLOAT_EQ(narrow.aside_m(), front_m < -1.0F ? 0.35F : 0.0F);
+  }
+}
+
+// CAND-018 At 0.5 m/s it does not stand; along our way it is who leads us; and from 35 m away it is not
+// minded.
+TEST(StandingRoom, OnlyWhoStandsAcross) {
+  Bystander moving(-1.2F);
+  moving.scene.agents[0].track.speed_mps = 0.5F;
+  EXPECT_FLOAT_EQ(moving.aside_m(), 0.0F);
+  Bystander along(-1.2F);
+  along.scene.agents[0].track.centre = {0.0F, -2.1F, 0.0F};
+  EXPECT_FLOAT_EQ(along.aside_m(), 0.0F);
+  Bystander far(-1.2F);
+  test::put_ego(far.scene, test::state_on(far.map, far.ours, 58.0F, 5.0F));
+  EXPECT_FLOAT_EQ(far.aside_m(), 0.0F);
+}
+
+// CAND-018 Wherever one stands, however it is turned: from where we are moved aside to there is room, and on
+// the centre line there was none.
+TEST(StandingRoom, MovesAsideForRoom) {
+  EXPECT_TRUE(rc::check([] {
+    const auto between = [](int low, int high) {
+      return 0.01F * static_cast<float>(*rc::gen::inRange(low, high));
+    };
+    Bystander bystander(0.0F);
+    Agent& agent = bystander.scene.agents[0];
+    agent.track.centre = {between(-1500, 500), between(-500, 500), between(-314, 315)};
+    agent.track.length_m = between(300, 1200);
+    const float aside_m = bystander.aside_m();
+    EgoPath& path = bystander.scene.ego_paths[0];
+    const auto room = [&] {
+      return leaves_room(bystander.scene, path, agent, path.frenet.s_m, path.frenet.s_m + 30.0F,
+                         bystander.parameters);
+    };
+    RC_TAG(aside_m != 0.0F);
+    if (aside_m == 0.0F) return;
+    RC_ASSERT(room());
+    path.aside_m = 0.0F;
+    RC_ASSERT(!room());
+  }));
+}
+
+}  // namespace
+}  // namespace s4tp
