@@ -37,8 +37,8 @@ struct EgoCoupling {
   bool early = true;   ///< in the network from entry on with its speed, not a step later and at first at rest
   bool ahead = true;   ///< placed where it will be at the step's end, not where it was at its start
   bool wishes = true;  ///< SUMO's driver in it wishes the lane changes of the mission, so others make room
-  bool on_route = true;  ///< on a lane of its route as long as it is on one, however near another runs
-  int speed_mode = 0;    ///< 0: SUMO takes it for one who goes through junctions whoever comes
+  bool on_route = true;     ///< on a lane of its route as long as it is on one, however near another runs
+  int speed_mode = 0;       ///< 0: SUMO takes it for one who goes through junctions whoever comes
   std::string driver = {};  ///< further attributes of its vehicle type, as XML
 };
 
