@@ -11,7 +11,6 @@
 #include "algo/safety/terminal.hpp"
 #include "algo/trajectory/along_path.hpp"
 #include "algo/trajectory/bicycle.hpp"
-#include "algo/trajectory/standing_room.hpp"
 
 namespace s4tp {
 namespace {
@@ -99,7 +98,6 @@ Status Planner::plan(const PlannerInput& input, Plan& plan, Explanation& explana
     start_ = plan_start(input.ego, input.now_ms, running_, start_ms_, parameters_);
     if (status == Status::kOk) {
       mark_bound_for(running_, start_ms_, scene_);
-      keep_aside(parameters_, scene_);
       predict(explanation);
       rank(input.degraded != 0, explanation);
       status = choose(explanation);
