@@ -26,9 +26,9 @@ inline constexpr int kGivenUpMs = 2000;
 /// A vehicle as of the scene's time (tracks are brought forward from the list's time).
 struct Agent {
   Track track;
-  std::uint16_t age_ms = 0;   ///< since it was last in a list; coasted meanwhile
-  /// CORE-034 How long it has stood with nobody to wait for; at most a minute. From kGivenUpMs on it is kept
-  /// while somebody comes, until it moves: who has let such gaps pass lets the next one pass, too.
+  std::uint16_t age_ms = 0;  ///< since it was last in a list; coasted meanwhile
+  /// CORE-034 How long it has stood with nobody to wait for; at most a minute. From kGivenUpMs on all the
+  /// time it stands counts, whoever comes: who has let such a gap pass lets the next one pass, too.
   std::uint16_t idle_ms = 0;
   LaneIndex lane = kNoLaneIndex;
   BoundedVector<LanePath, kPathsPerAgent> paths;  ///< ways it may go; the first is the likeliest

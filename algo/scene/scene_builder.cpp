@@ -130,9 +130,8 @@ void SceneBuilder::note_idle(std::int32_t passed_ms, Scene& scene) {
   for (int i = 0; i < scene.agents.size(); ++i) {  // one for each of past_, in its order
     Past& past = past_[i];
     const bool stands = scene.map != nullptr && scene.agents[i].track.speed_mps < kStandingMps;
-    const std::int32_t kept_ms = past.idle_ms >= kGivenUpMs ? past.idle_ms : 0;
-    std::int32_t idle_ms = 0;
-    if (stands) idle_ms = waits_for_somebody(scene, i) ? kept_ms : past.idle_ms + passed_ms;
+    const bool idle = stands && (past.idle_ms >= kGivenUpMs || !waits_for_somebody(scene, i));
+    const std::int32_t idle_ms = idle ? past.idle_ms + passed_ms : 0;
     past.idle_ms = static_cast<std::uint16_t>(idle_ms < kLongestStandMs ? idle_ms : kLongestStandMs);
     scene.agents[i].idle_ms = past.idle_ms;
   }
