@@ -35,7 +35,7 @@ std::vector<Variant> variants() {
           without("without early", [](Coupling& c) { c.early = false; }),
           without("without ahead", [](Coupling& c) { c.ahead = false; }),
           without("without wishes", [](Coupling& c) { c.wishes = false; }),
-          without("without its route", [](Coupling& c) { c.on_route = false; }),
+          without("without route", [](Coupling& c) { c.on_route = false; }),
           without("as it is", [](Coupling&) {})};
 }
 
