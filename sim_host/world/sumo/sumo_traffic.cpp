@@ -208,7 +208,8 @@ void SumoTraffic::put_ego(const CarState& place) {
   const Vec2 bumper = ahead_of(place, 0.5 * place.length_m);
   Writer value;
   value.compound(6).typed_text("").typed_integer(-1).typed_real(bumper.x).typed_real(bumper.y);
-  value.typed_real(compass_deg(place.heading_rad)).typed_byte(coupling_.on_route && !lost ? kRouteOrNone : kAnyOrNone);
+  value.typed_real(compass_deg(place.heading_rad))
+      .typed_byte(coupling_.on_route && !lost ? kRouteOrNone : kAnyOrNone);
   sumo_.client->set(Domain::kVehicle, traci::kMoveToXy, kEgoName, value);
 }
 
