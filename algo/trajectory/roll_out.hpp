@@ -16,7 +16,7 @@ namespace s4tp {
 void shape_lateral(const ReferenceLine& line, const TrajectoryPoint& start, ReferenceCoordinates where,
                    float length_m, Candidate& candidate);
 
-/// Whether that quintic swings more than 0.3 m wider than it starts, or past the line: wheels turned the
+/// Whether that quintic swings more than 0.3 m wider than it starts, or than it ends: wheels turned the
 /// other way at the start would be turned back over its whole length. It is steered instead (CAND-017).
 [[nodiscard]] bool swings_wide(const Candidate& candidate);
 

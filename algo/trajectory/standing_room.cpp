@@ -23,10 +23,8 @@ Box box_of(const Agent& agent) {
 
 /// Our box with the rear axle `aside_m` left of a point of the centre line.
 Box box_beside(const Pose& centre_line, float aside_m, const Parameters& parameters) {
-  const Point ahead = direction(centre_line.heading_rad);
-  return ego_box(
-      {centre_line.x_m - aside_m * ahead.y_m, centre_line.y_m + aside_m * ahead.x_m, centre_line.heading_rad},
-      parameters);
+  const Point beside = offset_point(centre_line, 0.0F, aside_m);
+  return ego_box({beside.x_m, beside.y_m, centre_line.heading_rad}, parameters);
 }
 
 bool leaves_room(const Pose& centre_line, float aside_m, const Box& other, const Parameters& parameters) {

@@ -13,9 +13,9 @@ inline constexpr float kStandingRoomM = 0.4F;
 [[nodiscard]] bool is_standing(const Agent& agent);
 
 /// Sets EgoPath::aside_m of every path (CAND-018): the least of 0, 0.35 and 0.7 m to either side from which
-/// our box passes all who stand across it, over the next 30 m, with kStandingRoomM. Never beyond the lanes'
-/// edges; who cannot be passed so is not minded, and who stands along the path is a leader, not a bystander.
-/// \pre scene.map is there, or there are no ego paths
+/// our box passes all who stand across or against it, over the next 30 m, with kStandingRoomM. Never beyond
+/// the lanes' edges; who cannot be passed so is not minded, and who stands along the path is a leader, not a
+/// bystander. \pre scene.map is there, or there are no ego paths
 void keep_aside(const Parameters& parameters, Scene& scene);
 
 /// Whether our box, our rear axle driven EgoPath::aside_m beside the centre line of `path` from `from_s_m` to
