@@ -12,7 +12,7 @@ int main(int argc, char** argv) {
   tool.require_subcommand(1);
   const std::vector<Command> commands{add_demo(tool),   add_eval(tool),    add_run(tool),
                                       add_record(tool), add_traffic(tool), add_coupling(tool),
-                                      add_faults(tool), add_risk(tool)};
+                                      add_faults(tool), add_risk(tool),    add_roads(tool)};
   try {
     tool.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

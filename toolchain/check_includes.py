@@ -21,6 +21,7 @@ ALLOWED = {
     "firmware/targets/": ["algo/", "firmware/", "hal/"],
     "sim_host/world/": ["firmware/wire/"],
     "sim_host/metrics/": ["sim_host/world/"],
+    "sim_host/roads/": ["sim_host/world/"],
     **{f"sim_host/{room}/": ["algo/", "firmware/ecu/", "firmware/gate/", "firmware/wire/", "hal/", "sim_host/"]
        for room in ("baselines", "replay", "train", "view", "campaign", "processes", "faults")},
     "sim_host/": ["algo/", "firmware/", "hal/", "sim_host/"],  # main.cpp and its commands

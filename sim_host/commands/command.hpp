@@ -36,6 +36,7 @@ struct Command {
 [[nodiscard]] Command add_coupling(CLI::App& tool);
 [[nodiscard]] Command add_faults(CLI::App& tool);
 [[nodiscard]] Command add_risk(CLI::App& tool);
+[[nodiscard]] Command add_roads(CLI::App& tool);
 
 /// Options that commands share, with the same words and meaning everywhere.
 struct CommonOptions {
