@@ -43,10 +43,7 @@ UpdateResult EcuCore::update_parameters(const Parameters& parameters, std::uint3
 
 void EcuCore::control_tick() {
   take_frames();
-  const std::uint32_t boundary = inputs_.now_ms() / kPeriodMs;
-  const bool passed = boundary_known_ && boundary != boundary_;
-  boundary_known_ = inputs_.ego_known();
-  boundary_ = boundary;
+  const bool passed = pass_time();
   if (passed) take_result();
   supervise();
   change_mode();
@@ -84,6 +81,18 @@ void EcuCore::take_frames() {
   inputs_.close_tick();
 }
 
+bool EcuCore::pass_time() {
+  const std::uint32_t now_ms = inputs_.now_ms();
+  plan_age_.pass(now_ms - last_ms_);
+  last_ms_ = now_ms;
+  if (!boundary_known_) boundary_ms_ = now_ms - now_ms % kPeriodMs;
+  const std::uint32_t since_ms = now_ms - boundary_ms_;
+  boundary_ms_ += since_ms - since_ms % kPeriodMs;
+  const bool passed = boundary_known_ && since_ms >= kPeriodMs;
+  boundary_known_ = inputs_.ego_known();
+  return passed;
+}
+
 void EcuCore::take_result() {
   // Read once: whether this boundary finds the planner busy decides all that follows, and a log shows it.
   planning_idle_ = snapshots_.drained() && !miss_injected_;
@@ -101,12 +110,12 @@ void EcuCore::take_result() {
   statistics_.last = result.cycles;
   if (result.cycles > statistics_.maximum) statistics_.maximum = result.cycles;
 
-  plan_late_ = result.start_ms != boundary_ * kPeriodMs;
+  plan_late_ = result.start_ms != boundary_ms_;
   if (plan_late_) return;  // its instant has passed
   if (result.plan.kind == PlanKind::kNone || refused_ || !is_finite(result.plan)) return;
   plan_ = result.plan;
   explanation_ = result.explanation;
-  plan_since_ms_ = inputs_.now_ms();
+  plan_age_.renew();
   ++plan_sequence_;
   PlanRecord record;
   record.computed_ms = result.computed_ms;
@@ -120,7 +129,7 @@ void EcuCore::take_result() {
 void EcuCore::supervise() {
   Observations observed;
   inputs_.observe(observed);
-  if (plan_.kind != PlanKind::kNone) observed.plan_age_ms = inputs_.now_ms() - plan_since_ms_;
+  observed.plan_age_ms = plan_age_.ms();
   observed.plan_late = plan_late_;
   observed.refused = refused_;
   observed.gate_denied = gate_denied_;
@@ -159,7 +168,7 @@ void EcuCore::give_snapshot() {
   if (snapshot == nullptr) return;
   PlannerInput& input = snapshot->input;
   input.now_ms = inputs_.now_ms();
-  input.start_ms = (boundary_ + 1U) * kPeriodMs;
+  input.start_ms = boundary_ms_ + kPeriodMs;
   input.ego = inputs_.ego();
   input.tracks = inputs_.tracks();
   input.tracks_ms = inputs_.tracks_ms();
@@ -226,7 +235,7 @@ void EcuCore::report(const gate::Command& command) {
     status.faults = faults_;
     status.planner = planner_status_;
     status.plan_kind = plan_.kind;
-    status.plan_age_ms = plan_.kind == PlanKind::kNone ? kNeverMs : inputs_.now_ms() - plan_since_ms_;
+    status.plan_age_ms = plan_age_.ms();
     status.deadline_misses = statistics_.slips;
     status.rejected_frames = inputs_.rejected_frames();
     reporter_.status(can, status);

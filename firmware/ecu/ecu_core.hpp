@@ -62,6 +62,8 @@ class EcuCore {
 
  private:
   void take_frames();
+  /// \return whether a boundary has passed since the last tick
+  [[nodiscard]] bool pass_time();
   void take_result();
   void give_snapshot();
   void supervise();
@@ -88,9 +90,10 @@ class EcuCore {
   Explanation explanation_;
   Status planner_status_ = Status::kNotInitialized;
   CycleStatistics statistics_;
-  std::uint32_t plan_since_ms_ = 0;
+  Age plan_age_;  ///< since it took effect
   std::uint32_t plan_sequence_ = 0;
-  std::uint32_t boundary_ = 0;  ///< vehicle time / 100 ms
+  std::uint32_t last_ms_ = 0;      ///< vehicle time of the last tick
+  std::uint32_t boundary_ms_ = 0;  ///< the newest one, in steps of 100 ms from a whole one on
   std::uint32_t ticks_ = 0;
   std::uint32_t well_ticks_ = 0;
   Mode mode_ = Mode::kStandby;

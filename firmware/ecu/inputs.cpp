@@ -6,7 +6,7 @@
 namespace s4tp::ecu {
 namespace {
 
-constexpr std::uint32_t kListAgeMaxMs = 1000;
+constexpr std::int32_t kListAgeMaxMs = 1000;
 constexpr std::uint32_t kMapAgeMaxMs = 5000;
 constexpr std::int32_t kIntervalMinMs = 8;
 constexpr std::int32_t kIntervalMaxMs = 12;
@@ -22,10 +22,6 @@ Track to_track(const wire::Track& from) {
   to.length_m = clamp(from.length_m, 0.5F, 25.0F);
   to.width_m = clamp(from.width_m, 0.3F, 3.0F);
   return to;
-}
-
-std::uint32_t age(bool seen, std::uint32_t seen_ms, std::uint32_t now_ms) {
-  return seen ? now_ms - seen_ms : kNeverMs;
 }
 
 }  // namespace
@@ -150,25 +146,20 @@ void Inputs::close_tick() {
     clock_.coast();
     if (motion_missing_ticks_ != kNeverMs) ++motion_missing_ticks_;
   }
-  const std::uint32_t now_ms = clock_.now_ms();
+  const std::uint32_t passed_ms = clock_.now_ms() - last_close_ms_;
+  last_close_ms_ = clock_.now_ms();
+  Age* const ages[] = {&pose_age_, &steering_age_, &tracks_age_, &map_age_};
+  for (Age* const age : ages) age->pass(passed_ms);
   if (pose_new_) {
     ego_.rear_axle = {pose_.x_m, pose_.y_m, wrap_angle(pose_.heading_rad)};
     move_ego(pose_.age_10ms * 10U);
-    pose_seen_ms_ = now_ms;
-    pose_seen_ = true;
+    pose_age_.renew();
   } else {
-    move_ego(now_ms - last_close_ms_);
+    move_ego(passed_ms);
   }
-  if (steering_new_) {
-    steering_seen_ms_ = now_ms;
-    steering_seen_ = true;
-  }
+  if (steering_new_) steering_age_.renew();
   if (tracks_new_) take_tracks();
-  if (map_confirmed_) {
-    map_seen_ms_ = now_ms;
-    map_seen_ = true;
-  }
-  last_close_ms_ = now_ms;
+  if (map_confirmed_) map_age_.renew();
 
   motion_receiver_.tick();
   steering_receiver_.tick();
@@ -183,9 +174,9 @@ void Inputs::close_tick() {
 void Inputs::take_tracks() {
   const wire::Tracks& list = track_receiver_.tracks();
   const std::uint32_t list_ms = clock_.extend(list.vehicle_time_ms);
-  const std::uint32_t now_ms = clock_.now_ms();
-  const bool plausible = list_ms <= now_ms + kTickMs && list_ms + kListAgeMaxMs > now_ms;
-  const bool newer = !tracks_seen_ || list_ms > tracks_ms_;
+  const std::int32_t age_ms = elapsed_ms(list_ms, clock_.now_ms());
+  const bool plausible = age_ms >= -static_cast<std::int32_t>(kTickMs) && age_ms < kListAgeMaxMs;
+  const bool newer = !tracks_age_.known() || elapsed_ms(tracks_ms_, list_ms) > 0;
   if (!clock_.started() || !plausible || !newer) {
     ++rejected_;
     return;
@@ -193,8 +184,7 @@ void Inputs::take_tracks() {
   tracks_.clear();
   for (int i = 0; i < list.count; ++i) static_cast<void>(tracks_.push(to_track(list.items[i])));
   tracks_ms_ = list_ms;
-  tracks_seen_ms_ = now_ms;
-  tracks_seen_ = true;
+  tracks_age_.renew();
 }
 
 void Inputs::move_ego(std::uint32_t duration_ms) {
@@ -209,8 +199,7 @@ void Inputs::move_ego(std::uint32_t duration_ms) {
 }
 
 const wire::Map* Inputs::map() const {
-  const bool lost = age(map_seen_, map_seen_ms_, now_ms()) >= kMapAgeMaxMs;
-  return lost ? nullptr : &map_receiver_.map();
+  return map_age_.ms() >= kMapAgeMaxMs ? nullptr : &map_receiver_.map();
 }
 
 std::uint32_t Inputs::rejected_frames() const {
@@ -220,10 +209,10 @@ std::uint32_t Inputs::rejected_frames() const {
 void Inputs::observe(Observations& observed) const {
   observed.motion_missing_ticks = motion_missing_ticks_;
   observed.motion_mistimed_ticks = motion_mistimed_ticks_;
-  observed.pose_age_ms = age(pose_seen_, pose_seen_ms_, now_ms());
-  observed.steering_age_ms = age(steering_seen_, steering_seen_ms_, now_ms());
-  observed.tracks_age_ms = age(tracks_seen_, tracks_seen_ms_, now_ms());
-  observed.map_age_ms = age(map_seen_, map_seen_ms_, now_ms());
+  observed.pose_age_ms = pose_age_.ms();
+  observed.steering_age_ms = steering_age_.ms();
+  observed.tracks_age_ms = tracks_age_.ms();
+  observed.map_age_ms = map_age_.ms();
   observed.version_mismatch = version_ == Version::kDiffers;
   observed.driver_override = driver_override_;
 }

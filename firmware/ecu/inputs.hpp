@@ -50,7 +50,7 @@ class Inputs {
   /// rate until the next. ECU-062 Values outside the ranges of world_state.hpp are brought to their bounds.
   [[nodiscard]] const EgoState& ego() const { return ego_; }
   [[nodiscard]] bool motion_fresh() const { return motion_missing_ticks_ == 0; }  ///< in this tick
-  [[nodiscard]] bool ego_known() const { return motion_seen_ && pose_seen_; }
+  [[nodiscard]] bool ego_known() const { return motion_seen_ && pose_age_.known(); }
 
   /// ECU-063 The newest whole list. A list not newer than the one before, from the future or more than 1 s
   /// old is refused. No vehicle is dropped for its numbers: they are brought to their bounds (ECU-062).
@@ -101,10 +101,10 @@ class Inputs {
   std::uint32_t last_close_ms_ = 0;
   std::uint32_t motion_missing_ticks_ = kNeverMs;
   std::uint32_t motion_mistimed_ticks_ = 0;
-  std::uint32_t pose_seen_ms_ = 0;
-  std::uint32_t steering_seen_ms_ = 0;
-  std::uint32_t tracks_seen_ms_ = 0;
-  std::uint32_t map_seen_ms_ = 0;
+  Age pose_age_;
+  Age steering_age_;
+  Age tracks_age_;
+  Age map_age_;  ///< since it was confirmed
   std::uint32_t map_revision_ = 0;
   std::uint32_t accepted_ = 0;
   std::uint32_t rejected_ = 0;
@@ -117,11 +117,7 @@ class Inputs {
   bool driver_override_ = false;
 
   bool motion_seen_ = false;  ///< ever
-  bool pose_seen_ = false;
-  bool steering_seen_ = false;
-  bool tracks_seen_ = false;
-  bool map_seen_ = false;
-  bool motion_new_ = false;  ///< in this tick
+  bool motion_new_ = false;   ///< in this tick
   bool pose_new_ = false;
   bool steering_new_ = false;
   bool tracks_new_ = false;

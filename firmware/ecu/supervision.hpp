@@ -4,11 +4,10 @@
 #include <cstdint>
 
 #include "firmware/ecu/modes.hpp"
+#include "firmware/ecu/vehicle_clock.hpp"
 #include "hal/can.hpp"
 
 namespace s4tp::ecu {
-
-inline constexpr std::uint32_t kNeverMs = 0xFFFFFFFFU;  ///< age of what has not been seen yet
 
 /// Ages are of vehicle time, since the last valid arrival.
 struct Observations {

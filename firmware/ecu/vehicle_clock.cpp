@@ -22,7 +22,7 @@ std::int32_t VehicleClock::update(std::uint16_t stamp_ms) {
   const std::int32_t interval_ms = difference(stamp_ms, last_stamp_ms_);
   if (interval_ms > 0) {
     const std::uint32_t stamped_ms = last_ms_ + static_cast<std::uint32_t>(interval_ms);
-    if (stamped_ms > now_ms_) now_ms_ = stamped_ms;
+    if (elapsed_ms(now_ms_, stamped_ms) > 0) now_ms_ = stamped_ms;
   } else {
     coast();
   }
@@ -36,10 +36,7 @@ void VehicleClock::coast() {
 }
 
 std::uint32_t VehicleClock::extend(std::uint16_t stamp_ms) const {
-  const std::int32_t ahead_ms = difference(stamp_ms, last_stamp_ms_);
-  if (ahead_ms >= 0) return last_ms_ + static_cast<std::uint32_t>(ahead_ms);
-  const auto behind_ms = static_cast<std::uint32_t>(-ahead_ms);
-  return behind_ms < last_ms_ ? last_ms_ - behind_ms : 0U;
+  return last_ms_ + static_cast<std::uint32_t>(difference(stamp_ms, last_stamp_ms_));
 }
 
 }  // namespace s4tp::ecu

@@ -1,11 +1,34 @@
 #pragma once
-/// Vehicle time: the motion frame's 16-bit milliseconds, extended to 32 bit.
+/// Vehicle time: the motion frame's 16-bit milliseconds, extended to 32 bit. ECU-072 Those wrap, after 49.7
+/// days: times are compared by their difference, and ages are counted, not subtracted.
 
 #include <cstdint>
 
 namespace s4tp::ecu {
 
-inline constexpr std::uint32_t kTickMs = 10;  ///< control period
+inline constexpr std::uint32_t kTickMs = 10;            ///< control period
+inline constexpr std::uint32_t kNeverMs = 0xFFFFFFFFU;  ///< age of what has not been seen yet
+
+/// How much later `to_ms` is, negative for earlier; right for times up to 24 days apart.
+[[nodiscard]] constexpr std::int32_t elapsed_ms(std::uint32_t from_ms, std::uint32_t to_ms) {
+  return static_cast<std::int32_t>(to_ms - from_ms);
+}
+
+/// How long ago something was, however long that is.
+class Age {
+ public:
+  void renew() { ms_ = 0; }
+  void pass(std::uint32_t duration_ms) {
+    if (ms_ == kNeverMs) return;
+    ms_ = ms_ < kOldestMs - duration_ms ? ms_ + duration_ms : kOldestMs;
+  }
+  [[nodiscard]] std::uint32_t ms() const { return ms_; }
+  [[nodiscard]] bool known() const { return ms_ != kNeverMs; }
+
+ private:
+  static constexpr std::uint32_t kOldestMs = kNeverMs - 1U;
+  std::uint32_t ms_ = kNeverMs;
+};
 
 class VehicleClock {
  public:
@@ -20,7 +43,7 @@ class VehicleClock {
   [[nodiscard]] std::uint32_t now_ms() const { return now_ms_; }
   [[nodiscard]] bool started() const { return started_; }
 
-  /// The full time of a 16-bit stamp within half a turn of now; 0 for one before the start.
+  /// The full time of a 16-bit stamp within half a turn of now.
   [[nodiscard]] std::uint32_t extend(std::uint16_t stamp_ms) const;
 
  private:

@@ -306,6 +306,34 @@ TEST(EcuCycle, DrivesStraight) {
   EXPECT_NEAR(rig->plant.speed_mps, 5.0, 0.05);
 }
 
+// ECU-072: frames 32.767 s apart bring vehicle time to 25 s before the end of its 32 bits. From there the car
+// drives for 40 s, across the end: no fault, and each 100 ms the plan that was asked for.
+TEST(EcuCycle, DrivesOnAcrossTheEndOfTime) {
+  Rig rig;
+  ASSERT_EQ(rig.start(), Status::kOk);
+  rig.steering = rig.pose = rig.tracks = rig.map = rig.version = false;
+  rig.interval_ms = 32767;
+  while (rig.ecu.core().now_ms() < 0xFFFFFFFFU - 25'000U - 32'767U) rig.tick();
+  rig.steering = rig.pose = rig.tracks = rig.map = rig.version = true;
+  rig.interval_ms = 10;
+  while (rig.ecu.core().now_ms() < 0xFFFFFFFFU - 25'000U) rig.tick();
+  rig.plant.speed_mps = 5.0;
+  ASSERT_TRUE(rig.drive());
+  rig.seconds(0.5);
+  const std::uint32_t began_ms = rig.ecu.core().now_ms();
+  for (int i = 0; i < 4000; ++i) {
+    const std::uint32_t before_ms = rig.ecu.plan().start_ms;
+    rig.tick();
+    ASSERT_EQ(rig.ecu.faults(), 0) << i;
+    ASSERT_EQ(rig.ecu.mode(), Mode::kDriving) << i;
+    ASSERT_LT(rig.ecu.core().now_ms() - rig.ecu.plan().start_ms, 100U) << i;
+    if (rig.ecu.plan().start_ms != before_ms) {
+      ASSERT_EQ(rig.ecu.plan().start_ms, before_ms + 100U) << i;
+    }
+  }
+  EXPECT_LT(rig.ecu.core().now_ms(), began_ms);
+}
+
 // The two contexts on two threads (run under the thread sanitizer too): control never waits, plans arrive,
 // and every plan in force starts at a boundary.
 TEST(EcuCycle, TwoThreads) {

@@ -7,6 +7,7 @@
 #include <limits>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "algo/core/versions.hpp"
 #include "algo/planner/planner.hpp"
@@ -159,6 +160,38 @@ TEST_F(CFacade, PlansAsThePlannerDoes) {
     tracks.items[0].x_m -= 1.0F;
   }
   EXPECT_EQ(driven, 10);
+}
+
+// Times wrap: a drive across 2^32 ms has the plans of the same drive an hour after the start, to the bit.
+TEST_F(CFacade, PlansTheSameAcrossTheEndOfTime) {
+  const auto drive = [this](std::uint32_t begin_ms) {
+    EXPECT_EQ(s4tp_init(block.get(), nullptr, nullptr), S4TP_OK);
+    std::vector<s4tp_plan> plans;
+    input.now_ms = begin_ms;
+    input.ego = {-30.0F, -1.6F, 0.0F, 8.0F, 0.0F, 0.0F, 0.0F};
+    input.running = nullptr;
+    tracks.items[0].x_m = 40.0F;
+    for (int cycle = 0; cycle < 20; ++cycle) {
+      input.start_ms = input.now_ms + 100U;
+      tracks.time_ms = input.now_ms - 30U;
+      EXPECT_EQ(plan_now(), S4TP_OK) << cycle;
+      EXPECT_EQ(plan.start_ms, input.start_ms);
+      plans.push_back(plan);
+      plans.back().start_ms = 0;
+      input.running = &plan;
+      input.now_ms += 100U;
+      s4tp_plan_point now;
+      EXPECT_EQ(s4tp_sample(&plan, input.now_ms, &now), S4TP_OK);
+      input.ego = {now.x_m, now.y_m, now.heading_rad, now.speed_mps, 0.0F, 0.0F, 0.0F};
+      tracks.items[0].x_m -= 1.0F;
+    }
+    return plans;
+  };
+  const std::vector<s4tp_plan> later = drive(3'600'000U);
+  const std::vector<s4tp_plan> across = drive(0xFFFFFFFFU - 1049U);
+  for (std::size_t i = 0; i < later.size(); ++i) {
+    EXPECT_EQ(std::memcmp(&later[i], &across[i], sizeof(s4tp_plan)), 0) << i;
+  }
 }
 
 // API-012: whatever is wrong in map, list, running plan or own state, the answer is a plan that comes to

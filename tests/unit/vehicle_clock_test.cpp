@@ -51,7 +51,8 @@ TEST(VehicleClock, NeverRunsBack) {
   EXPECT_EQ(clock.now_ms(), 1030U);
 }
 
-// A stamp 100 ms old keeps its distance across the wrap; before the start of time it is 0.
+// ECU-072: a stamp 100 ms old keeps its distance across the wrap, be it that of 16 bits or that of 32: 586 ms
+// before a start at 50 is 2^32 - 536.
 TEST(VehicleClock, ExtendsOtherStamps) {
   VehicleClock clock;
   (void)clock.update(65500);
@@ -61,7 +62,43 @@ TEST(VehicleClock, ExtendsOtherStamps) {
   EXPECT_EQ(clock.extend(30), 65566U);
   VehicleClock young;
   (void)young.update(50);
-  EXPECT_EQ(young.extend(65000), 0U);
+  EXPECT_EQ(young.extend(65000), 0xFFFFFFFFU - 535U);
+  EXPECT_EQ(elapsed_ms(young.extend(65000), young.now_ms()), 586);
+}
+
+// ECU-072: stamps 32767 ms apart reach the end of 32 bits; from there on 10 ms are 10 ms as before, with a
+// stamp or without one.
+TEST(VehicleClock, WrapsWithoutNotice) {
+  VehicleClock clock;
+  std::uint16_t stamp_ms = 0;
+  (void)clock.update(stamp_ms);
+  while (clock.now_ms() < 0xFFFF0000U)
+    (void)clock.update(stamp_ms = static_cast<std::uint16_t>(stamp_ms + 32767U));
+  std::uint32_t now_ms = clock.now_ms();
+  for (int i = 0; i < 20'000; ++i) {
+    stamp_ms = static_cast<std::uint16_t>(stamp_ms + 10U);
+    if (i % 7 == 3) {
+      clock.coast();
+    } else {
+      ASSERT_EQ(clock.update(stamp_ms), i % 7 == 4 ? 20 : 10);
+    }
+    ASSERT_EQ(clock.now_ms(), now_ms += 10U) << i;
+  }
+  EXPECT_LT(now_ms, 0x10000U * 4U);
+}
+
+// ECU-072: an age is counted: it is not young again after 2^32 ms, and what was never seen never was.
+TEST(VehicleClock, AgesDoNotWrap) {
+  Age age;
+  age.pass(1000);
+  EXPECT_FALSE(age.known());
+  age.renew();
+  for (int i = 0; i < 5; ++i) age.pass(0x40000000U);
+  EXPECT_TRUE(age.known());
+  EXPECT_EQ(age.ms(), kNeverMs - 1U);
+  age.renew();
+  age.pass(10);
+  EXPECT_EQ(age.ms(), 10U);
 }
 
 }  // namespace
