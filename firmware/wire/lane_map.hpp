@@ -4,9 +4,9 @@
 /// use holds the record the header's digest was made of; until then the previous whole one stands and ages.
 ///
 /// Lane slots in use are listed in two bit fields. Conflict slots are in use from 0 up to the last one
-/// present; a hole among them travels as a record of lane 0 with itself. The digest is a CRC-16 over slot and
-/// content of every record in use, lanes first (map_record.hpp): a record left over from 16 revisions ago has
-/// the right revision, but not the right content.
+/// present; a hole among them travels as a record of lane 0 with itself. The digest is the sum of the checks
+/// (crc16.hpp) of all frames of the records in use, each of which says its slot: a record left over from 16
+/// revisions ago has the right revision, but not the right content.
 
 #include <cstdint>
 
@@ -117,7 +117,8 @@ class MapSender {
   std::uint32_t repeated_ms_ = 0;  ///< when the latest repetition was due
 };
 
-/// Puts the map together.
+/// Puts the map together. WIRE-035 A frame changes the digest by what it changes itself: a burst costs no
+/// more for the size of the map.
 class MapReceiver {
  public:
   /// Takes a frame of one of the map messages. \return whether a new whole map has just become available
@@ -160,6 +161,9 @@ class MapReceiver {
   [[nodiscard]] bool accept_lane_part(const Frame& frame);
   template <typename Message>
   [[nodiscard]] bool accept_conflict_part(const Frame& frame);
+  void sum_up();
+  [[nodiscard]] std::uint16_t lane_check(int slot) const;
+  [[nodiscard]] std::uint16_t conflict_check(int slot) const;
   [[nodiscard]] bool complete() const;
   [[nodiscard]] bool plausible() const;
   [[nodiscard]] bool finish_if_whole();
@@ -178,7 +182,8 @@ class MapReceiver {
   bool revised_ = false;  ///< a record took another revision since whole_ was made
   std::uint8_t generation_ = 0;
   std::uint32_t in_use_[2] = {};
-  std::uint8_t halves_ = 0;  ///< bit i: in_use_[i] arrived
+  std::uint8_t halves_ = 0;   ///< bit i: in_use_[i] arrived
+  std::uint16_t digest_ = 0;  ///< of the records in use, as far as they are there
   std::uint16_t rejected_ = 0;
 };
 

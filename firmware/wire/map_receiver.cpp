@@ -1,4 +1,5 @@
 #include "firmware/wire/codec.hpp"
+#include "firmware/wire/crc16.hpp"
 #include "firmware/wire/lane_map.hpp"
 #include "firmware/wire/map_record.hpp"
 
@@ -98,6 +99,7 @@ bool MapReceiver::Progress<Parts>::open(std::uint8_t new_revision, Record& recor
   if (revision == new_revision) return false;
   revision = new_revision;
   parts = 0;
+  for (std::uint16_t& check : checks) check = 0;
   record = Record{};
   return true;
 }
@@ -157,6 +159,7 @@ bool MapReceiver::accept_header(const Frame& frame) {
   header_seen_ = true;
   generation_ = header.generation;
   announced_ = announced;
+  sum_up();
   confirmed_ = have_whole_ && announced_.same(whole_announced_);
   return finish_if_whole();
 }
@@ -170,6 +173,7 @@ bool MapReceiver::accept_slots(const Frame& frame) {
   if (!header_seen_ || slots.generation != generation_) return false;
   in_use_[slots.half] = slots.in_use;
   halves_ = static_cast<std::uint8_t>(halves_ | (1U << slots.half));
+  sum_up();
   return finish_if_whole();
 }
 
@@ -182,9 +186,11 @@ bool MapReceiver::accept_lane_part(const Frame& frame) {
   }
   Lane& lane = assembling_.lanes[message.lane];
   auto& progress = lane_progress_[message.lane];
+  const std::uint16_t before = lane_check(message.lane);
   if (progress.open(message.revision, lane)) revised_ = true;
   fill(message, lane);
   progress.note(part_of(message), frame);
+  digest_ = static_cast<std::uint16_t>(digest_ - before + lane_check(message.lane));
   return finish_if_whole();
 }
 
@@ -197,13 +203,30 @@ bool MapReceiver::accept_conflict_part(const Frame& frame) {
   }
   Conflict& conflict = assembling_.conflicts[message.conflict];
   auto& progress = conflict_progress_[message.conflict];
+  const std::uint16_t before = conflict_check(message.conflict);
   if (progress.open(message.revision, conflict)) revised_ = true;
   fill(message, conflict);
   progress.note(part_of(message), frame);
+  digest_ = static_cast<std::uint16_t>(digest_ - before + conflict_check(message.conflict));
   return finish_if_whole();
 }
 
-/// Whether every record in use is there, and as the digest says.
+/// What a record adds to the digest; nothing when it is not in use.
+std::uint16_t MapReceiver::lane_check(int slot) const {
+  return contains(in_use_, slot) ? lane_progress_[slot].check(part_count(assembling_.lanes[slot])) : 0U;
+}
+std::uint16_t MapReceiver::conflict_check(int slot) const {
+  return slot < announced_.conflict_count ? conflict_progress_[slot].check(kConflictParts) : 0U;
+}
+
+void MapReceiver::sum_up() {
+  unsigned sum = 0;
+  for (int slot = 0; slot < kMaxLanes; ++slot) sum += lane_check(slot);
+  for (int slot = 0; slot < kMaxConflicts; ++slot) sum += conflict_check(slot);
+  digest_ = static_cast<std::uint16_t>(sum);
+}
+
+/// Whether every record in use is there.
 bool MapReceiver::complete() const {
   if (halves_ != kBothHalves) return false;
   if (count_bits(in_use_[0]) + count_bits(in_use_[1]) != announced_.lane_count) return false;
@@ -216,15 +239,7 @@ bool MapReceiver::complete() const {
   for (int slot = 0; slot < announced_.conflict_count; ++slot) {
     if (!conflict_progress_[slot].has(kConflictParts)) return false;
   }
-  std::uint16_t digest = kDigestStart;
-  for (int slot = 0; slot < kMaxLanes; ++slot) {
-    if (!contains(in_use_, slot)) continue;
-    digest = add_to_digest(digest, slot, lane_progress_[slot].check(part_count(assembling_.lanes[slot])));
-  }
-  for (int slot = 0; slot < announced_.conflict_count; ++slot) {
-    digest = add_to_digest(digest, kMaxLanes + slot, conflict_progress_[slot].check(kConflictParts));
-  }
-  return digest == announced_.digest;
+  return true;
 }
 
 /// Whether the records fit each other: a sender's fault otherwise.
@@ -241,7 +256,7 @@ bool MapReceiver::plausible() const {
 
 bool MapReceiver::finish_if_whole() {
   const bool nothing_to_gain = confirmed_ && !revised_;
-  if (!header_seen_ || nothing_to_gain || !complete()) return false;
+  if (!header_seen_ || nothing_to_gain || digest_ != announced_.digest || !complete()) return false;
   if (!plausible()) {
     reject();
     halves_ = 0;  // not looked at again before the slots come again

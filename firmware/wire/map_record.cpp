@@ -80,12 +80,6 @@ bool encode_second(const Conflict& conflict, int slot, std::uint8_t revision, Fr
   return encode(second, frame);
 }
 
-std::uint16_t add_to_crc(std::uint16_t crc, unsigned byte) {
-  unsigned sum = crc ^ ((byte & 0xFFU) << 8U);
-  for (int bit = 0; bit < 8; ++bit) sum = (sum & 0x8000U) != 0U ? (sum << 1U) ^ 0x1021U : sum << 1U;
-  return static_cast<std::uint16_t>(sum);
-}
-
 bool exists_or_none(std::uint8_t link, const LaneSet& lanes) {
   return link == kNoLane || contains(lanes, link);
 }
@@ -141,18 +135,6 @@ bool conflict_holds(const Conflict& conflict, const LaneSet& lanes) {
   return conflict.first != conflict.second && contains(lanes, conflict.first) &&
          contains(lanes, conflict.second) && conflict.first_entry_m <= conflict.first_exit_m &&
          conflict.second_entry_m <= conflict.second_exit_m;
-}
-
-std::uint16_t frame_check(const Frame& frame) {
-  std::uint16_t crc = add_to_crc(0xFFFF, frame.id);
-  for (const std::uint8_t byte : frame.data) crc = add_to_crc(crc, byte);
-  return crc;
-}
-
-std::uint16_t add_to_digest(std::uint16_t digest, int record, std::uint16_t check) {
-  digest = add_to_crc(digest, static_cast<unsigned>(record));
-  digest = add_to_crc(digest, check);
-  return add_to_crc(digest, static_cast<unsigned>(check) >> 8U);
 }
 
 }  // namespace s4tp::wire

@@ -32,10 +32,4 @@ using LaneSet = std::uint32_t[2];
 /// Whether a present conflict is one of two lanes that exist, entered before they are left.
 [[nodiscard]] bool conflict_holds(const Conflict& conflict, const LaneSet& lanes);
 
-/// CRC-16 (0x1021, initial 0xFFFF) over a frame. The check of a record is the sum of those of its parts.
-[[nodiscard]] std::uint16_t frame_check(const Frame& frame);
-inline constexpr std::uint16_t kDigestStart = 0xFFFF;
-/// Adds a record to the digest of a map. \param record  lane slot, or kMaxLanes + conflict slot
-[[nodiscard]] std::uint16_t add_to_digest(std::uint16_t digest, int record, std::uint16_t check);
-
 }  // namespace s4tp::wire

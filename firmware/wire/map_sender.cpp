@@ -1,4 +1,5 @@
 #include "firmware/wire/codec.hpp"
+#include "firmware/wire/crc16.hpp"
 #include "firmware/wire/lane_map.hpp"
 #include "firmware/wire/map_record.hpp"
 
@@ -169,9 +170,9 @@ void MapSender::revise(int record) {
 }
 
 void MapSender::make_digest() {
-  digest_ = kDigestStart;
+  digest_ = 0;
   for (int record = 0; record < kRecords; ++record) {
-    if (in_use(record)) digest_ = add_to_digest(digest_, record, progress_[record].check);
+    if (in_use(record)) digest_ = static_cast<std::uint16_t>(digest_ + progress_[record].check);
   }
 }
 

@@ -66,5 +66,11 @@ case $case in
     cat "$scratch/out"
     expect 0 '^reset by the watchdog'
     ;;
+  map_cost) # WIRE-035: map_cost.cpp judges; -icount counts instructions
+    timeout 60 "${runner[@]}" --count "$target" "$image" </dev/null >"$scratch/out"
+    code=$?
+    cat "$scratch/out"
+    expect 0 '^within the limit'
+    ;;
   *) echo "no such case: $case"; exit 2 ;;
 esac

@@ -4,6 +4,8 @@
 
 #include <vector>
 
+#include "firmware/wire/crc16.hpp"
+
 namespace s4tp::wire {
 namespace {
 
@@ -152,6 +154,17 @@ TEST(E2e, OnlyOkAndOkSomeLostAreTrusted) {
   }
   EXPECT_TRUE(E2eReceiver::trusted(kOk));
   EXPECT_TRUE(E2eReceiver::trusted(kOkSomeLost));
+}
+
+// WIRE-004: the check value of CRC-16/CCITT-FALSE, "123456789", is 0x29B1. Of a frame the id counts too.
+TEST(Crc16, IsTheOneEverybodyKnows) {
+  std::uint16_t crc = kCrc16Start;
+  for (const char digit : {'1', '2', '3', '4', '5', '6', '7', '8', '9'}) {
+    crc = crc16_add(crc, static_cast<std::uint8_t>(digit));
+  }
+  EXPECT_EQ(crc, 0x29B1);
+  const Frame frame{'1', 8, {'2', '3', '4', '5', '6', '7', '8', '9'}};
+  EXPECT_EQ(frame_check(frame), 0x29B1);
 }
 
 }  // namespace
