@@ -1,5 +1,7 @@
 #include "firmware/ecu/ecu_core.hpp"
 
+#include "algo/core/check.hpp"
+#include "firmware/ecu/gate_limits.hpp"
 #include "firmware/ecu/map_conversion.hpp"
 #include "firmware/ecu/plan_digest.hpp"
 
@@ -26,9 +28,9 @@ bool refuses(Status status) {
 
 void EcuCore::init(const Parameters& parameters, const Ports& ports, bool refused) {
   ports_ = ports;
-  parameters_ = parameters;
-  parameters_crc_ = parameters_crc(parameters);
   refused_ = refused;
+  int first_bad = 0;
+  if (validate(parameters, first_bad) == Status::kOk) take_parameters(parameters, parameters_crc(parameters));
 }
 
 UpdateResult EcuCore::update_parameters(const Parameters& parameters, std::uint32_t crc) {
@@ -36,9 +38,15 @@ UpdateResult EcuCore::update_parameters(const Parameters& parameters, std::uint3
   if (mode_ != Mode::kStandby) return UpdateResult::kNotNow;
   if (parameters_crc(parameters) != crc) return UpdateResult::kWrongCrc;
   if (validate(parameters, first_bad) != Status::kOk) return UpdateResult::kInvalid;
+  take_parameters(parameters, crc);
+  return UpdateResult::kTaken;
+}
+
+void EcuCore::take_parameters(const Parameters& parameters, std::uint32_t crc) {
   parameters_ = parameters;
   parameters_crc_ = crc;
-  return UpdateResult::kTaken;
+  const bool taken = gate_.set_limits(gate_limits(parameters));
+  S4TP_ASSERT(taken);  // its ranges are wider than those of the parameters
 }
 
 void EcuCore::control_tick() {

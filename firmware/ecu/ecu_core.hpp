@@ -61,6 +61,7 @@ class EcuCore {
   [[nodiscard]] const CycleStatistics& statistics() const { return statistics_; }
 
  private:
+  void take_parameters(const Parameters& parameters, std::uint32_t crc);
   void take_frames();
   /// \return whether a boundary has passed since the last tick
   [[nodiscard]] bool pass_time();

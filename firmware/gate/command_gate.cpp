@@ -9,6 +9,25 @@ namespace {
 constexpr float kTickS = 0.01F;
 constexpr std::uint16_t kNever = 0xFFFF;
 
+/// What a limit may be; nothing is for NaN.
+struct Range {
+  float Limits::*limit;
+  float least;
+  float most;
+};
+constexpr Range kRoadVehicle[] = {
+    {&Limits::acceleration_max_mps2, 0.5F, 8.0F},
+    {&Limits::braking_max_mps2, 3.0F, 12.0F},
+    {&Limits::jerk_up_max_mps3, 5.0F, 50.0F},
+    {&Limits::steering_max_rad, 0.1F, 0.8F},
+    {&Limits::steering_rate_max_radps, 0.05F, 2.5F},
+    {&Limits::lateral_acceleration_max_mps2, 1.0F, 9.0F},
+    {&Limits::wheelbase_m, 1.0F, 8.0F},
+    {&Limits::speed_max_mps, 5.0F, 60.0F},
+    {&Limits::gentle_braking_mps2, 1.0F, 5.0F},
+};
+constexpr std::uint8_t kMotionAgeMostTicks = 20;
+
 /// False for NaN and infinity too: no command of a car comes near the bound.
 bool is_finite(float x) {
   return x >= -1e6F && x <= 1e6F;
@@ -39,6 +58,16 @@ float lateral_bound(const Limits& limits, float speed_mps) {
 }
 
 }  // namespace
+
+bool CommandGate::set_limits(const Limits& limits) {
+  for (const Range& range : kRoadVehicle) {
+    const float limit = limits.*range.limit;
+    if (!(limit >= range.least && limit <= range.most)) return false;
+  }
+  if (limits.motion_age_max_ticks > kMotionAgeMostTicks) return false;
+  limits_ = limits;
+  return true;
+}
 
 void CommandGate::observe(const wire::Frame& frame) {
   if (frame.id != wire::kMotionId || !wire::e2e_crc_fits(frame)) return;

@@ -15,12 +15,12 @@
 
 namespace s4tp::gate {
 
-/// What the actuators may be asked for.
+/// What the actuators may be asked for. The values here are those of the default vehicle.
 struct Limits {
   float acceleration_max_mps2 = 3.5F;          ///< GATE-001 drive
   float braking_max_mps2 = 9.0F;               ///< GATE-002 braking, positive; full braking on dry road
   float jerk_up_max_mps3 = 20.0F;              ///< GATE-003 rise of acceleration; braking is not limited
-  float steering_max_rad = 0.55F;              ///< GATE-004 at most 0.8
+  float steering_max_rad = 0.55F;              ///< GATE-004
   float steering_rate_max_radps = 0.7F;        ///< GATE-005
   float lateral_acceleration_max_mps2 = 6.0F;  ///< GATE-006 v^2 tan(steering) / wheelbase, at its own v
   float wheelbase_m = 2.9F;                    ///< of the vehicle the gate guards
@@ -50,6 +50,10 @@ inline constexpr Violations kNotFinite = 1U << 9;  ///< GATE-010 NaN or infinite
 class CommandGate {
  public:
   explicit CommandGate(const Limits& limits) : limits_(limits) {}
+
+  /// GATE-013 Another vehicle's limits from now on, if each is in the range of road vehicles
+  /// (command_gate.cpp); else nothing changes. \return whether they are in force
+  [[nodiscard]] bool set_limits(const Limits& limits);
 
   /// GATE-011 Shows the gate a raw frame from the bus; it picks and verifies the motion frame by itself: a
   /// wrong CRC or a repeated counter is no news.

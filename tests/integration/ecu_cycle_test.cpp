@@ -7,6 +7,7 @@
 #include <map>
 #include <thread>
 
+#include "firmware/ecu/gate_limits.hpp"
 #include "firmware/ecu/plan_digest.hpp"
 #include "tests/support/ecu_rig.hpp"
 
@@ -285,6 +286,65 @@ TEST(EcuParameters, UpdateInStandby) {
   EXPECT_EQ(rig.ecu.planner().inits, inits + 1);
   ASSERT_GE(rig.until(Mode::kReady), 0);
   EXPECT_EQ(rig.ecu.update_parameters(parameters, parameters_crc(parameters)), UpdateResult::kNotNow);
+}
+
+// ECU-094: the default vehicle's limits are the gate's own; and at either end of every parameter's range they
+// are such that the gate takes them.
+TEST(EcuParameters, MakeTheGatesLimits) {
+  const gate::Limits usual;
+  const gate::Limits made = gate_limits(Parameters{});
+  EXPECT_FLOAT_EQ(made.acceleration_max_mps2, usual.acceleration_max_mps2);
+  EXPECT_FLOAT_EQ(made.braking_max_mps2, usual.braking_max_mps2);
+  EXPECT_FLOAT_EQ(made.steering_max_rad, usual.steering_max_rad);
+  EXPECT_FLOAT_EQ(made.steering_rate_max_radps, usual.steering_rate_max_radps);
+  EXPECT_FLOAT_EQ(made.lateral_acceleration_max_mps2, usual.lateral_acceleration_max_mps2);
+  EXPECT_FLOAT_EQ(made.wheelbase_m, usual.wheelbase_m);
+  gate::CommandGate gate{usual};
+  for (int i = 0; i < kParameterCount; ++i) {
+    for (const float end : {parameter_info(i).minimum, parameter_info(i).maximum}) {
+      Parameters parameters;
+      set_parameter(parameters, i, end);
+      EXPECT_TRUE(gate.set_limits(gate_limits(parameters))) << parameter_info(i).name;
+    }
+  }
+}
+
+// ECU-094: a plan's curve of 25 m at 10 m/s, 4 m/s^2, is let through to a vehicle of 6 m between its axles;
+// one of 10 m, 10 m/s^2, is brought down to 6 m/s^2 for one of 1.5 m. (For 2.9 m the gate would cut the first
+// at 2.9 m/s^2 and let the second have 11.) Set in standby, the limits hold as those given at the start do.
+TEST(EcuParameters, TheGateGuardsTheVehicleTheyDescribe) {
+  const auto most_lateral_mps2 = [](float wheelbase_m, float curvature_1pm, bool later) {
+    Parameters parameters;
+    parameters.vehicle.wheelbase_m = wheelbase_m;
+    Rig rig;
+    EXPECT_EQ(rig.start(later ? Parameters{} : parameters), Status::kOk);
+    rig.ticks(20);
+    if (later) {
+      EXPECT_EQ(rig.ecu.update_parameters(parameters, parameters_crc(parameters)), UpdateResult::kTaken);
+    }
+    rig.plant.speed_mps = 10.0;
+    rig.ecu.planner().make = [curvature_1pm](const PlannerInput& input, Plan& plan) {
+      for (int i = 0; i < kTrajectoryPoints; ++i) {
+        TrajectoryPoint& point = plan.trajectory.points[i];
+        point.rear_axle = shift_ahead(input.ego.rear_axle, static_cast<float>(i + 1));
+        point.speed_mps = 10.0F;
+        point.curvature_1pm = curvature_1pm;
+      }
+    };
+    EXPECT_TRUE(rig.drive());
+    double most_mps2 = 0.0;
+    for (int i = 0; i < 50; ++i) {
+      rig.tick();
+      const double curvature =
+          std::tan(static_cast<double>(rig.command.steering_rad)) / static_cast<double>(wheelbase_m);
+      most_mps2 = std::max(most_mps2, curvature * rig.plant.speed_mps * rig.plant.speed_mps);
+    }
+    return most_mps2;
+  };
+  for (const bool later : {false, true}) {
+    EXPECT_GT(most_lateral_mps2(6.0F, 0.04F, later), 3.2);
+    EXPECT_NEAR(most_lateral_mps2(1.5F, 0.1F, later), 6.0, 0.1);
+  }
 }
 
 // The whole loop: 10 s on the straight at 8 m/s with the planner carrying its own plan on: no fault, 2 cm

@@ -326,5 +326,54 @@ TEST(Gate, TakesOverFromRestUnheard) {
   EXPECT_FLOAT_EQ(fresh.ask({1.0F, 0.1F}).acceleration_mps2, 0.2F);
 }
 
+// GATE-013: each limit may be what it is on some road vehicle, to the last bit; anything else, or NaN,
+// changes nothing.
+TEST(Gate, TakesLimitsOfRoadVehiclesOnly) {
+  const struct {
+    float Limits::*limit;
+    float least;
+    float most;
+  } ranges[] = {{&Limits::acceleration_max_mps2, 0.5F, 8.0F},
+                {&Limits::braking_max_mps2, 3.0F, 12.0F},
+                {&Limits::jerk_up_max_mps3, 5.0F, 50.0F},
+                {&Limits::steering_max_rad, 0.1F, 0.8F},
+                {&Limits::steering_rate_max_radps, 0.05F, 2.5F},
+                {&Limits::lateral_acceleration_max_mps2, 1.0F, 9.0F},
+                {&Limits::wheelbase_m, 1.0F, 8.0F},
+                {&Limits::speed_max_mps, 5.0F, 60.0F},
+                {&Limits::gentle_braking_mps2, 1.0F, 5.0F}};
+  CommandGate gate{Limits{}};
+  const auto takes = [&gate](float Limits::*limit, float value) {
+    Limits limits;
+    limits.*limit = value;
+    return gate.set_limits(limits);
+  };
+  for (const auto& range : ranges) {
+    EXPECT_TRUE(takes(range.limit, range.least));
+    EXPECT_TRUE(takes(range.limit, range.most));
+    EXPECT_FALSE(takes(range.limit, std::nextafter(range.least, -1.0F)));
+    EXPECT_FALSE(takes(range.limit, std::nextafter(range.most, 100.0F)));
+    EXPECT_FALSE(takes(range.limit, std::numeric_limits<float>::quiet_NaN()));
+  }
+  Limits patient;
+  patient.motion_age_max_ticks = 20;
+  EXPECT_TRUE(gate.set_limits(patient));
+  patient.motion_age_max_ticks = 21;
+  EXPECT_FALSE(gate.set_limits(patient));
+}
+
+// GATE-013: the limits of 2 m/s^2 hold from the next command on, and 9 m/s^2, refused, leave them in force.
+TEST(Gate, NewLimitsHoldAtOnce) {
+  Bench bench;
+  Limits weak;
+  weak.acceleration_max_mps2 = 2.0F;
+  ASSERT_TRUE(bench.gate.set_limits(weak));
+  EXPECT_EQ(bench.settle({3.0F, 0.0F}).acceleration_mps2, 2.0F);
+  Limits absurd;
+  absurd.acceleration_max_mps2 = 9.0F;
+  ASSERT_FALSE(bench.gate.set_limits(absurd));
+  EXPECT_EQ(bench.settle({3.0F, 0.0F}).acceleration_mps2, 2.0F);
+}
+
 }  // namespace
 }  // namespace s4tp::gate
