@@ -20,6 +20,7 @@ constexpr double kRiseMax_mps3 = 20.0;
 constexpr double kSteeringMax_rad = 0.55;
 constexpr double kSteeringRateMax_radps = 0.7;
 constexpr double kLateralMax_mps2 = 6.0;
+constexpr double kLateralShare = 0.98;
 constexpr double kWheelbase_m = 2.9;
 constexpr double kSpeedMax_mps = 40.0;
 constexpr int kMotionAgeMax_ticks = 10;
@@ -197,8 +198,10 @@ void Judge::check_limits(const wire::Command& command) {
   const double before = std::abs(static_cast<double>(last_.steering_rad));
   const bool turns_back = steering <= before - kSteeringRateMax_radps * kTick_s + 2.0 * half_step;
   demand(steering <= bound_rad + half_step || turns_back, "GATE-006 lateral acceleration");
-  const bool holds =
-      ticks_since_command_ > 0 || step <= 2.0 * half_step || turns_back;  // unheard, it may turn
+  // Stale, it holds the wheels, or turns them back to GATE-006, whose bound the gate has a little lower than
+  // the arc tangent; unheard, it may turn.
+  const bool turns_in = steering <= before && steering >= kLateralShare * bound_rad - half_step;
+  const bool holds = ticks_since_command_ > 0 || step <= 2.0 * half_step || turns_back || turns_in;
   demand(!stale || holds, "GATE-008 stale, but steering");
 }
 

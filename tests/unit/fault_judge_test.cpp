@@ -235,6 +235,30 @@ TEST(FaultJudge, StaleMotionMustBrake) {
   EXPECT_EQ(bench.ticks(1), Breach::kLimits);
 }
 
+// FAULT-011: told 20 m/s, the gate may let the wheels be at atan(6 x 2.9 / 400) = 0.0435 rad, and they turn
+// back from 0.2 rad by 0.007 rad a tick: 22 ticks, and a last one of 0.0025 rad. The motion has been stale
+// for 12 of them by then, which is no reason to stop halfway; further in there is.
+TEST(FaultJudge, StaleWheelsTurnBackToTheLateralLimit) {
+  const auto verdict = [](float last_rad) {
+    Bench bench;
+    bench.speed_mps = 5.0;
+    bench.steering_rad = 0.2F;
+    EXPECT_EQ(bench.ticks(20), Breach::kNone);
+    bench.speed_mps = 20.0;
+    bench.acceleration_mps2 = -3.0F;
+    for (int i = 1; i <= 22; ++i) {
+      bench.steering_rad = 0.2F - 0.007F * static_cast<float>(i);
+      EXPECT_EQ(bench.ticks(1), Breach::kNone) << bench.judge.verdict().what;
+      bench.motion = false;
+    }
+    bench.steering_rad = last_rad;
+    (void)bench.ticks(1);
+    return bench.judge.verdict();
+  };
+  EXPECT_EQ(verdict(0.0434F).breach, Breach::kNone) << verdict(0.0434F).what;
+  EXPECT_EQ(verdict(0.0415F).breach, Breach::kLimits);
+}
+
 // FAULT-012: a minimum-risk manoeuvre in which the car rolls on at 10 m/s is found when it should have lost
 // speed; one that brakes with 3 m/s^2 and then stands is sound; moving off again is not.
 TEST(FaultJudge, WatchesTheCarStop) {
