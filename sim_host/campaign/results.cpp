@@ -164,7 +164,8 @@ void print_episode(std::ostream& out, const EpisodeRow& row, const world::Record
       << m.duration_s << " s, smallest gap " << m.min_gap_m << " m, smallest time to collision "
       << m.min_time_to_collision_s << " s, mean |jerk| " << m.mean_abs_jerk_mps3 << " m/s^3\n";
   for (const world::Collision& collision : recording.collisions) {
-    out << "  at " << collision.time_s << " s: " << collision.cause << " vehicle " << collision.other << '\n';
+    out << "  at " << collision.time_s << " s: " << world::cause_words(collision.fault, collision.cause)
+        << ", vehicle " << collision.other << '\n';
   }
 }
 

@@ -24,7 +24,7 @@ const NetworkLane& lane_of(const world::Network& network, LaneId id) {
   return network.lanes[static_cast<std::size_t>(id)];
 }
 
-void post_encroachment(const world::Network& network, const std::vector<VehicleTrack>& tracks,
+void post_encroachment(const world::Network& network, const std::vector<world::Journey>& tracks,
                        TrafficSamples& samples) {
   struct Stay {
     double in_s = 0.0;
@@ -33,7 +33,7 @@ void post_encroachment(const world::Network& network, const std::vector<VehicleT
   };
   for (const world::NetworkConflict& zone : network.conflicts) {
     std::vector<Stay> stays;
-    for (const VehicleTrack& track : tracks) {
+    for (const world::Journey& track : tracks) {
       for (const bool first : {true, false}) {
         const LaneId lane = first ? zone.first : zone.second;
         const auto in_s = track.time_at(lane, first ? zone.first_entry_m : zone.second_entry_m);
@@ -97,15 +97,15 @@ Manoeuvre turn_of(const world::Network& network, LaneId inside) {
 }
 
 /// When a driver is first in line near the end of a lane: nobody of the others on it is still before him.
-std::optional<double> first_in_line_s(const VehicleTrack& self, LaneId lane, double length_m,
-                                      const std::vector<VehicleTrack>& tracks, double entered_s) {
+std::optional<double> first_in_line_s(const world::Journey& self, LaneId lane, double length_m,
+                                      const std::vector<world::Journey>& tracks, double entered_s) {
   const double near_m = length_m - kFirstInLine_m - 0.5 * self.length_m;
   const auto near_s = self.time_at(lane, near_m);
   if (!near_s && (self.points.front().lane != lane || self.points.front().s_m < near_m)) {
     return std::nullopt;
   }
   double since_s = near_s.value_or(self.points.front().time_s);
-  for (const VehicleTrack& other : tracks) {
+  for (const world::Journey& other : tracks) {
     const auto left_s = other.time_at(lane, length_m - 0.5 * other.length_m);
     if (other.id != self.id && left_s && *left_s < entered_s) {
       since_s = std::max(since_s, *left_s);
@@ -140,15 +140,15 @@ void add_choice(const std::vector<double>& others_s, double since_s, double take
 
 /// Others' passages of the ground, referred to the line; none where the recording ends too early to say.
 std::optional<std::vector<double>> others_at_line_s(const std::vector<YieldZone>& zones,
-                                                    const VehicleTrack& self, double entered_s,
-                                                    const std::vector<VehicleTrack>& tracks) {
+                                                    const world::Journey& self, double entered_s,
+                                                    const std::vector<world::Journey>& tracks) {
   std::vector<double> times_s;
   for (const YieldZone& zone : zones) {
     const auto own_s = self.time_at(zone.own, zone.own_entry_m);
     if (!own_s) {
       return std::nullopt;
     }
-    for (const VehicleTrack& other : tracks) {
+    for (const world::Journey& other : tracks) {
       const auto other_s = other.time_at(zone.other, zone.other_entry_m);
       if (other_s && other.id != self.id) {
         times_s.push_back(*other_s - (*own_s - entered_s));
@@ -159,7 +159,7 @@ std::optional<std::vector<double>> others_at_line_s(const std::vector<YieldZone>
   return times_s;
 }
 
-void junction_gaps(const world::Network& network, const std::vector<VehicleTrack>& tracks,
+void junction_gaps(const world::Network& network, const std::vector<world::Journey>& tracks,
                    TrafficSamples& samples) {
   for (std::size_t id = 0; id < network.lanes.size(); ++id) {
     const NetworkLane& inside = network.lanes[id];
@@ -174,7 +174,7 @@ void junction_gaps(const world::Network& network, const std::vector<VehicleTrack
     const Manoeuvre manoeuvre = turn_of(network, static_cast<LaneId>(id));
     const LaneId before = inside.predecessors.front();
     const double before_m = lane_of(network, before).centre.length_m();
-    for (const VehicleTrack& self : tracks) {
+    for (const world::Journey& self : tracks) {
       const auto entered_s = self.time_at(before, before_m - 0.5 * self.length_m);
       if (!entered_s || !self.time_at(static_cast<LaneId>(id), 0.0)) {
         continue;
@@ -192,15 +192,15 @@ void junction_gaps(const world::Network& network, const std::vector<VehicleTrack
 }
 
 /// Who stands at the end of a lane that leads into a junction when the recording ends, and has for long.
-void still_waiting(const world::Network& network, const std::vector<VehicleTrack>& tracks, double last_s,
+void still_waiting(const world::Network& network, const std::vector<world::Journey>& tracks, double last_s,
                    TrafficSamples& samples) {
-  for (const VehicleTrack& track : tracks) {
-    const TrackPoint& last = track.points.back();
+  for (const world::Journey& track : tracks) {
+    const world::JourneyPoint& last = track.points.back();
     const NetworkLane& lane = lane_of(network, last.lane);
     const bool at_line = !lane.successors.empty() && lane_of(network, lane.successors.front()).in_junction &&
                          last.s_m > lane.centre.length_m() - kFirstInLine_m - 0.5 * track.length_m;
     const auto moved = std::find_if(track.points.rbegin(), track.points.rend(),
-                                    [](const TrackPoint& p) { return p.speed_mps > kMoving_mps; });
+                                    [](const world::JourneyPoint& p) { return p.speed_mps > kMoving_mps; });
     const double since_s = moved == track.points.rend() ? track.points.front().time_s : moved->time_s;
     if (at_line && !lane.in_junction && last.time_s > last_s - 0.5 * kStep_s && last_s - since_s > kStuck_s) {
       ++samples.still_waiting;
@@ -210,7 +210,7 @@ void still_waiting(const world::Network& network, const std::vector<VehicleTrack
 
 }  // namespace
 
-void add_junctions(const world::Network& network, const std::vector<VehicleTrack>& tracks, double last_s,
+void add_junctions(const world::Network& network, const std::vector<world::Journey>& tracks, double last_s,
                    TrafficSamples& samples) {
   post_encroachment(network, tracks, samples);
   junction_gaps(network, tracks, samples);

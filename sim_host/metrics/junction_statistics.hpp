@@ -4,12 +4,12 @@
 #include <vector>
 
 #include "sim_host/metrics/traffic_statistics.hpp"
-#include "sim_host/metrics/vehicle_tracks.hpp"
+#include "sim_host/world/journey.hpp"
 
 namespace s4tp::metrics {
 
 /// Adds choices, gaps, waits, post-encroachment times and who is still waiting at the recording's end.
-void add_junctions(const world::Network& network, const std::vector<VehicleTrack>& tracks, double last_s,
+void add_junctions(const world::Network& network, const std::vector<world::Journey>& tracks, double last_s,
                    TrafficSamples& samples);
 
 }  // namespace s4tp::metrics

@@ -74,7 +74,9 @@ void measure_collisions(const world::Recording& recording, EpisodeMetrics& resul
     ++(ours ? result.collisions_at_fault : result.collisions_other_fault);
   }
   const bool touched = recording.ending == world::Ending::kCollision && !recording.collisions.empty();
-  result.cause = touched ? recording.collisions.front().cause : ending_name(recording.ending);
+  result.cause =
+      touched ? world::cause_words(recording.collisions.front().fault, recording.collisions.front().cause)
+              : ending_name(recording.ending);
 }
 
 void measure_motion(const world::Recording& recording, const std::vector<const Snapshot*>& driven,

@@ -90,7 +90,7 @@ GapChoice merge_choice(const world::Network& network, std::span<const world::Sna
 
 }  // namespace
 
-void add_headways(const world::Network& network, const std::vector<VehicleTrack>& tracks,
+void add_headways(const world::Network& network, const std::vector<world::Journey>& tracks,
                   TrafficSamples& samples) {
   for (std::size_t id = 0; id < network.lanes.size(); ++id) {
     const NetworkLane& lane = network.lanes[id];
@@ -98,7 +98,7 @@ void add_headways(const world::Network& network, const std::vector<VehicleTrack>
       continue;
     }
     std::vector<double> passages;
-    for (const VehicleTrack& track : tracks) {
+    for (const world::Journey& track : tracks) {
       const double place_m = 0.5 * lane.centre.length_m() - 0.5 * track.length_m;
       if (const auto time_s = track.time_at(static_cast<LaneId>(id), place_m)) {
         passages.push_back(*time_s);

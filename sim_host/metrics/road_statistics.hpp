@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "sim_host/metrics/traffic_statistics.hpp"
-#include "sim_host/metrics/vehicle_tracks.hpp"
+#include "sim_host/world/journey.hpp"
 
 namespace s4tp::metrics {
 
-void add_headways(const world::Network& network, const std::vector<VehicleTrack>& tracks,
+void add_headways(const world::Network& network, const std::vector<world::Journey>& tracks,
                   TrafficSamples& samples);
 void add_following(const world::Network& network, const world::Snapshot& snapshot, TrafficSamples& samples);
 /// Merges at a lane's end are among the choices.

@@ -7,8 +7,8 @@
 
 #include "sim_host/metrics/junction_statistics.hpp"
 #include "sim_host/metrics/road_statistics.hpp"
-#include "sim_host/metrics/vehicle_tracks.hpp"
 #include "sim_host/world/box.hpp"
+#include "sim_host/world/journey.hpp"
 
 namespace s4tp::metrics {
 namespace {
@@ -98,11 +98,11 @@ TrafficSamples observe_traffic(const world::Network& network, std::span<const wo
   if (snapshots.size() < 2) {
     return samples;
   }
-  const std::vector<VehicleTrack> tracks = tracks_of(network, snapshots);
+  const std::vector<world::Journey> tracks = world::journeys_of(network, snapshots);
   const double last_s = snapshots.back().time_s;
   samples.observed_s = last_s - snapshots.front().time_s;
   samples.vehicles = static_cast<int>(tracks.size());
-  for (const VehicleTrack& track : tracks) {
+  for (const world::Journey& track : tracks) {
     samples.vehicle_s += track.points.back().time_s - track.points.front().time_s;
     samples.finished += track.points.back().time_s < last_s - 0.5 * kStep_s ? 1 : 0;
   }

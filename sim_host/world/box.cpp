@@ -95,6 +95,16 @@ bool crosses(const Box& box, Vec2 from, Vec2 to) {
                        0.0});
 }
 
+bool hidden(const CarState& from, const CarState& car, const std::vector<CarState>& others) {
+  const auto blocked = [&](Vec2 point) {
+    return std::any_of(others.begin(), others.end(), [&](const CarState& between) {
+      return between.id != car.id && between.id != from.id && crosses(box_of(between), from.centre, point);
+    });
+  };
+  const auto points = corners(box_of(car));
+  return blocked(car.centre) && std::all_of(points.begin(), points.end(), blocked);
+}
+
 double time_to_contact_s(const Box& a, Vec2 velocity_a, const Box& b, Vec2 velocity_b) {
   const Vec2 between = {b.centre.x - a.centre.x, b.centre.y - a.centre.y};
   const Vec2 relative = {velocity_b.x - velocity_a.x, velocity_b.y - velocity_a.y};

@@ -25,6 +25,8 @@ struct Box {
 [[nodiscard]] double distance_m(const Box& a, const Box& b);
 /// Whether the straight line between two points meets the box.
 [[nodiscard]] bool crosses(const Box& box, Vec2 from, Vec2 to);
+/// Whether others hide one car from another one: it is seen as soon as its centre or a corner is.
+[[nodiscard]] bool hidden(const CarState& from, const CarState& car, const std::vector<CarState>& others);
 /// Time until two boxes touch when both keep velocity and heading: separating axes with a relative speed.
 /// \return infinity: never
 [[nodiscard]] double time_to_contact_s(const Box& a, Vec2 velocity_a, const Box& b, Vec2 velocity_b);

@@ -23,17 +23,6 @@ double distance_m(const CarState& a, const CarState& b) {
   return std::hypot(a.centre.x - b.centre.x, a.centre.y - b.centre.y);
 }
 
-/// Seen as soon as its centre or one corner is.
-bool hidden(const CarState& ego, const CarState& car, const std::vector<CarState>& others) {
-  const auto blocked = [&](Vec2 point) {
-    return std::any_of(others.begin(), others.end(), [&](const CarState& between) {
-      return between.id != car.id && crosses(box_of(between), ego.centre, point);
-    });
-  };
-  const auto points = corners(box_of(car));
-  return blocked(car.centre) && std::all_of(points.begin(), points.end(), blocked);
-}
-
 }  // namespace
 
 const std::vector<std::string>& perception_names() {

@@ -34,12 +34,29 @@ struct Snapshot {
 enum class Ending { kRunning, kGoal, kCollision, kOffRoad, kTimeOut, kDeadEcu };
 enum class Fault { kNone, kEgo, kOther };
 
+/// What the one at fault did (judge/attribution.hpp).
+enum class Cause {
+  kNone,
+  kEntered,
+  kNoRoom,
+  kIntoRightful,
+  kEnteredLater,
+  kCutIn,
+  kStopped,
+  kRanInto,
+  kOncoming,
+  kChangedLane,
+  kUnclear
+};
+/// The same in words, as seen from the ego: "ran into", "was run into".
+[[nodiscard]] const char* cause_words(Fault fault, Cause cause);
+
 /// A touch of boxes, attributed from a table, without asking any planner.
 struct Collision {
   double time_s = 0.0;
   int other = 0;
   Fault fault = Fault::kNone;
-  std::string cause;  ///< "rear-ended by", "ran into", "entered without priority", ...
+  Cause cause = Cause::kNone;
 };
 
 struct Recording {

@@ -5,8 +5,8 @@
 #include <memory>
 #include <utility>
 
-#include "sim_host/world/attribution.hpp"
 #include "sim_host/world/box.hpp"
+#include "sim_host/world/judge/attribution.hpp"
 #include "sim_host/world/locator.hpp"
 #include "sim_host/world/traffic_engine.hpp"
 #include "sim_host/world/vehicle_node.hpp"
@@ -139,7 +139,7 @@ void World::Impl::note_collisions(std::vector<Collision>& list, Box (*box)(const
     if (history.empty() || history.back().time_s < (tick_number - entry_tick - 0.5) * kTick_s) {
       history.push_back(snapshot());
     }
-    const Verdict verdict = attribute(network, history, car.id);
+    const Verdict verdict = attribute(network, guide, history, car.id);
     list.push_back({history.back().time_s, car.id, verdict.fault, verdict.cause});
   }
 }

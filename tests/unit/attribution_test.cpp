@@ -1,148 +1,254 @@
-#include "sim_host/world/attribution.hpp"
+// Whose fault and why: each row of attribution.hpp's table, and each reason to stand.
+
+#include "sim_host/world/judge/attribution.hpp"
 
 #include <gtest/gtest.h>
+
+#include "sim_host/world/judge/reasons.hpp"
+#include "tests/support/judged_road.hpp"
 
 namespace s4tp::world {
 namespace {
 
-/// Lanes 0 (right) and 1 (left) eastwards along y = 0 and 3.2, 100 m, ending in a junction; there lane 2 goes
-/// on straight and is crossed by lane 3 from the south.
-Network crossing(Rule rule_of_straight) {
-  const auto lane = [](std::vector<Vec2> points, bool in_junction) {
-    NetworkLane result;
-    result.centre = Polyline(points);
-    result.in_junction = in_junction;
-    return result;
-  };
-  Network network;
-  network.lanes = {lane({{0.0, 0.0}, {100.0, 0.0}}, false), lane({{0.0, 3.2}, {100.0, 3.2}}, false),
-                   lane({{100.0, 0.0}, {120.0, 0.0}}, true), lane({{110.0, -10.0}, {110.0, 10.0}}, true)};
-  network.lanes[0].left = 1;
-  network.lanes[1].right = 0;
-  network.lanes[0].successors = {2};
-  network.conflicts = {{2, 3, rule_of_straight, 6.0, 14.0, 6.0, 14.0}};
+using test::eastbound;
+using test::northbound;
+
+/// Of car 7, at the end of what was recorded.
+Verdict judged(const Network& network, double from_s, double until_s, const test::Drive& drive) {
+  return attribute(network, test::eastwards(network), test::recorded(from_s, until_s, drive), 7);
+}
+
+std::pair<Fault, Cause> pair(const Verdict& verdict) {
+  return {verdict.fault, verdict.cause};
+}
+
+/// Both at 8 m/s: the ego at x = 104 + 8 t, the other at y = -6 + 8 t: boxes touch at t = 0.5.
+std::vector<CarState> both_cross(double t) {
+  return {eastbound(0, 104.0 + 8.0 * t, 0.0, 8.0), northbound(7, -6.0 + 8.0 * t, 8.0)};
+}
+
+// LAW-020 Who had to yield entered at x = 106, 0.25 s after t = 0, when the other was 0 m before the zone.
+TEST(Attribution, EnteringWithoutLicence) {
+  EXPECT_EQ(pair(judged(test::judged_road(Rule::kFirstYields), -5.0, 0.5, both_cross)),
+            std::pair(Fault::kEgo, Cause::kEntered));
+  EXPECT_EQ(pair(judged(test::judged_road(Rule::kFirstHasPriority), -5.0, 0.5, both_cross)),
+            std::pair(Fault::kOther, Cause::kEntered));
+}
+
+/// The ego enters at t = -9.5 at 2 m/s, when the other, who has priority, is 76 m away at 8 m/s, and stands
+/// at x = 109 from t = -8 on; the other does not brake. Stopping gently from 8 m/s takes at most 72 m.
+std::vector<CarState> ego_stands_on_the_zone(double t) {
+  const bool stands = t > -8.0;
+  return {eastbound(0, stands ? 109.0 : 109.0 + 2.0 * (t + 8.0), 0.0, stands ? 0.0 : 2.0),
+          northbound(7, -3.4 + 8.0 * t, 8.0)};
+}
+
+/// Gains 1 m/s^2 up to the limit of 8 m/s: the arithmetic of the tests' speeds.
+Law gentle() {
+  Law law;
+  law.acceleration_mps2 = 1.0;
+  law.over_limit = 1.0;
+  return law;
+}
+
+Network slow_road(Rule rule) {
+  Network network = test::judged_road(rule);
+  for (NetworkLane& lane : network.lanes) lane.speed_limit_mps = 8.0;
   return network;
 }
 
-CarState car(int id, double x, double y, double speed, LaneId lane, double heading = 0.0) {
-  CarState state;
-  state.id = id;
-  state.centre = {x, y};
-  state.speed_mps = speed;
-  state.lane = lane;
-  state.heading_rad = heading;
-  return state;
+// LAW-022 Licensed, as 1.5 s and 8^2 / 4 are 28 m: the other should have stopped, although we had to yield.
+TEST(Attribution, DrivingIntoOneThereByRight) {
+  const Network network = slow_road(Rule::kFirstYields);
+  const std::vector<Snapshot> history = test::recorded(-12.0, 0.0, ego_stands_on_the_zone);
+  EXPECT_EQ(pair(attribute(network, test::eastwards(network), history, 7, gentle())),
+            std::pair(Fault::kOther, Cause::kIntoRightful));
 }
 
-Snapshot at(double time_s, const CarState& ego, const std::vector<CarState>& others) {
-  Snapshot snapshot;
-  snapshot.time_s = time_s;
-  snapshot.ego = ego;
-  snapshot.others = others;
-  return snapshot;
+// LAW-021 The same behind a queue that already stood at x = 117 when we entered: our rear cannot leave the
+// zone (114 - 5 < 117 - 5 < 114).
+TEST(Attribution, EnteringWithoutRoomBeyond) {
+  const Network network = slow_road(Rule::kFirstYields);
+  const std::vector<Snapshot> history = test::recorded(-12.0, 0.0, [](double t) {
+    std::vector<CarState> cars = ego_stands_on_the_zone(t);
+    cars.push_back(eastbound(8, 117.0, 0.0, 0.0));
+    return cars;
+  });
+  EXPECT_EQ(pair(attribute(network, test::eastwards(network), history, 7, gentle())),
+            std::pair(Fault::kEgo, Cause::kNoRoom));
 }
 
-Verdict judge(const Network& network, const std::vector<Snapshot>& history) {
-  return attribute(network, history, 7);
-}
-
-/// The ego straight on in the junction, the other one crossing from the south.
-std::vector<Snapshot> met_in_junction() {
-  return {at(0.0, car(0, 103.0, 0.0, 8.0, 2), {car(7, 110.0, -12.0, 8.0, -1, 1.57)}),
-          at(1.0, car(0, 108.0, 0.0, 8.0, 2), {car(7, 110.0, -3.0, 8.0, 3, 1.57)})};
-}
-
-// WORLD-040 Straight on must yield and did not.
-TEST(Attribution, EnteringWithoutPriorityIsOurs) {
-  const Verdict verdict = judge(crossing(Rule::kFirstYields), met_in_junction());
-  EXPECT_EQ(verdict.fault, Fault::kEgo);
-  EXPECT_EQ(verdict.cause, "entered without priority");
-}
-
-// WORLD-041 The same with priority on our side.
-TEST(Attribution, NotYieldingToUsIsHis) {
-  EXPECT_EQ(judge(crossing(Rule::kFirstHasPriority), met_in_junction()).fault, Fault::kOther);
-}
-
-// WORLD-042 First come: we were on our lane through the junction 1 s before he was on his.
+// LAW-023 First come: 106 m reached 0.25 s after t = 0, -4 m at the same time; a tenth of a second decides.
 TEST(Attribution, FirstComeGoesToTheEarlierOne) {
-  EXPECT_EQ(judge(crossing(Rule::kFirstCome), met_in_junction()).fault, Fault::kOther);
-  std::vector<Snapshot> we_later = met_in_junction();
-  we_later[0].ego.lane = 0;
-  we_later[0].others[0].lane = 3;
-  we_later[1].ego.lane = 2;
-  EXPECT_EQ(judge(crossing(Rule::kFirstCome), we_later).fault, Fault::kEgo);
+  const Network network = test::judged_road(Rule::kFirstCome);
+  const auto met = [&](double lead_s) {
+    return judged(network, -5.0, 0.5, [&](double t) {
+      return std::vector<CarState>{eastbound(0, 104.0 + 8.0 * (t + lead_s), 0.0, 8.0),
+                                   northbound(7, -6.0 + 8.0 * t, 8.0)};
+    });
+  };
+  EXPECT_EQ(pair(met(0.1)), std::pair(Fault::kOther, Cause::kEnteredLater));
+  EXPECT_EQ(pair(met(-0.1)), std::pair(Fault::kEgo, Cause::kEnteredLater));
 }
 
-// WORLD-043 Out of the right lane into the left one 1 s before he, coming from behind there, touches our
-// tail.
-TEST(Attribution, CuttingInIsOurs) {
-  const Verdict verdict =
-      judge(crossing(Rule::kFirstCome), {at(0.0, car(0, 40.0, 1.0, 8.0, 0), {car(7, 30.0, 3.2, 14.0, 1)}),
-                                         at(1.0, car(0, 48.0, 2.8, 8.0, 1), {car(7, 43.1, 3.2, 12.0, 1)})});
-  EXPECT_EQ(verdict.fault, Fault::kEgo);
-  EXPECT_EQ(verdict.cause, "cut in");
+/// The one in front comes from the left lane over the line (y = 1.6) at t = -1, `gap_m` before the one
+/// behind, at 8 m/s; that one drives 12 m/s.
+Verdict cut_in(int front, double gap_m) {
+  const Network network = test::judged_road(Rule::kFirstCome);
+  const double until_s = -1.0 + gap_m / 4.0 + 0.05;
+  return judged(network, -4.0, until_s, [&](double t) {
+    const double y = t < -2.0 ? 3.2 : t > 0.0 ? 0.0 : -1.6 * t;
+    const std::vector<CarState> cars{eastbound(front, 50.0 + gap_m + 5.0 + 8.0 * (t + 1.0), y, 8.0),
+                                     eastbound(7 - front, 50.0 + 12.0 * (t + 1.0), 0.0, 12.0)};
+    return front == 0 ? cars : std::vector<CarState>{cars[1], cars[0]};
+  });
 }
 
-// WORLD-044 Standing for 2 s in the middle of a free road, 50 m from the junction: ours, though he runs into
-// us.
-TEST(Attribution, StoppingWithoutReasonIsOurs) {
-  const Verdict verdict =
-      judge(crossing(Rule::kFirstCome), {at(0.0, car(0, 50.0, 0.0, 0.0, 0), {car(7, 20.0, 0.0, 13.0, 0)}),
-                                         at(2.0, car(0, 50.0, 0.0, 0.0, 0), {car(7, 45.1, 0.0, 8.0, 0)})});
-  EXPECT_EQ(verdict.fault, Fault::kEgo);
-  EXPECT_EQ(verdict.cause, "stopped in a live lane");
+// LAW-024 12 m/s behind 8 m/s asks for 6.25 + 13^2 / 10 - 64 / 16 = 19.15 m; 3 m are a cut-in, whoever does
+// it.
+TEST(Attribution, CuttingIn) {
+  EXPECT_EQ(pair(cut_in(0, 3.0)), std::pair(Fault::kEgo, Cause::kCutIn));
+  EXPECT_EQ(pair(cut_in(7, 3.0)), std::pair(Fault::kOther, Cause::kCutIn));
 }
 
-// WORLD-045 The same before the junction, behind a queue, or rolling: his.
-TEST(Attribution, RunningIntoUsFromBehindIsHis) {
-  const Network network = crossing(Rule::kFirstCome);
-  EXPECT_EQ(judge(network, {at(0.0, car(0, 97.0, 0.0, 0.0, 0), {car(7, 70.0, 0.0, 13.0, 0)}),
-                            at(2.0, car(0, 97.0, 0.0, 0.0, 0), {car(7, 92.1, 0.0, 8.0, 0)})})
-                .cause,
-            "rear-ended by");
-  const CarState queue = car(8, 58.0, 0.0, 0.0, 0);
-  EXPECT_EQ(judge(network, {at(0.0, car(0, 50.0, 0.0, 0.0, 0), {queue, car(7, 20.0, 0.0, 13.0, 0)}),
-                            at(2.0, car(0, 50.0, 0.0, 0.0, 0), {queue, car(7, 45.1, 0.0, 8.0, 0)})})
-                .fault,
-            Fault::kOther);
-  EXPECT_EQ(judge(network, {at(0.0, car(0, 50.0, 0.0, 5.0, 0), {car(7, 45.1, 0.0, 8.0, 0)})}).fault,
-            Fault::kOther);
+// LAW-026 After 19.5 m it takes 4.9 s until they touch: the one behind had time; and so it had with 12 m,
+// after 3 s.
+TEST(Attribution, RunningIntoOneWhoCameLongAgo) {
+  EXPECT_EQ(pair(cut_in(0, 19.5)), std::pair(Fault::kOther, Cause::kRanInto));
+  EXPECT_EQ(pair(cut_in(7, 12.0)), std::pair(Fault::kEgo, Cause::kRanInto));
 }
 
-// WORLD-046 He changed into our lane a second ago and we touch his tail.
-TEST(Attribution, BeingCutInIsHis) {
-  const Verdict verdict =
-      judge(crossing(Rule::kFirstCome), {at(0.0, car(0, 30.0, 0.0, 12.0, 0), {car(7, 38.0, 2.2, 8.0, 1)}),
-                                         at(1.0, car(0, 42.0, 0.0, 12.0, 0), {car(7, 46.9, 0.6, 8.0, 0)})});
-  EXPECT_EQ(verdict.fault, Fault::kOther);
-  EXPECT_EQ(verdict.cause, "cut in by");
+/// The ego stands at x from t = -4 on (before it braked from 8 m/s), car 7 runs into its tail.
+test::Drive rear_ended(double x, std::vector<CarState> further = {}) {
+  return [=](double t) {
+    std::vector<CarState> cars{eastbound(0, t < -4.0 ? x + 8.0 * (t + 4.0) : x, 0.0, t < -4.0 ? 8.0 : 0.0),
+                               eastbound(7, x - 4.9 + 8.0 * t, 0.0, 8.0)};
+    cars.insert(cars.end(), further.begin(), further.end());
+    return cars;
+  };
 }
 
-// WORLD-047 He just drove ahead of us.
-TEST(Attribution, RunningIntoHimIsOurs) {
-  EXPECT_EQ(
-      judge(crossing(Rule::kFirstCome), {at(0.0, car(0, 30.0, 0.0, 12.0, 0), {car(7, 38.0, 0.0, 8.0, 0)}),
-                                         at(1.0, car(0, 42.0, 0.0, 12.0, 0), {car(7, 46.9, 0.0, 8.0, 0)})})
-          .cause,
-      "ran into");
+// LAW-025 In the middle of a free road without reason: ours, though it runs into us.
+TEST(Attribution, StoppingInALiveLane) {
+  EXPECT_EQ(pair(judged(test::judged_road(Rule::kFirstYields), -6.0, 0.0, rear_ended(50.0))),
+            std::pair(Fault::kEgo, Cause::kStopped));
 }
 
-// WORLD-048 Side by side; his box hangs over the line (1.7 - 0.9 = 0.8 m beyond it), ours keeps its lane.
-TEST(Attribution, HisComingOverTheLineIsHis) {
-  const Verdict verdict =
-      judge(crossing(Rule::kFirstCome), {at(0.0, car(0, 40.0, 0.0, 10.0, 0), {car(7, 41.0, 1.75, 10.0, 1)})});
-  EXPECT_EQ(verdict.fault, Fault::kOther);
-  EXPECT_EQ(verdict.cause, "changed lane into us");
+// LAW-026 The same while we roll, or have stood for half a second only.
+TEST(Attribution, BeingRunInto) {
+  const Network network = test::judged_road(Rule::kFirstYields);
+  EXPECT_EQ(pair(judged(network, -6.0, 0.0,
+                        [](double t) {
+                          return std::vector<CarState>{eastbound(0, 50.0 + 5.0 * t, 0.0, 5.0),
+                                                       eastbound(7, 45.1 + 8.0 * t, 0.0, 8.0)};
+                        })),
+            std::pair(Fault::kOther, Cause::kRanInto));
+  EXPECT_EQ(pair(judged(network, -6.0, 0.0,
+                        [](double t) {
+                          const bool stands = t > -0.5;
+                          return std::vector<CarState>{
+                              eastbound(0, stands ? 50.0 : 50.0 + 8.0 * (t + 0.5), 0.0, stands ? 0.0 : 8.0),
+                              eastbound(7, 45.1 + 12.0 * t, 0.0, 12.0)};
+                        })),
+            std::pair(Fault::kOther, Cause::kRanInto));
 }
 
-// WORLD-049 The same the other way round; and if both left their lanes it counts as ours.
-TEST(Attribution, OurComingOverTheLineIsOurs) {
-  const Network network = crossing(Rule::kFirstCome);
-  EXPECT_EQ(judge(network, {at(0.0, car(0, 40.0, 1.45, 10.0, 0), {car(7, 41.0, 3.2, 10.0, 1)})}).cause,
-            "changed lane into");
-  EXPECT_EQ(judge(network, {at(0.0, car(0, 40.0, 1.0, 10.0, 0), {car(7, 41.0, 2.7, 10.0, 1)})}).fault,
-            Fault::kEgo);
+// LAW-030 Reasons: a queue 14 m ahead; 10 m before a zone where we have to yield (x = 96; the zone begins at
+// 106); not where we have priority.
+TEST(Reasons, QueueAndGivingWay) {
+  EXPECT_EQ(pair(judged(test::judged_road(Rule::kFirstYields), -6.0, 0.0,
+                        rear_ended(50.0, {eastbound(8, 69.0, 0.0, 0.0)}))),
+            std::pair(Fault::kOther, Cause::kRanInto));
+  EXPECT_EQ(pair(judged(test::judged_road(Rule::kFirstYields), -6.0, 0.0, rear_ended(96.0))),
+            std::pair(Fault::kOther, Cause::kRanInto));
+  EXPECT_EQ(pair(judged(test::judged_road(Rule::kFirstHasPriority), -6.0, 0.0, rear_ended(96.0))),
+            std::pair(Fault::kEgo, Cause::kStopped));
+}
+
+// LAW-030 The left lane ends at x = 100 and the route needs the right one: standing at its end is a reason,
+// 50 m before it is none.
+TEST(Reasons, TheLastPlaceForALaneChange) {
+  const Network network = test::judged_road(Rule::kFirstYields);
+  const auto at = [&](double x) {
+    return judged(network, -6.0, 0.0, [&](double t) {
+      return std::vector<CarState>{eastbound(0, x, 3.2, 0.0), eastbound(7, x - 4.9 + 8.0 * t, 3.2, 8.0)};
+    });
+  };
+  EXPECT_EQ(pair(at(95.0)), std::pair(Fault::kOther, Cause::kRanInto));
+  EXPECT_EQ(pair(at(45.0)), std::pair(Fault::kEgo, Cause::kStopped));
+}
+
+/// We have priority, stop at x = 86 at t = -1.5, 20 m before the zone, and are run into at t = 0. Car 8
+/// creeps over the zone at 2 m/s from `entered_s` on.
+Verdict stopped_for_one_who_creeps(double entered_s) {
+  return judged(test::judged_road(Rule::kFirstHasPriority), -30.0, 0.0, [&](double t) {
+    const bool stands = t > -1.5;
+    return std::vector<CarState>{
+        eastbound(0, stands ? 86.0 : 86.0 + 8.0 * (t + 1.5), 0.0, stands ? 0.0 : 8.0),
+        eastbound(7, 81.1 + 12.0 * t, 0.0, 12.0), northbound(8, -4.0 + 2.0 * (t - entered_s), 2.0)};
+  });
+}
+
+// LAW-030 It enters 2 s ago, gone after 4 s, when we were 24 m away at 8 m/s (3 s; 28 m to stop gently): it
+// broke the law, reason enough. Entered 20 s ago, it was gone before we came.
+TEST(Reasons, SomebodyBrokeTheLaw) {
+  EXPECT_EQ(pair(stopped_for_one_who_creeps(-2.0)), std::pair(Fault::kOther, Cause::kRanInto));
+  EXPECT_EQ(pair(stopped_for_one_who_creeps(-20.0)), std::pair(Fault::kEgo, Cause::kStopped));
+}
+
+/// Head-on at x = 60: the ego at y, car 7 on its way west at its y.
+Verdict head_on(double ego_y, double their_y) {
+  return judged(test::judged_road(Rule::kFirstCome), -2.0, 0.0, [&](double t) {
+    CarState against = eastbound(7, 64.9 - 8.0 * t, their_y, 8.0);
+    against.heading_rad = 4.0 * std::atan(1.0);
+    against.lane = 7;
+    CarState ego = eastbound(0, 60.0 + 8.0 * t, ego_y, 8.0);
+    ego.lane = 1;
+    return std::vector<CarState>{ego, against};
+  });
+}
+
+// LAW-027 In the left lane (1.6 to 4.8 m) we are met by one at 4.5 m, 0.3 m of it in its own; the other way
+// round; both.
+TEST(Attribution, OnTheWrongSide) {
+  EXPECT_EQ(pair(head_on(3.2, 4.5)), std::pair(Fault::kOther, Cause::kOncoming));
+  EXPECT_EQ(pair(head_on(5.0, 6.4)), std::pair(Fault::kEgo, Cause::kOncoming));
+  EXPECT_EQ(pair(head_on(4.5, 5.0)), std::pair(Fault::kEgo, Cause::kOncoming));
+}
+
+/// Beside each other at 10 m/s, the ego at its y in the right lane, car 7 in the left.
+Verdict side_by_side(double ego_y, double their_y) {
+  return judged(test::judged_road(Rule::kFirstCome), -2.0, 0.0, [&](double t) {
+    CarState ego = eastbound(0, 50.0 + 10.0 * t, ego_y, 10.0);
+    ego.lane = 0;
+    CarState other = eastbound(7, 51.0 + 10.0 * t, their_y, 10.0);
+    other.lane = 1;
+    return std::vector<CarState>{ego, other};
+  });
+}
+
+// LAW-028 Its box hangs 0.75 m over the line, ours keeps its lane; the other way round; both.
+TEST(Attribution, OverTheLine) {
+  EXPECT_EQ(pair(side_by_side(0.0, 1.75)), std::pair(Fault::kOther, Cause::kChangedLane));
+  EXPECT_EQ(pair(side_by_side(1.45, 3.2)), std::pair(Fault::kEgo, Cause::kChangedLane));
+  EXPECT_EQ(pair(side_by_side(1.0, 2.7)), std::pair(Fault::kEgo, Cause::kChangedLane));
+}
+
+// LAW-029 Off every lane there is no row: ours.
+TEST(Attribution, UnclearIsOurs) {
+  EXPECT_EQ(pair(judged(test::judged_road(Rule::kFirstCome), -2.0, 0.0,
+                        [](double t) {
+                          CarState ego = eastbound(0, 50.0 + 10.0 * t, -5.0, 10.0);
+                          ego.lane = kNoLane;
+                          return std::vector<CarState>{ego, eastbound(7, 51.0 + 10.0 * t, -4.0, 10.0)};
+                        })),
+            std::pair(Fault::kEgo, Cause::kUnclear));
+}
+
+// Every cause has words of its own, from both sides.
+TEST(Attribution, CausesHaveWords) {
+  EXPECT_STREQ(cause_words(Fault::kEgo, Cause::kEntered), "entered without licence");
+  EXPECT_STREQ(cause_words(Fault::kOther, Cause::kEntered), "was not given way");
 }
 
 }  // namespace

@@ -247,12 +247,12 @@ TEST(Metrics, RssViolationsAreCountedWhenTheyBegin) {
 TEST(Metrics, NothingCountsAfterTheTouch) {
   Recording recording = cruise(5, 10.0);
   recording.ending = Ending::kCollision;
-  recording.collisions = {{0.2, 1, world::Fault::kOther, "rear-ended by"}};
+  recording.collisions = {{0.2, 1, world::Fault::kOther, world::Cause::kRanInto}};
   recording.snapshots[3].ego.acceleration_mps2 = -9.0;
   const EpisodeMetrics metrics = evaluate(recording);
   EXPECT_NEAR(metrics.duration_s, 0.2, 1e-12);
   EXPECT_EQ(metrics.hardest_braking_mps2, 0.0);
-  EXPECT_EQ(metrics.cause, "rear-ended by");
+  EXPECT_EQ(metrics.cause, "was run into");
   EXPECT_EQ(metrics.collisions_other_fault, 1);
   EXPECT_EQ(metrics.collisions_at_fault, 0);
   EXPECT_FALSE(metrics.collided_standing);
@@ -262,7 +262,7 @@ TEST(Metrics, NothingCountsAfterTheTouch) {
 TEST(Metrics, HitWhileStanding) {
   Recording recording = cruise(3, 0.0);
   recording.ending = Ending::kCollision;
-  recording.collisions = {{0.2, 1, world::Fault::kOther, "rear-ended by"}};
+  recording.collisions = {{0.2, 1, world::Fault::kOther, world::Cause::kRanInto}};
   EXPECT_TRUE(evaluate(recording).collided_standing);
 }
 

@@ -93,7 +93,7 @@ TEST(World, EndsWithACollision) {
   EXPECT_EQ(drive(world, hold), Ending::kCollision);
   ASSERT_EQ(world.recording().collisions.size(), 1U);
   EXPECT_EQ(world.recording().collisions[0].fault, Fault::kEgo);
-  EXPECT_EQ(world.recording().collisions[0].cause, "ran into");
+  EXPECT_EQ(world.recording().collisions[0].cause, Cause::kRanInto);
   EXPECT_EQ(world.recording().collisions_competition.size(), 1U);
 }
 

@@ -1,0 +1,210 @@
+#include "sim_host/world/judge/attribution.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "sim_host/world/box.hpp"
+#include "sim_host/world/judge/evidence.hpp"
+#include "sim_host/world/judge/reasons.hpp"
+
+namespace s4tp::world {
+namespace {
+
+constexpr double kStoodFor_s = 1.0;
+constexpr double kZonePad_m = 3.0;  // a car beside its lane's centre touches a little before or behind a zone
+constexpr double kSlow_mps = 1.0;   // who is slower in a zone was stopped there
+constexpr double kQueue_mps = 2.0;  // who is slower beyond a junction leaves no room
+constexpr double kOverLine_m = 0.05;
+constexpr double kSameWay_rad = 0.25 * std::numbers::pi;  // headings differ by less
+
+struct Party {
+  const Journey* journey = nullptr;
+  const CarState* car = nullptr;
+  bool ours = false;
+};
+
+Verdict blame(const Party& party, Cause cause) {
+  return {party.ours ? Fault::kEgo : Fault::kOther, cause};
+}
+
+/// A zone on both ways, with the group in which the first meets it.
+struct SharedZone {
+  ZoneGroup group;
+  ZoneOnWay zone;
+};
+
+/// The zone they touch on, as `self` sees it; one with a rule before one where the first comes.
+std::optional<SharedZone> zone_of_touch(const Evidence& evidence, const Party& self, const Party& other,
+                                        double time_s) {
+  std::optional<SharedZone> found;
+  const double self_m = self.journey->at(time_s).odometer_m;
+  const double other_m = other.journey->at(time_s).odometer_m;
+  for (const ZoneGroup& group : evidence.groups_of(*self.journey)) {
+    for (const ZoneOnWay& zone : group.zones) {
+      const auto exit_m = evidence.other_exit_m(zone, *other.journey);
+      const double entry_m = evidence.other_entry_m(zone, *other.journey).value_or(0.0);
+      if (self_m < zone.entry_m - kZonePad_m || self_m > zone.exit_m + kZonePad_m || !exit_m ||
+          other_m < entry_m - kZonePad_m || other_m > *exit_m + kZonePad_m) {
+        continue;
+      }
+      if (!found || found->zone.meeting.rule == Rule::kFirstCome) {
+        found = SharedZone{group, zone};
+      }
+    }
+  }
+  return found;
+}
+
+/// The same zone on the other one's way.
+std::optional<SharedZone> seen_by(const Evidence& evidence, const Party& other, const ZoneOnWay& zone) {
+  for (const ZoneGroup& group : evidence.groups_of(*other.journey)) {
+    for (const ZoneOnWay& theirs : group.zones) {
+      if (theirs.lane == zone.meeting.other && theirs.meeting.other == zone.lane) {
+        return SharedZone{group, theirs};
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+/// Whether a queue beyond the group left no room for the car when it entered.
+bool no_room(const Evidence& evidence, const Journey& entering, const ZoneGroup& group, double entered_s) {
+  return std::any_of(evidence.journeys().begin(), evidence.journeys().end(), [&](const Journey& ahead) {
+    if (ahead.id == entering.id || !ahead.seen_at(entered_s)) {
+      return false;
+    }
+    const JourneyPoint& then = ahead.at(entered_s);
+    const std::optional<double> place_m = entering.odometer_at(then.lane, then.s_m);
+    return place_m && then.speed_mps<kQueue_mps&& * place_m> group.entry_m &&
+           *place_m - 0.5 * (ahead.length_m + entering.length_m) < group.exit_m;
+  });
+}
+
+/// `yields` had to give way.
+Verdict by_priority(const Law& law, const Evidence& evidence, const Party& yields, const Party& priority,
+                    const SharedZone& shared, double time_s) {
+  const double entered_s = std::min(yields.journey->time_at(shared.group.entry_m), time_s);
+  const Journey& creditor = *priority.journey;
+  const double to_zone_m = evidence.other_entry_m(shared.zone, creditor).value_or(0.0);
+  bool licensed = false;
+  if (!creditor.seen_at(entered_s)) {  // came into the world later
+    const JourneyPoint& first = creditor.points.front();
+    licensed = first.time_s > entered_s && can_stop(law, first.speed_mps, to_zone_m - first.odometer_m);
+  } else {
+    licensed = licence_of(law, evidence.entry_of(law, *yields.journey, shared.group, shared.zone, creditor,
+                                                 entered_s)) != Licence::kNone;
+  }
+  if (!licensed || creditor.time_at(to_zone_m) < yields.journey->time_at(shared.zone.entry_m)) {
+    return blame(yields, Cause::kEntered);
+  }
+  const bool stuck = yields.car->speed_mps < kSlow_mps;
+  return stuck && no_room(evidence, *yields.journey, shared.group, entered_s)
+             ? blame(yields, Cause::kNoRoom)
+             : blame(priority, Cause::kIntoRightful);
+}
+
+std::optional<Verdict> on_a_zone(const Law& law, const Evidence& evidence, const Party& ego,
+                                 const Party& other, double time_s) {
+  const std::optional<SharedZone> ours = zone_of_touch(evidence, ego, other, time_s);
+  if (!ours) {
+    return std::nullopt;
+  }
+  if (ours->zone.meeting.rule == Rule::kFirstYields) {
+    return by_priority(law, evidence, ego, other, *ours, time_s);
+  }
+  if (ours->zone.meeting.rule == Rule::kFirstHasPriority) {
+    const std::optional<SharedZone> theirs = seen_by(evidence, other, ours->zone);
+    return theirs ? std::optional(by_priority(law, evidence, other, ego, *theirs, time_s)) : std::nullopt;
+  }
+  const double theirs_m = evidence.other_entry_m(ours->zone, *other.journey).value_or(0.0);
+  const bool we_later = ego.journey->time_at(ours->zone.entry_m) >= other.journey->time_at(theirs_m);
+  return blame(we_later ? ego : other, Cause::kEnteredLater);
+}
+
+bool over_the_line(const Network& network, const CarState& car) {
+  if (car.lane == kNoLane) {
+    return true;
+  }
+  const NetworkLane& lane = network.lanes[static_cast<std::size_t>(car.lane)];
+  const double bend_1pm = std::abs(lane.centre.at(lane.centre.project(car.centre).s_m).curvature_1pm);
+  const double swept_m = 0.125 * bend_1pm * car.length_m * car.length_m;
+  const auto points = corners(box_of(car));
+  return std::any_of(points.begin(), points.end(), [&](Vec2 corner) {
+    return std::abs(lane.centre.project(corner).d_m) > 0.5 * lane.width_m + swept_m + kOverLine_m;
+  });
+}
+
+bool changed_lane_lately(const Law& law, const Network& network, const Journey& journey) {
+  for (std::size_t i = 1; i < journey.points.size(); ++i) {
+    const NetworkLane& from = network.lanes[static_cast<std::size_t>(journey.points[i - 1].lane)];
+    const LaneId to = journey.points[i].lane;
+    if (journey.points[i].time_s >= journey.points.back().time_s - law.settle_s &&
+        (to == from.left || to == from.right)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// The one of whom `strayed` holds and not of the other; both or neither: the ego.
+template <class Strayed>
+Verdict by_line(const Party& ego, const Party& other, Cause cause, const Strayed& strayed) {
+  return blame(strayed(other) && !strayed(ego) ? other : ego, cause);
+}
+
+Verdict nose_to_tail(const Law& law, const Evidence& evidence, const RouteGuide& guide, const Party& front,
+                     const Party& rear, double time_s) {
+  const double since_s = ahead_since_s(*front.journey, *rear.journey, time_s);
+  if (since_s > time_s - law.settle_s && since_s <= time_s && rear.journey->seen_at(since_s) &&
+      !left_gap(law, *front.journey, *rear.journey, since_s)) {
+    return blame(front, Cause::kCutIn);
+  }
+  if (front.ours && evidence.stood_s(law, *front.journey, time_s) > kStoodFor_s - 1e-6 &&
+      !reason_to_stand(law, evidence, guide, time_s)) {
+    return blame(front, Cause::kStopped);
+  }
+  return blame(rear, Cause::kRanInto);
+}
+
+}  // namespace
+
+Verdict attribute(const Network& network, const RouteGuide& guide, std::span<const Snapshot> history,
+                  int other, const Law& law) {
+  const Evidence evidence(network, history, &guide);
+  const double time_s = history.back().time_s;
+  const Party us{evidence.journey_of(0), &evidence.snapshots().back().ego, true};
+  const Party them{evidence.journey_of(other), nullptr, false};
+  if (us.journey == nullptr || them.journey == nullptr || !us.journey->seen_at(time_s) ||
+      !them.journey->seen_at(time_s)) {
+    return {Fault::kEgo, Cause::kUnclear};
+  }
+  const Party car{them.journey, &evidence.state_of(other, time_s), false};
+  if (const std::optional<Verdict> verdict = on_a_zone(law, evidence, us, car, time_s)) {
+    return *verdict;
+  }
+  const double turned_rad = std::abs(wrap_angle(car.car->heading_rad - us.car->heading_rad));
+  if (turned_rad > std::numbers::pi - kSameWay_rad) {
+    return by_line(us, car, Cause::kOncoming,
+                   [&](const Party& party) { return over_the_line(network, *party.car); });
+  }
+  if (turned_rad > kSameWay_rad) {
+    return {Fault::kEgo, Cause::kUnclear};
+  }
+  const double dx = car.car->centre.x - us.car->centre.x;
+  const double dy = car.car->centre.y - us.car->centre.y;
+  const double ahead = std::cos(us.car->heading_rad) * dx + std::sin(us.car->heading_rad) * dy;
+  const double left = std::cos(us.car->heading_rad) * dy - std::sin(us.car->heading_rad) * dx;
+  const double length_overlap = 0.5 * (us.car->length_m + car.car->length_m) - std::abs(ahead);
+  const double width_overlap = 0.5 * (us.car->width_m + car.car->width_m) - std::abs(left);
+  if (length_overlap <= width_overlap) {
+    return ahead < 0.0 ? nose_to_tail(law, evidence, guide, us, car, time_s)
+                       : nose_to_tail(law, evidence, guide, car, us, time_s);
+  }
+  return by_line(us, car, Cause::kChangedLane, [&](const Party& party) {
+    return over_the_line(network, *party.car) || changed_lane_lately(law, network, *party.journey);
+  });
+}
+
+}  // namespace s4tp::world

@@ -1,0 +1,38 @@
+#pragma once
+/// Whose fault a touch is and why, from what was recorded and the law alone.
+///
+/// The first row that fits. "Ours" wherever a row names nobody.
+/// | id      | situation                                                                        | at fault |
+/// cause           |
+/// |---------|----------------------------------------------------------------------------------|----------------|-----------------|
+/// | LAW-020 | on a zone; who had to yield entered without licence, or when the other was there | who had to
+/// | kEntered        | | LAW-021 | the same, licensed, but stands there for want of room beyond the group |
+/// who had to     | kNoRoom         | | LAW-022 | the same, licensed | the other      | kIntoRightful   | |
+/// LAW-023 | on a zone, first come                                                            | the later one
+/// | kEnteredLater   | | LAW-024 | nose to tail; the one in front came into the lane within `settle_s`, no
+/// RSS gap  | it             | kCutIn          | | LAW-025 | nose to tail; we are in front and stand for 1 s
+/// without reason (reasons.hpp)     | we             | kStopped        | | LAW-026 | nose to tail | the one
+/// behind | kRanInto        | | LAW-027 | head-on; one is over its line, the other not | the first      |
+/// kOncoming       | | LAW-028 | side by side; one is over its line or came over it within `settle_s`, not
+/// the other | the first   | kChangedLane    | | LAW-029 | anything else | we             | kUnclear        |
+
+#include <span>
+
+#include "sim_host/world/judge/law.hpp"
+#include "sim_host/world/network.hpp"
+#include "sim_host/world/recording.hpp"
+
+namespace s4tp::world {
+
+struct Verdict {
+  Fault fault = Fault::kNone;
+  Cause cause = Cause::kNone;
+};
+
+/// \param guide    the ego's route
+/// \param history  snapshots every 0.1 s up to and including the touch; lanes as engines label them
+/// \param other    whom the ego touches
+[[nodiscard]] Verdict attribute(const Network& network, const RouteGuide& guide,
+                                std::span<const Snapshot> history, int other, const Law& law = {});
+
+}  // namespace s4tp::world

@@ -1,0 +1,139 @@
+#include "sim_host/world/judge/evidence.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "sim_host/world/box.hpp"
+
+namespace s4tp::world {
+namespace {
+
+const NetworkLane& lane_of(const Network& network, LaneId id) {
+  return network.lanes[static_cast<std::size_t>(id)];
+}
+
+bool within(const NetworkLane& lane, Vec2 point) {
+  return std::abs(lane.centre.project(point).d_m) <= 0.5 * lane.width_m;
+}
+
+const CarState* find(const Snapshot& snapshot, int id) {
+  if (id == 0) {
+    return &snapshot.ego;
+  }
+  const auto car = std::find_if(snapshot.others.begin(), snapshot.others.end(),
+                                [&](const CarState& state) { return state.id == id; });
+  return car == snapshot.others.end() ? nullptr : &*car;
+}
+
+}  // namespace
+
+LaneId lane_under(const Network& network, const CarState& car) {
+  if (car.lane == kNoLane || within(lane_of(network, car.lane), car.centre)) {
+    return car.lane;
+  }
+  for (const LaneId beside : {lane_of(network, car.lane).left, lane_of(network, car.lane).right}) {
+    if (beside != kNoLane && within(lane_of(network, beside), car.centre)) {
+      return beside;
+    }
+  }
+  return car.lane;
+}
+
+Evidence::Evidence(const Network& network, std::span<const Snapshot> snapshots, const RouteGuide* ego_guide)
+    : road_(network), snapshots_(snapshots.begin(), snapshots.end()) {
+  for (Snapshot& snapshot : snapshots_) {
+    snapshot.ego.lane = lane_under(network, snapshot.ego);
+    for (CarState& car : snapshot.others) {
+      car.lane = lane_under(network, car);
+    }
+  }
+  journeys_ = journeys_of(network, snapshots_, ego_guide != nullptr);
+  for (Journey& journey : journeys_) {
+    extend(network, journey.id == 0 ? ego_guide : nullptr, journey);
+  }
+}
+
+const Journey* Evidence::journey_of(int id) const {
+  const auto found = std::find_if(journeys_.begin(), journeys_.end(),
+                                  [&](const Journey& journey) { return journey.id == id; });
+  return found == journeys_.end() ? nullptr : &*found;
+}
+
+std::vector<ZoneGroup> Evidence::groups_of(const Journey& journey) const {
+  return zone_groups(road_, journey.stretches, journey.length_m);
+}
+
+const Snapshot& Evidence::snapshot_at(double time_s) const {
+  const auto after =
+      std::upper_bound(snapshots_.begin(), snapshots_.end(), time_s + 1e-6,
+                       [](double time, const Snapshot& snapshot) { return time < snapshot.time_s; });
+  return after == snapshots_.begin() ? snapshots_.front() : *(after - 1);
+}
+
+const CarState& Evidence::state_of(int id, double time_s) const {
+  const CarState* state = find(snapshot_at(time_s), id);
+  if (state == nullptr) {
+    throw std::logic_error("car " + std::to_string(id) + " was not there");
+  }
+  return *state;
+}
+
+bool Evidence::in_sight(int from, int to, double time_s) const {
+  return !hidden(state_of(from, time_s), state_of(to, time_s), snapshot_at(time_s).others);
+}
+
+double Evidence::stood_s(const Law& law, const Journey& journey, double time_s) const {
+  double since_s = time_s;
+  for (auto point = journey.points.rbegin(); point != journey.points.rend(); ++point) {
+    if (point->time_s > time_s + 1e-6) {
+      continue;
+    }
+    if (point->speed_mps >= law.standing_mps) {
+      break;
+    }
+    since_s = point->time_s;
+  }
+  return time_s - since_s;
+}
+
+std::optional<double> Evidence::other_entry_m(const ZoneOnWay& zone, const Journey& other) const {
+  return other.odometer_at(zone.meeting.other, zone.meeting.other_entry_m - longer_by_m(other.length_m));
+}
+
+std::optional<double> Evidence::other_exit_m(const ZoneOnWay& zone, const Journey& other) const {
+  return other.odometer_at(zone.meeting.other, zone.meeting.other_exit_m + longer_by_m(other.length_m));
+}
+
+Entry Evidence::entry_of(const Law& law, const Journey& entering, const ZoneGroup& group,
+                         const ZoneOnWay& zone, const Journey& other, double time_s) const {
+  const JourneyPoint& then = other.at(time_s);
+  const double gone_s = entering.time_at(zone.exit_m);
+  Entry entry;
+  entry.merging = zone.meeting.merging;
+  entry.gone_after_s = gone_s - time_s;
+  entry.gone_mps = std::isfinite(gone_s) ? entering.at(gone_s).speed_mps : 0.0;
+  entry.other_to_zone_m = other_entry_m(zone, other).value_or(0.0) - then.odometer_m;
+  entry.other_to_end_m = other_exit_m(zone, other).value_or(0.0) - then.odometer_m;
+  entry.other_mps = then.speed_mps;
+  entry.other_limit_mps = std::max(lane_of(road_.network(), then.lane).speed_limit_mps,
+                                   lane_of(road_.network(), zone.meeting.other).speed_limit_mps);
+  entry.bumpers_m = 0.5 * (entering.length_m + other.length_m);
+  entry.in_sight = in_sight(other.id, entering.id, time_s);
+  for (auto point = entering.points.rbegin(); point != entering.points.rend(); ++point) {
+    if (point->time_s > time_s + 1e-6) {
+      continue;
+    }
+    if (point->odometer_m < group.entry_m - law.shown_within_m || !other.seen_at(point->time_s) ||
+        !in_sight(other.id, entering.id, point->time_s)) {
+      break;
+    }
+    entry.shown_s = time_s - point->time_s;
+  }
+  entry.other_stood_s = stood_s(law, other, time_s);
+  entry.both_stood_s = std::min(entry.other_stood_s, stood_s(law, entering, time_s));
+  return entry;
+}
+
+}  // namespace s4tp::world
