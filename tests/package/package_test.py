@@ -95,7 +95,7 @@ class Package(unittest.TestCase):
                              "-DCMAKE_BUILD_TYPE=RelWithDebInfo")
         targets = run("cmake", "--build", program.parent, "--target", "help")
         self.assertIn("s4tp_ecu", targets)
-        for ours in ("s4tp_tool", "s4tp_world", "planner_test", "replay"):
+        for ours in ("s4tp_tool", "s4tp_world", "unit_tests", "replay"):
             self.assertNotIn(ours, targets)
         self.assertFalse((program.parent / "s4tp/firmware/libs4tp_wire.a").exists())  # nobody asked for it
         self.assertEqual(run(program), run(self.on_host(self.install(BUILD))))

@@ -141,7 +141,8 @@ TEST(Parameters, DocumentationIsUpToDate) {
   std::stringstream committed;
   committed << file.rdbuf();
   EXPECT_EQ(committed.str(), document())
-      << "regenerate with: S4TP_REGENERATE=1 " << S4TP_BINARY_DIR << "/tests/parameters_test";
+      << "regenerate with: S4TP_REGENERATE=1 " << S4TP_BINARY_DIR
+      << "/tests/unit_tests --gtest_filter=Parameters.DocumentationIsUpToDate";
 }
 
 }  // namespace s4tp
