@@ -11,7 +11,15 @@ function(s4tp_core_target target)
     ${S4TP_ARITHMETIC} ${S4TP_WARNINGS} -Wconversion -Wshadow -Wdouble-promotion
     -fno-exceptions -fno-rtti -fno-threadsafe-statics -ffunction-sections -fdata-sections -fstack-usage
     -ffile-prefix-map=${PROJECT_BINARY_DIR}/= -ffile-prefix-map=${PROJECT_SOURCE_DIR}/=)  # the same archive in every folder
-  target_compile_definitions(${target} PRIVATE EIGEN_DONT_VECTORIZE EIGEN_MAX_ALIGN_BYTES=0)
+endfunction()
+
+# Eigen's headers, for the core's own sources: who builds the library needs them, who installs or links it does not. One
+# order of additions on every target, and nothing of a heap, not even dead code that names it.
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+function(s4tp_use_eigen target)
+  target_include_directories(${target} SYSTEM PRIVATE $<TARGET_PROPERTY:Eigen3::Eigen,INTERFACE_INCLUDE_DIRECTORIES>)
+  target_compile_definitions(${target} PRIVATE
+    EIGEN_DONT_VECTORIZE EIGEN_MAX_ALIGN_BYTES=0 EIGEN_NO_MALLOC EIGEN_GEMM_TO_COEFFBASED_THRESHOLD=64 EIGEN_NO_IO)
 endfunction()
 
 # The host side and tests: C++20, ordinary C++; of debug information only what a backtrace needs, as more of it would

@@ -1,6 +1,7 @@
 #include "algo/trajectory/ilqr.hpp"
 
 #include "algo/core/inline.hpp"
+#include "algo/trajectory/ilqr_backward.hpp"
 
 namespace s4tp {
 namespace {
@@ -61,23 +62,13 @@ float Ilqr::try_share(const RefinementProblem& problem, float share, float limit
   float merit = 0.0F;
   trial_.states[0] = nominal_.states[0];
   for (int i = 0; i < kHorizonSteps && merit <= limit; ++i) {
-    const MotionState& was = nominal_.states[i];
-    const MotionState& now = trial_.states[i];
-    const float moved[kMotionStates] = {now.x_m - was.x_m,
-                                        now.y_m - was.y_m,
-                                        now.heading_rad - was.heading_rad,
-                                        now.speed_mps - was.speed_mps,
-                                        now.acceleration_mps2 - was.acceleration_mps2,
-                                        now.curvature_1pm - was.curvature_1pm};
     const InputCorrection& correction = corrections_[i];
-    float input[2] = {nominal_.inputs[i].jerk_mps3 + share * correction.open[0],
-                      nominal_.inputs[i].curvature_rate_1pms + share * correction.open[1]};
-    for (int k = 0; k < kMotionStates; ++k) {
-      input[0] += correction.feedback[0][k] * moved[k];
-      input[1] += correction.feedback[1][k] * moved[k];
-    }
-    trial_.inputs[i] = within({input[0], input[1]}, problem.steps[i].input_bound);
-    trial_.states[i + 1] = motion_step(now, trial_.inputs[i]);
+    const InputVector input = vector_of(nominal_.inputs[i]) +
+                              share * Eigen::Map<const InputVector>(correction.open) +
+                              Eigen::Map<const InputByState>(correction.feedback) *
+                                  (vector_of(trial_.states[i]) - vector_of(nominal_.states[i]));
+    trial_.inputs[i] = within({input[kJerk], input[kRate]}, problem.steps[i].input_bound);
+    trial_.states[i + 1] = motion_step(trial_.states[i], trial_.inputs[i]);
     merit += step_merit(problem, bounds_, i, trial_.inputs[i], trial_.states[i + 1]);  // each >= 0
   }
   return merit;

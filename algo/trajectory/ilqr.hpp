@@ -4,9 +4,17 @@
 /// corrections forwards, whole and in fixed shares. Sources: Tassa et al. 2014 (input bounds), Howell et al.
 /// 2019 (ALTRO).
 
-#include "algo/trajectory/ilqr_backward.hpp"
+#include "algo/trajectory/ilqr_problem.hpp"
 
 namespace s4tp {
+
+inline constexpr int kMotionStates = 6;  ///< x, y, psi, v, a, kappa
+
+/// Correction of one step's inputs: `open` + feedback . (state - nominal state).
+struct InputCorrection {
+  float open[2];                      ///< jerk, curvature rate
+  float feedback[2 * kMotionStates];  ///< a column for each state
+};
 
 struct IlqrResult {
   int passes = 0;

@@ -1,5 +1,5 @@
 #include "algo/core/inline.hpp"
-#include "algo/trajectory/ilqr_problem.hpp"
+#include "algo/trajectory/ilqr_model.hpp"
 
 namespace s4tp {
 namespace {
@@ -180,7 +180,14 @@ inline float pull_all(const RefinementProblem& problem, const BoundState& bounds
   return cost;
 }
 
-float input_cost(const RefinementProblem& problem, const RefinementStep& step, const MotionInput& input) {
+/// Adds a residual's cost; `direction` is its gradient by the state's entries from `Begin` on.
+template <int Begin, int Size>
+void add_pull(const Pull& pull, const Vector<Size>& direction, StateCost& cost) {
+  cost.gradient.segment<Size>(Begin) += pull.slope * direction;
+  cost.hessian.block<Size, Size>(Begin, Begin) += (pull.stiffness * direction) * direction.transpose();
+}
+
+float cost_of_input(const RefinementProblem& problem, const RefinementStep& step, const MotionInput& input) {
   return 0.5F * (problem.weights.jerk * square(input.jerk_mps3) +
                  step.curvature_rate_weight * square(input.curvature_rate_1pms));
 }
@@ -229,7 +236,7 @@ Judgement judge_motion(const RefinementProblem& problem, const Motion& motion) {
     const Residuals residuals = find_residuals(problem, step, state);
     StepPulls pulls;
     judgement.cost += pull_all(problem, kNoBounds, i, residuals, state, pulls) +
-                      input_cost(problem, step, motion.inputs[i]);
+                      cost_of_input(problem, step, motion.inputs[i]);
     judgement.violation = max(judgement.violation, worst_violation(problem, step, residuals, state));
   }
   return judgement;
@@ -240,63 +247,37 @@ float step_merit(const RefinementProblem& problem, const BoundState& bounds, int
   const RefinementStep& step = problem.steps[index];
   StepPulls pulls;
   return pull_all(problem, bounds, index, find_residuals(problem, step, state), state, pulls) +
-         input_cost(problem, step, input);
+         cost_of_input(problem, step, input);
 }
 
-void expand_step(const RefinementProblem& problem, const BoundState& bounds, int index,
-                 const MotionInput& input, const MotionState& state, StepExpansion& e) {
+void add_step_cost(const RefinementProblem& problem, const BoundState& bounds, int index,
+                   const MotionState& state, StateCost& cost) {
   const RefinementStep& step = problem.steps[index];
   const Residuals residuals = find_residuals(problem, step, state);
   StepPulls pulls;
   (void)pull_all(problem, bounds, index, residuals, state, pulls);
 
-  // Directions of along t and across n - kappa along t; heading's is psi - kappa along.
+  // along by t, across by n - kappa along t, heading by psi - kappa along.
   const float bend = step.reference.curvature_1pm;
-  const float tx = step.along_x;
-  const float ty = step.along_y;
-  const float nx = -ty - bend * residuals.along_m * tx;
-  const float ny = tx - bend * residuals.along_m * ty;
-  const float along_slope = pulls.along.slope - bend * pulls.heading.slope;
-  const float along_stiffness = pulls.along.stiffness + square(bend) * pulls.heading.stiffness;
-  const float along_heading = -bend * pulls.heading.stiffness;
-  e.x = tx * along_slope + nx * pulls.across.slope;
-  e.y = ty * along_slope + ny * pulls.across.slope;
-  e.psi = pulls.heading.slope;
-  e.xx = tx * tx * along_stiffness + nx * nx * pulls.across.stiffness;
-  e.xy = tx * ty * along_stiffness + nx * ny * pulls.across.stiffness;
-  e.yy = ty * ty * along_stiffness + ny * ny * pulls.across.stiffness;
-  e.x_psi = tx * along_heading;
-  e.y_psi = ty * along_heading;
-  e.psi_psi = pulls.heading.stiffness;
+  const Vector<2> along = {step.along_x, step.along_y};
+  const Vector<2> left = {-step.along_y, step.along_x};
+  add_pull<0>(pulls.along, along, cost);
+  add_pull<0>(pulls.across, Vector<2>(left - (bend * residuals.along_m) * along), cost);
+  add_pull<0>(pulls.heading, Vector<3>(-bend * along.x(), -bend * along.y(), 1.0F), cost);
   for (int k = 0; k < step.half_plane_count; ++k) {
     const HalfPlane& plane = step.half_planes[k];
-    const Pull& pull = pulls.gap[k];
-    const float turn = residuals.gap_by_heading[k];
-    e.x += plane.normal_x * pull.slope;
-    e.y += plane.normal_y * pull.slope;
-    e.psi += turn * pull.slope;
-    e.xx += plane.normal_x * plane.normal_x * pull.stiffness;
-    e.xy += plane.normal_x * plane.normal_y * pull.stiffness;
-    e.yy += plane.normal_y * plane.normal_y * pull.stiffness;
-    e.x_psi += plane.normal_x * turn * pull.stiffness;
-    e.y_psi += plane.normal_y * turn * pull.stiffness;
-    e.psi_psi += turn * turn * pull.stiffness;
+    add_pull<0>(pulls.gap[k], Vector<3>(plane.normal_x, plane.normal_y, residuals.gap_by_heading[k]), cost);
   }
-
   const float lateral_by_speed = 2.0F * state.speed_mps * state.curvature_1pm;
-  const float lateral_by_curvature = square(state.speed_mps);
-  e.v = pulls.speed.slope + lateral_by_speed * pulls.lateral.slope;
-  e.vv = pulls.speed.stiffness + square(lateral_by_speed) * pulls.lateral.stiffness;
-  e.v_kappa = lateral_by_speed * lateral_by_curvature * pulls.lateral.stiffness;
-  e.kappa = pulls.curvature.slope + lateral_by_curvature * pulls.lateral.slope;
-  e.kappa_kappa = pulls.curvature.stiffness + square(lateral_by_curvature) * pulls.lateral.stiffness;
-  e.a = pulls.acceleration.slope;
-  e.aa = pulls.acceleration.stiffness;
+  add_pull<kV>(pulls.lateral, Vector<3>(lateral_by_speed, 0.0F, square(state.speed_mps)), cost);
+  add_pull<kV>(pulls.speed, Vector<1>(1.0F), cost);
+  add_pull<kA>(pulls.acceleration, Vector<1>(1.0F), cost);
+  add_pull<kKappa>(pulls.curvature, Vector<1>(1.0F), cost);
+}
 
-  e.jerk = problem.weights.jerk * input.jerk_mps3;
-  e.jerk_jerk = problem.weights.jerk;
-  e.curvature_rate = step.curvature_rate_weight * input.curvature_rate_1pms;
-  e.rate_rate = step.curvature_rate_weight;
+InputCost input_cost(const RefinementProblem& problem, int index, const MotionInput& input) {
+  const InputVector weights = {problem.weights.jerk, problem.steps[index].curvature_rate_weight};
+  return {weights.cwiseProduct(vector_of(input)), weights};
 }
 
 void update_multipliers(const RefinementProblem& problem, const Motion& motion, BoundState& bounds) {

@@ -1,6 +1,5 @@
-#include "algo/trajectory/ilqr_dynamics.hpp"
-
 #include "algo/core/inline.hpp"
+#include "algo/trajectory/ilqr_model.hpp"
 
 namespace s4tp {
 namespace {
@@ -26,6 +25,16 @@ float unclamped_speed(const MotionState& state, const MotionInput& input) {
 
 }  // namespace
 
+StateVector vector_of(const MotionState& state) {
+  return (StateVector() << state.x_m, state.y_m, state.heading_rad, state.speed_mps, state.acceleration_mps2,
+          state.curvature_1pm)
+      .finished();
+}
+
+InputVector vector_of(const MotionInput& input) {
+  return {input.jerk_mps3, input.curvature_rate_1pms};
+}
+
 MotionState motion_step(const MotionState& state, const MotionInput& input) {
   MotionState next;
   next.speed_mps = rest(unclamped_speed(state, input));
@@ -47,11 +56,10 @@ MotionJacobian motion_jacobian(const MotionState& state, const MotionInput& inpu
   const float half_turn_rad = 0.5F * curvature_1pm * way_m;
   const SinCos middle = sin_cos(state.heading_rad + half_turn_rad);
   MotionJacobian jacobian;
-  jacobian.turn_x = -way_m * middle.sin;
-  jacobian.turn_y = way_m * middle.cos;
+  jacobian.turn = {-way_m * middle.sin, way_m * middle.cos};
   jacobian.way = {middle.cos - half_turn_rad * middle.sin, middle.sin + half_turn_rad * middle.cos,
                   curvature_1pm};
-  jacobian.bend = {0.5F * way_m * jacobian.turn_x, 0.5F * way_m * jacobian.turn_y, way_m};
+  jacobian.bend << 0.5F * way_m * jacobian.turn, way_m;
   jacobian.speed_gain = rest_slope(unclamped_mps);
   jacobian.way_by_speed = 0.5F * kStepS * (1.0F + jacobian.speed_gain);
   jacobian.way_by_acceleration = 0.5F * square(kStepS) * jacobian.speed_gain;

@@ -41,31 +41,4 @@ struct Motion {
 /// One step of kStepS.
 [[nodiscard]] MotionState motion_step(const MotionState& state, const MotionInput& input);
 
-/// Derivatives of a step, by their non-trivial entries. With w = way_by_..., g = speed_gain:
-///
-/// \code
-///          x  y  psi      v              a                   kappa
-///   x'     1  .  turn.x   w_v way.x      w_a way.x           bend.x        B's columns follow from A's:
-///   y'     .  1  turn.y   w_v way.y      w_a way.y           bend.y          B_j = dt/2 (A_a + e_a)
-///   psi'   .  .  1        w_v way.psi    w_a way.psi         bend.psi        B_c = dt/2 (A_kappa + e_kappa)
-///   v'     .  .  .        g              g dt                .
-///   a'     .  .  .        .              1                   .
-///   kappa' .  .  .        .              .                   1
-/// \endcode
-struct MotionJacobian {
-  struct Column {
-    float x;
-    float y;
-    float psi;
-  };
-  float turn_x;
-  float turn_y;
-  Column way;   ///< by the way of the step
-  Column bend;  ///< by the curvature
-  float way_by_speed;
-  float way_by_acceleration;
-  float speed_gain;
-};
-[[nodiscard]] MotionJacobian motion_jacobian(const MotionState& state, const MotionInput& input);
-
 }  // namespace s4tp

@@ -104,16 +104,6 @@ struct Judgement {
 [[nodiscard]] float step_merit(const RefinementProblem& problem, const BoundState& bounds, int index,
                                const MotionInput& input, const MotionState& state);
 
-/// Gradient and Gauss-Newton Hessian of step_merit; entries that are always zero are left out.
-struct StepExpansion {
-  float x, y, psi, v, a, kappa;  // gradient
-  float xx, xy, x_psi, yy, y_psi, psi_psi, vv, v_kappa, aa, kappa_kappa;
-  float jerk, curvature_rate;  // gradient by the input
-  float jerk_jerk, rate_rate;
-};
-void expand_step(const RefinementProblem& problem, const BoundState& bounds, int index,
-                 const MotionInput& input, const MotionState& state, StepExpansion& expansion);
-
 /// One step of the method of multipliers: what the bounds push back with at `motion` becomes their
 /// multiplier.
 void update_multipliers(const RefinementProblem& problem, const Motion& motion, BoundState& bounds);

@@ -134,6 +134,8 @@ class Package(unittest.TestCase):
         found, count = check_headers.findings(prefix / "include/s4tp")
         self.assertEqual(found, [])
         self.assertGreater(count, 60)
+        for file in prefix.rglob("*.cmake"):  # who links the library needs no Eigen
+            self.assertNotIn("igen", file.read_text(encoding="utf-8"), file)
 
     def test_nothing_installed_names_our_folder(self):
         for file in self.install(BUILD).rglob("*"):

@@ -29,6 +29,10 @@ case $case in
     run "$log"
     expect 0 '^[0-9]+ ticks, [0-9]+ plans, [0-9]+ missed, [0-9]{3,} frames compared, 0 differ'
     ;;
+  optimizer_check) # CORE-010: optimizer_check.cpp judges
+    run
+    expect 0 '^optimizer bits'
+    ;;
   changed_frame) # one hexadecimal digit of one Command frame
     first_ticks | awk '/ 008#/ && ++n == 40 { d = substr($0, length($0)); sub(/.$/, d == "7" ? "6" : "7") } { print }' \
       >"$scratch/changed.log"

@@ -1,7 +1,5 @@
 // The optimizer's parts: model, derivatives, box step, one pass.
 
-#include "algo/trajectory/ilqr.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,6 +7,7 @@
 #include <random>
 
 #include "algo/trajectory/bicycle.hpp"
+#include "algo/trajectory/ilqr_backward.hpp"
 #include "tests/support/refinement_scenes.hpp"
 
 namespace s4tp {
@@ -93,9 +92,9 @@ TEST(IlqrModel, JacobianAgreesWithDifferences) {
     const double u[2] = {input.jerk_mps3, input.curvature_rate_1pms};
     const double dt = 0.1;
     const double a[6][6] = {
-        {1, 0, j.turn_x, j.way_by_speed * j.way.x, j.way_by_acceleration * j.way.x, j.bend.x},
-        {0, 1, j.turn_y, j.way_by_speed * j.way.y, j.way_by_acceleration * j.way.y, j.bend.y},
-        {0, 0, 1, j.way_by_speed * j.way.psi, j.way_by_acceleration * j.way.psi, j.bend.psi},
+        {1, 0, j.turn[0], j.way_by_speed * j.way[0], j.way_by_acceleration * j.way[0], j.bend[0]},
+        {0, 1, j.turn[1], j.way_by_speed * j.way[1], j.way_by_acceleration * j.way[1], j.bend[1]},
+        {0, 0, 1, j.way_by_speed * j.way[2], j.way_by_acceleration * j.way[2], j.bend[2]},
         {0, 0, 0, j.speed_gain, j.speed_gain * dt, 0},
         {0, 0, 0, 0, 1, 0},
         {0, 0, 0, 0, 0, 1}};
@@ -130,6 +129,13 @@ float& entry(MotionState& state, int index) {
   return *entries[index];
 }
 
+StateCost cost_at(const RefinementProblem& problem, const BoundState& bounds, int index,
+                  const MotionState& state) {
+  StateCost cost = {StateVector::Zero(), StateMatrix::Zero()};
+  add_step_cost(problem, bounds, index, state, cost);
+  return cost;
+}
+
 // The gradient of cost and bounds against central differences, at motions displaced by up to 1.5 m, 0.2 rad
 // and 2 m/s, where many a bound is broken. Differences of floats are good to a percent of the steepest entry.
 TEST(IlqrCost, GradientAgreesWithDifferences) {
@@ -149,9 +155,7 @@ TEST(IlqrCost, GradientAgreesWithDifferences) {
     state.speed_mps = std::abs(state.speed_mps + draw(random, -2.0F, 2.0F));
     state.curvature_1pm += draw(random, -0.05F, 0.05F);
     const MotionInput input = {draw(random, -5.0F, 5.0F), draw(random, -0.1F, 0.1F)};
-    StepExpansion e;
-    expand_step(scene->problem, bounds, index, input, state, e);
-    const float gradient[6] = {e.x, e.y, e.psi, e.v, e.a, e.kappa};
+    const StateCost cost = cost_at(scene->problem, bounds, index, state);
     const float h[6] = {2e-3F, 2e-3F, 1e-3F, 2e-3F, 1e-2F, 2e-4F};
     for (int i = 0; i < 6; ++i) {
       const auto merit_at = [&](float shift) {
@@ -161,11 +165,12 @@ TEST(IlqrCost, GradientAgreesWithDifferences) {
       };
       const double difference = (merit_at(h[i]) - merit_at(-h[i])) / (2.0 * h[i]);
       const double noise = 1e-6 * merit_at(0.0F) / h[i];
-      EXPECT_NEAR(gradient[i], difference, 0.02 * std::abs(difference) + 5.0 * noise + 0.03)
+      EXPECT_NEAR(cost.gradient[i], difference, 0.02 * std::abs(difference) + 5.0 * noise + 0.03)
           << "entry " << i << " seed " << seed;
       ++compared;
     }
-    EXPECT_NEAR(e.jerk, scene->problem.weights.jerk * input.jerk_mps3, 1e-6F);
+    EXPECT_NEAR(input_cost(scene->problem, index, input).gradient[kJerk],
+                scene->problem.weights.jerk * input.jerk_mps3, 1e-6F);
   }
   EXPECT_GT(compared, 300);
 }
@@ -187,11 +192,7 @@ TEST(IlqrCost, HessianIsExactWhereResidualsAreLinear) {
   BoundState bounds;
   bounds.penalty = 0.5F;
   const MotionState state = {10.5F, 5.0F, 0.7F, 5.5F, 1.0F, 0.0F};  // across the bound of 1 m
-  StepExpansion e;
-  expand_step(problem, bounds, 4, {}, state, e);
-  const float hessian[6][6] = {
-      {e.xx, e.xy, e.x_psi, 0, 0, 0}, {e.xy, e.yy, e.y_psi, 0, 0, 0}, {e.x_psi, e.y_psi, e.psi_psi, 0, 0, 0},
-      {0, 0, 0, e.vv, 0, e.v_kappa},  {0, 0, 0, 0, e.aa, 0},          {0, 0, 0, e.v_kappa, 0, e.kappa_kappa}};
+  const StateCost cost = cost_at(problem, bounds, 4, state);
   const float h = 0.05F;
   const auto merit_at = [&](int i, float di, int j, float dj) {
     MotionState moved = state;
@@ -204,7 +205,7 @@ TEST(IlqrCost, HessianIsExactWhereResidualsAreLinear) {
       const double second =
           (merit_at(i, h, j, h) - merit_at(i, h, j, -h) - merit_at(i, -h, j, h) + merit_at(i, -h, j, -h)) /
           (4.0 * h * h);
-      EXPECT_NEAR(hessian[i][j], second, 0.02 * std::abs(second) + 0.01) << i << ' ' << j;
+      EXPECT_NEAR(cost.hessian(i, j), second, 0.02 * std::abs(second) + 0.01) << i << ' ' << j;
     }
   }
 }
@@ -212,7 +213,7 @@ TEST(IlqrCost, HessianIsExactWhereResidualsAreLinear) {
 // 1/2 (2 u^2 + 2 w^2) - 4 u - w has its least at (2, 0.5); with u <= 1 it moves to (1, 0.5), and there w
 // alone is free.
 TEST(IlqrBoxStep, StopsAtTheBound) {
-  const BoxStep step = box_step({2.0F, 0.0F, 2.0F}, {-4.0F, -1.0F}, {-1.0F, -1.0F}, {1.0F, 1.0F});
+  const BoxStep step = box_step(2.0F * InputMatrix::Identity(), {-4.0F, -1.0F}, {-1.0F, -1.0F}, {1.0F, 1.0F});
   EXPECT_FLOAT_EQ(step.u[0], 1.0F);
   EXPECT_FLOAT_EQ(step.u[1], 0.5F);
   EXPECT_FALSE(step.free[0]);
@@ -226,12 +227,13 @@ TEST(IlqrBoxStep, IsTheLeast) {
     const float a = draw(random, 0.1F, 3.0F);
     const float b = draw(random, -1.0F, 1.0F);
     const float c = draw(random, 0.1F, 3.0F);
-    const float h[3] = {a * a, a * b, b * b + c * c};  // Cholesky: positive definite
-    const float g[2] = {draw(random, -5.0F, 5.0F), draw(random, -5.0F, 5.0F)};
-    const float low[2] = {draw(random, -2.0F, 0.0F), draw(random, -2.0F, 0.0F)};
-    const float high[2] = {draw(random, 0.0F, 2.0F), draw(random, 0.0F, 2.0F)};
+    InputMatrix h;
+    h << a * a, a * b, a * b, b * b + c * c;  // Cholesky: positive definite
+    const InputVector g = {draw(random, -5.0F, 5.0F), draw(random, -5.0F, 5.0F)};
+    const InputVector low = {draw(random, -2.0F, 0.0F), draw(random, -2.0F, 0.0F)};
+    const InputVector high = {draw(random, 0.0F, 2.0F), draw(random, 0.0F, 2.0F)};
     const auto value = [&](float u, float w) {
-      return 0.5F * (h[0] * u * u + h[2] * w * w) + h[1] * u * w + g[0] * u + g[1] * w;
+      return 0.5F * (h(0, 0) * u * u + h(1, 1) * w * w) + h(0, 1) * u * w + g[0] * u + g[1] * w;
     };
     const BoxStep step = box_step(h, g, low, high);
     const float least = value(step.u[0], step.u[1]);

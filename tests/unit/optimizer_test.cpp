@@ -8,6 +8,7 @@
 #include <cstring>
 #include <memory>
 
+#include "algo/trajectory/ilqr_backward.hpp"
 #include "tests/support/refinement_scenes.hpp"
 
 namespace s4tp {
