@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "sim_host/campaign/episode_record.hpp"
+#include "sim_host/campaign/families.hpp"
 
 namespace s4tp::campaign {
 namespace {
@@ -137,14 +138,19 @@ ordered_json results_json(const ordered_json& header, const std::vector<CellResu
     done += cell.episodes.size();
     if (!cell.episodes.empty()) runs.push_back(run_json(cell));
   }
-  return {{"first_seed", header.at("first_seed")},
-          {"episodes_per_run", header.at("episodes")},
-          {"episodes_done", done},
-          {"episodes_planned", planned_episodes(header)},
-          {"parameters_crc", header.at("parameters_crc")},
-          {"wire_version", header.at("wire_version")},
-          {"scenarios", header.at("scenarios")},
-          {"runs", runs}};
+  ordered_json document{{"first_seed", header.at("first_seed")},
+                        {"episodes_per_run", header.at("episodes")},
+                        {"episodes_done", done},
+                        {"episodes_planned", planned_episodes(header)},
+                        {"parameters_crc", header.at("parameters_crc")},
+                        {"wire_version", header.at("wire_version")},
+                        {"scenarios", header.at("scenarios")},
+                        {"runs", runs}};
+  if (has_families(cells)) {
+    document["families"] = families_json(by_family(cells));
+    document["family_pairs"] = family_pairs_json(pair_families(cells));
+  }
+  return document;
 }
 
 ordered_json results_json(const EpisodeRow& row) {

@@ -31,7 +31,8 @@ struct CellResult {
 /// How many episodes the header's campaign has in all its parts.
 [[nodiscard]] std::size_t planned_episodes(const nlohmann::ordered_json& header);
 
-/// The document: what the campaign is, then one run a cell. Every failure is listed with its seed.
+/// The document: what the campaign is, then one run a cell. Every failure is listed with its seed. Where
+/// families have several roads, they come after that (families.hpp).
 [[nodiscard]] nlohmann::ordered_json results_json(const nlohmann::ordered_json& header,
                                                   const std::vector<CellResult>& cells);
 

@@ -38,6 +38,12 @@ struct Command {
 [[nodiscard]] Command add_risk(CLI::App& tool);
 [[nodiscard]] Command add_roads(CLI::App& tool);
 
+/// What `--roads` names: the scenario folders in a folder, by name; or, as "N:K", roads N to N + K - 1, drawn
+/// into `out`. \throws std::invalid_argument when it is neither, std::runtime_error as roads::write_road()
+[[nodiscard]] std::vector<std::string> road_folders(const std::string& text,
+                                                    const std::filesystem::path& scenario_root,
+                                                    const std::filesystem::path& out);
+
 /// Options that commands share, with the same words and meaning everywhere.
 struct CommonOptions {
   std::filesystem::path scenario_root = S4TP_SCENARIOS;

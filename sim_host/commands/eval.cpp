@@ -10,6 +10,8 @@
 #include "sim_host/campaign/any_ecu.hpp"
 #include "sim_host/campaign/compare.hpp"
 #include "sim_host/campaign/episode_record.hpp"
+#include "sim_host/campaign/families.hpp"
+#include "sim_host/campaign/family_table.hpp"
 #include "sim_host/campaign/progress.hpp"
 #include "sim_host/campaign/records.hpp"
 #include "sim_host/campaign/results.hpp"
@@ -31,6 +33,8 @@ struct EvalOptions {
   campaign::CampaignPlan plan;
   std::vector<std::string> guards{"on"};
   CommonOptions common;
+  std::string roads;
+  const CLI::Option* scenarios_named = nullptr;
   int jobs = 0;
   std::string shard = "1/1";
   fs::path json;
@@ -66,8 +70,12 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 /// Table, comparison, failures and JSON: what one run and merged parts have in common.
 void report(const ordered_json& header, const std::vector<campaign::EpisodeRow>& rows, const fs::path& json) {
   const std::vector<campaign::CellResult> cells = campaign::collect(rows, header);
-  campaign::print_table(std::cout, cells);
-  campaign::print_paired(std::cout, cells);
+  if (campaign::has_families(cells)) {
+    campaign::print_families(std::cout, cells);
+  } else {
+    campaign::print_table(std::cout, cells);
+    campaign::print_paired(std::cout, cells);
+  }
 
   const auto command = [&](const campaign::Cell& cell, std::uint64_t seed) {
     return campaign::replay_command(header, cell, seed);
@@ -96,6 +104,17 @@ int run_eval(EvalOptions& options) {
   plan.first_seed = options.common.seed;
   plan.parameters = options.common.parameters();
   const campaign::Shard shard = shard_of(options.shard);
+  if (!options.roads.empty()) {
+    if (shard.count > 1 && !fs::is_directory(options.roads)) {
+      throw std::invalid_argument(
+          "--roads N:K with --shard: draw them once, with ./s4tp roads, and name their folder");
+    }
+    if (options.scenarios_named->count() == 0) plan.scenarios.clear();
+    for (const std::string& folder :
+         road_folders(options.roads, options.common.scenario_root, options.common.out / "roads")) {
+      plan.scenarios.push_back(folder);
+    }
+  }
   const campaign::Campaign campaign = campaign::load_campaign(plan, options.common.scenario_root);
   const ordered_json header = campaign::header_of(campaign, shard, options.common.parameters_file);
 
@@ -216,8 +235,11 @@ Command add_eval(CLI::App& tool) {
   eval->add_option("--planner,--planners", plan.planners, "who drives (default s4tp)")
       ->delimiter(',')
       ->check(CLI::IsMember(campaign::planner_names()));
-  eval->add_option("--scenarios,--scenario", plan.scenarios, "shipped names, folders or .toml files")
-      ->delimiter(',');
+  options->scenarios_named =
+      eval->add_option("--scenarios,--scenario", plan.scenarios, "shipped names, folders or .toml files")
+          ->delimiter(',');
+  eval->add_option("--roads", options->roads,
+                   "a folder of scenarios, or N:K, K roads from number N on (s4tp roads); results by family");
   eval->add_option("--flavour,--flavours", plan.flavours, "smarts (default), social, or others they have")
       ->delimiter(',');
   eval->add_option("--traffic", plan.traffic, "who simulates it: builtin (default), sumo")

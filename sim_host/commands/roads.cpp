@@ -1,9 +1,9 @@
-#include <unistd.h>
-
+#include <algorithm>
+#include <cstdio>
 #include <iostream>
 #include <map>
+#include <stdexcept>
 
-#include "sim_host/campaign/progress.hpp"
 #include "sim_host/commands/command.hpp"
 #include "sim_host/processes/stop_signals.hpp"
 #include "sim_host/roads/generator.hpp"
@@ -41,7 +41,42 @@ int write_roads(const RoadsOptions& options) {
   return kDone;
 }
 
+/// "N:K"
+bool is_range(const std::string& text, std::uint64_t& first, int& count) {
+  unsigned long long number = 0;
+  char end = 0;
+  if (std::sscanf(text.c_str(), "%llu:%d%c", &number, &count, &end) != 2) return false;
+  first = number;
+  return text.front() >= '0' && text.front() <= '9' && count > 0;
+}
+
 }  // namespace
+
+std::vector<std::string> road_folders(const std::string& text, const std::filesystem::path& scenario_root,
+                                      const std::filesystem::path& out) {
+  namespace fs = std::filesystem;
+  std::vector<std::string> folders;
+  std::uint64_t first = 0;
+  int count = 0;
+  if (fs::is_directory(text)) {
+    for (const auto& entry : fs::directory_iterator(text)) {
+      const bool hidden = entry.path().filename().string().front() == '.';  // one that is being written
+      if (!hidden && fs::is_regular_file(entry.path() / "scenario.toml")) folders.push_back(entry.path());
+    }
+  } else if (is_range(text, first, count)) {
+    for (int i = 0; i < count; ++i) {
+      folders.push_back(
+          roads::write_road(first + static_cast<std::uint64_t>(i), scenario_root / "social.toml", out)
+              .folder);
+    }
+  }
+  if (folders.empty()) {
+    throw std::invalid_argument(
+        "--roads " + text + ": accepted is a folder of scenario folders, or N:K, K roads from number N on");
+  }
+  std::sort(folders.begin(), folders.end());
+  return folders;
+}
 
 Command add_roads(CLI::App& tool) {
   CLI::App* roads =

@@ -8,11 +8,9 @@ namespace {
 
 constexpr double kZ = 1.959963984540054;  // two-sided 95 %
 
-/// Tango's statistic: how many standard errors the data lie above a true difference `delta`.
-double score(const Paired& paired, double delta) {
-  const double n = paired.pairs;
-  const double b = paired.only_first_fails;
-  const double c = paired.only_second_fails;
+/// Tango's statistic: how many standard errors the data (pairs, only first fails, only second fails) lie
+/// above a true difference `delta`.
+double score(double n, double b, double c, double delta) {
   // Likeliest probability of "only the second fails" under that difference.
   const double qa = 2.0 * n;
   const double qb = -b - c + (2.0 * n - b + c) * delta;
@@ -37,13 +35,16 @@ double mcnemar_p(const Paired& paired) {
   return std::min(1.0, 2.0 * tail);
 }
 
-double difference_upper(const Paired& paired) {
+double difference_upper(const Paired& paired, double design_effect) {
   if (paired.pairs == 0) return 1.0;
+  const double n = paired.pairs / design_effect;
+  const double b = paired.only_first_fails / design_effect;
+  const double c = paired.only_second_fails / design_effect;
   double low = static_cast<double>(paired.only_first_fails - paired.only_second_fails) / paired.pairs;
   double high = 1.0;
   for (int i = 0; i < 60; ++i) {
     const double middle = 0.5 * (low + high);
-    (score(paired, middle) > -kZ ? low : high) = middle;
+    (score(n, b, c, middle) > -kZ ? low : high) = middle;
   }
   return high;
 }

@@ -18,7 +18,9 @@ struct Paired {
 /// Upper end of the 95 % interval of (failure rate of the first - of the second).
 /// Source: Tango 1998, score interval of the difference of paired proportions; it also holds with no
 /// discordant pair at all, where it is z^2 / (n + z^2), and where only one kind of them is, Wilson's.
-[[nodiscard]] double difference_upper(const Paired& paired);
+/// \param design_effect  of pairs that come in clusters (clusters.hpp): each counts as 1 / design_effect
+/// pairs
+[[nodiscard]] double difference_upper(const Paired& paired, double design_effect = 1.0);
 
 /// Better: McNemar p < 0.05 and fewer failures. No worse: difference_upper() < 1 %.
 [[nodiscard]] bool first_is_better(const Paired& paired);

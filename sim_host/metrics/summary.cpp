@@ -6,8 +6,8 @@
 
 namespace s4tp::metrics {
 
-Interval wilson(int successes, int trials) {
-  if (trials == 0) return {};
+Interval wilson(double successes, double trials) {
+  if (trials <= 0.0) return {};
   constexpr double kZ = 1.959963984540054;  // two-sided 95 %
   const double n = trials;
   const double p = successes / n;

@@ -9,12 +9,12 @@
 
 namespace s4tp::metrics {
 
-/// 95 % Wilson score interval of a rate.
+/// 95 % Wilson score interval of a rate; numbers need not be whole (clusters.hpp).
 struct Interval {
   double low = 0.0;
   double high = 1.0;
 };
-[[nodiscard]] Interval wilson(int successes, int trials);
+[[nodiscard]] Interval wilson(double successes, double trials);
 
 /// The smallest value that at least `share` of all are not above (nearest rank). \pre values not empty
 [[nodiscard]] double percentile(std::vector<double> values, double share);

@@ -104,9 +104,10 @@ Road draw_junction(Random& random, int count, int turn, double least_deg, double
                             directions[static_cast<std::size_t>(goal)]) /
                kDegree_rad;
   } while (turn_deg < least_deg || turn_deg > most_deg);
-  const std::string type = one_of<std::string>({"priority", "priority", "priority", "priority_stop",
-                                                "allway_stop", "right_before_left", "unregulated"},
-                                               random);
+  // Not `unregulated`: SUMO's drivers do not look at each other there, and no law says who had to.
+  const std::string type = one_of<std::string>(
+      {"priority", "priority", "priority", "priority_stop", "allway_stop", "right_before_left", "priority"},
+      random);
   const bool ranked = type.starts_with("priority");
   const int main = random.integer(0, count - 1);
   // The major road goes on opposite, or now and then round the corner.

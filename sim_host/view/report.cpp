@@ -68,7 +68,15 @@ std::string section(const std::string& name, const Reported& group) {
     if (!cell->result.episodes.empty()) driven.push_back(&cell->result);
   }
   std::string html = "<section>\n<h2>" + escaped(name) + "</h2>\n";
-  if (!driven.empty()) {
+  const std::string families = family_tables(driven);
+  if (!families.empty()) {
+    html += "<h3>By family of roads</h3>\n" + families +
+            "<p><small>Roads of a family differ in their number only. Intervals: Wilson's with the episodes "
+            "divided "
+            "by the design effect of roads, and one more road counted that fails every second episode. Loses "
+            "at most: "
+            "upper end of the 95 % interval of the loss of goals.</small></p>\n";
+  } else if (!driven.empty()) {
     html += "<figure class=\"wide\">" + outcome_chart(driven) +
             "</figure>\n<p><small>Left: share that reaches the goal, with its 95 % Wilson interval. Boxes: "
             "the middle half "
@@ -81,7 +89,7 @@ std::string section(const std::string& name, const Reported& group) {
             "two</small></p>\n";
   }
   html += "<h3>Outcomes</h3>\n" + outcome_table(group);
-  const std::string paired = paired_table(driven);
+  const std::string paired = families.empty() ? paired_table(driven) : std::string();
   if (!paired.empty()) {
     html += "<h3>Beside the others on the same episodes</h3>\n" + paired +
             "<p><small>better: McNemar's exact test, two-sided, p &lt; 0.05; no worse: the failure rate is "

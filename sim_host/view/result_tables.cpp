@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "sim_host/campaign/compare.hpp"
+#include "sim_host/campaign/families.hpp"
 #include "sim_host/metrics/paired.hpp"
 #include "sim_host/view/html.hpp"
 
@@ -148,6 +149,41 @@ std::string paired_table(const Cells& cells) {
                {"s4tp", "beside", "same episodes", "only s4tp fails", "only the other fails", "McNemar p",
                 "upper bound<br>of the difference, %", "s4tp is"},
                body);
+}
+
+std::string family_tables(const Cells& cells) {
+  std::vector<CellResult> results;
+  for (const CellResult* const cell : cells) results.push_back(*cell);
+  if (!campaign::has_families(results)) return {};
+  std::string families;
+  for (const campaign::FamilyResult& family : campaign::by_family(results)) {
+    const metrics::Summary& s = family.summary;
+    families += row({escaped(family.like.scenario), driver(family.like), std::to_string(family.roads),
+                     std::to_string(s.episodes), "<b>" + percent(s.success.share) + "</b>",
+                     percent(family.interval.low) + " – " + percent(family.interval.high),
+                     format("%.2f", family.design_effect), std::to_string(s.collision.count),
+                     std::to_string(s.at_fault.count), std::to_string(s.off_road.count),
+                     std::to_string(s.time_out.count), format("%.2f", family.restricted_mean_s)});
+  }
+  std::string pairs;
+  for (const campaign::FamilyPair& pair : campaign::pair_families(results)) {
+    pairs +=
+        row({escaped(pair.first.scenario), driver(pair.first), driver(pair.second),
+             std::to_string(pair.paired.pairs), std::to_string(pair.paired.only_first_fails),
+             std::to_string(pair.paired.only_second_fails), format("%.4f", metrics::mcnemar_p(pair.paired)),
+             format("%+.2f", 100.0 * pair.upper), format("%d, %d", pair.first_at_fault, pair.second_at_fault),
+             format("%.2f, %.2f", pair.first_restricted_mean_s, pair.second_restricted_mean_s)});
+  }
+  return table(
+             "families",
+             {"family", "driver", "roads", "episodes", "goal<br>%", "95 %, by road<br>%", "design effect",
+              "collisions", "through our fault", "off road", "time-out", "to goal, a failure<br>counts 80 s"},
+             families) +
+         table("family_pairs",
+               {"family", "1st", "2nd", "same episodes", "only 1st fails", "only 2nd fails", "McNemar p",
+                "1st loses at most<br>%, by road", "own collisions<br>1st, 2nd",
+                "to goal, a failure<br>counts 80 s"},
+               pairs);
 }
 
 }  // namespace s4tp::view

@@ -17,6 +17,10 @@ namespace s4tp::view {
 /// s4tp beside each other planner on the same episodes; empty without pairs.
 [[nodiscard]] std::string paired_table(const Cells& cells);
 
+/// Families of roads (campaign/families.hpp): a line for each family and driver, then pairs of drivers on the
+/// same episodes; empty where no family has several roads.
+[[nodiscard]] std::string family_tables(const Cells& cells);
+
 /// "guarded" or "bare"
 [[nodiscard]] std::string guard_words(const campaign::Cell& cell);
 

@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
@@ -203,6 +204,36 @@ TEST(Campaign, ComparesOnTheSameEpisodes) {
   EXPECT_EQ(eval({"compare", json, "--planner", "blind", "--against", "constant_speed"}, folder / "said"), 0);
   EXPECT_EQ(eval({"compare", json}, folder / "said"), 2);
   EXPECT_EQ(eval({"compare", json, "--against", "nobody"}, folder / "said"), 2);
+}
+
+// Roads by number: drawn into the output folder, driven, put together by family; the numbers are the same
+// when the same roads are named by their folder.
+TEST(Campaign, RoadsByFamily) {
+  const fs::path folder = scratch();
+  const std::vector<std::string> plan{"--planner", "constant_speed", "--guard", "on,off", "--episodes", "2"};
+  const auto with = [&](const std::string& roads, const std::string& out) {
+    std::vector<std::string> words = plan;
+    for (const std::string& word :
+         {std::string("--roads"), roads, std::string("--out"), (folder / out).string()}) {
+      words.push_back(word);
+    }
+    return words;
+  };
+  ASSERT_EQ(eval(with("11:15", "drawn"), folder / "said"), 0);
+  const auto numbers = nlohmann::json::parse(content(folder / "drawn" / "results.json"));
+  std::map<std::string, int> roads;
+  for (const auto& family : numbers.at("families"))
+    roads[family.at("family")] += family.at("roads").get<int>();
+  EXPECT_EQ(roads.size(), 15U);      // 14 families and all roads
+  EXPECT_EQ(roads.at("cruise"), 4);  // roads 11 and 25, guarded and bare
+  EXPECT_EQ(roads.at("all roads"), 30);
+  EXPECT_FALSE(numbers.at("family_pairs").empty());
+  ASSERT_EQ(eval(with((folder / "drawn" / "roads").string(), "named"), folder / "said"), 0);
+  const auto named = nlohmann::json::parse(content(folder / "named" / "results.json"));
+  EXPECT_EQ(named.at("families"), numbers.at("families"));
+  EXPECT_EQ(named.at("runs"), numbers.at("runs"));
+  EXPECT_EQ(eval(with("11", "no"), folder / "said"), 2);
+  EXPECT_EQ(eval(with((folder / "nothing").string(), "no"), folder / "said"), 2);
 }
 
 // Wrong use is code 2, with what is accepted.

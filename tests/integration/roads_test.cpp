@@ -135,14 +135,13 @@ TEST(Roads, CoverWhatTheyShould) {
       if (flavour == "smarts") add_to(coverage, written.family, road);
     }
     const std::string network = text_of(written.folder / "network.net.xml");
-    for (const char* rule :
-         {"priority", "priority_stop", "allway_stop", "right_before_left", "unregulated", "zipper"}) {
+    for (const char* rule : {"priority", "priority_stop", "allway_stop", "right_before_left", "zipper"}) {
       if (network.find("type=\"" + std::string(rule) + '"') != std::string::npos) rules.insert(rule);
     }
   }
   print(coverage);
   std::printf("280 roads, %d draws thrown away\n", thrown_away);
-  EXPECT_EQ(rules.size(), 6U);
+  EXPECT_EQ(rules.size(), 5U);
   EXPECT_TRUE(all_of(coverage, "start lane, m").covers(27.0, 140.0));
   EXPECT_TRUE(all_of(coverage, "goal lane, m").covers(27.0, 140.0));
   EXPECT_TRUE(all_of(coverage, "vehicles a minute and stream").covers(5.5, 19.5));

@@ -40,7 +40,7 @@ class Launcher(unittest.TestCase):
     def test_sumo_is_installed_when_it_is_asked_for(self):
         for arguments in (("run",), ("eval", "--traffic", "builtin"), ("run", "--out", "sumo")):
             self.assertEqual(self.asked_for(*arguments), "", arguments)
-        for arguments in (("run", "--traffic", "sumo"), ("eval", "--traffic=sumo"), ("coupling",), ("roads",),
+        for arguments in (("run", "--traffic", "sumo"), ("eval", "--traffic=sumo"), ("coupling",), ("roads",), ("eval", "--roads", "0:5"),
                           ("traffic", "--traffic", "builtin,sumo")):
             self.assertRegex(self.asked_for(*arguments), r"update\ninstall .* sumo\n", arguments)
             (self.folder / "asked").unlink()
