@@ -91,7 +91,8 @@ TEST_P(Allowance, EveryCutGivesAPlan) {
         }
       }
       for (const world::Collision& collision : result.recording.collisions) {
-        EXPECT_NE(collision.fault, world::Fault::kEgo) << options.planner << ": " << collision.cause;
+        EXPECT_NE(collision.fault, world::Fault::kEgo)
+            << options.planner << ": " << world::cause_words(collision.fault, collision.cause);
       }
     }
   }
