@@ -51,12 +51,12 @@ void print_pairs(std::ostream& out, const std::vector<FamilyPair>& pairs) {
     const std::string head =
         driver_words(pair.first) + " beside " + driver_words(pair.second) + ", " + world_words(pair.first);
     if (head != shown) {
-      std::snprintf(line, sizeof line, "%-20s%7s%10s%10s%11s%20s%14s%20s\n", "", "pairs", "only 1st",
+      std::snprintf(line, sizeof line, "%-20s%7s%10s%10s%11s%20s%15s%22s\n", "", "pairs", "only 1st",
                     "only 2nd", "McNemar p", "1st loses, at most", "ours 1st, 2nd", "mean s, 80: 1st, 2nd");
       out << "\n== " << head << ", on the same episodes: who fails\n" << line;
       shown = head;
     }
-    std::snprintf(line, sizeof line, "%-20.19s%7d%10d%10d%11.4f%18.2f %%%7d%7d%10.2f%10.2f\n",
+    std::snprintf(line, sizeof line, "%-20.19s%7d%10d%10d%11.4f%18.2f %%%9d%6d%13.2f%9.2f\n",
                   pair.first.scenario.c_str(), pair.paired.pairs, pair.paired.only_first_fails,
                   pair.paired.only_second_fails, metrics::mcnemar_p(pair.paired), 100.0 * pair.upper,
                   pair.first_at_fault, pair.second_at_fault, pair.first_restricted_mean_s,
@@ -70,11 +70,9 @@ void print_pairs(std::ostream& out, const std::vector<FamilyPair>& pairs) {
 void print_families(std::ostream& out, const std::vector<CellResult>& cells) {
   print_results(out, by_family(cells));
   print_pairs(out, pair_families(cells));
-  out << "\n95 % by road: Wilson's interval with the episodes divided by deff, the design effect of roads; "
-         "mean s, 80: "
-         "time to the goal, a failure counting 80 s; loses, at most: upper end of the 95 % interval of the "
-         "loss of goals, "
-         "clustered by road\n";
+  out << "\n95 % by road: Wilson's interval, the episodes divided by deff, the design effect of roads\n"
+         "mean s, 80: time to the goal, a failure counting 80 s\n"
+         "loses, at most: upper end of the 95 % interval of the loss of goals, clustered by road\n";
 }
 
 }  // namespace s4tp::campaign
