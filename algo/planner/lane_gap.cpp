@@ -40,7 +40,7 @@ LaneGap gap_between(const LaneVehicle* front, const LaneVehicle* rear, float lim
     gap.front_s_m = front->s_m - 0.5F * front->length_m - distance_m - rear_axle_to_front_m(parameters);
   }
   if (rear != nullptr) {
-    const float distance_m = change_gap_to_follower_m(gap.speed_mps, rear->speed_mps) + kInsetM;
+    const float distance_m = change_gap_to_follower_m(gap.speed_mps, rear->speed_mps, parameters) + kInsetM;
     gap.rear_s_m = rear->s_m + 0.5F * rear->length_m + distance_m + parameters.vehicle.rear_overhang_m;
   }
   gap.found = front == nullptr || rear == nullptr || gap.front_s_m >= gap.rear_s_m;

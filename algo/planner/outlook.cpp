@@ -144,7 +144,7 @@ float Outlook::delay_s(int path, float s_m, float speed_mps) const {
     const float ahead_m = back_s_m + centre_m_ + per_braking * square(max(0.0F, back_mps - other.speed_mps)) -
                           (other.s_m + other.speed_mps * back_s);
     const float needed_m = 0.5F * (parameters_->vehicle.length_m + other.length_m) +
-                           change_gap_to_follower_m(other.speed_mps, other.speed_mps);
+                           change_gap_to_follower_m(other.speed_mps, other.speed_mps, *parameters_);
     if (ahead_m >= needed_m && !(behind && other.tight)) break;  // there is room in front of him
     behind = true;
     longest_s = max(longest_s, behind_s(other, lane.target_s_m));

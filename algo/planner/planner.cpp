@@ -12,6 +12,10 @@
 #include "algo/trajectory/along_path.hpp"
 #include "algo/trajectory/bicycle.hpp"
 
+#pragma GCC diagnostic ignored "-Wdouble-promotion"
+#pragma GCC diagnostic ignored "-Wmisleading-indentation"
+#include <cstdio>
+#include <cstdlib>
 namespace s4tp {
 namespace {
 
@@ -70,6 +74,7 @@ Status Planner::init(const Parameters& parameters) {
   parameters_ = parameters;
   parameters_crc_ = s4tp::parameters_crc(parameters);
   scene_builder_.reset();
+  beliefs_.reset();
   initialized_ = true;
   return Status::kOk;
 }
@@ -98,6 +103,7 @@ Status Planner::plan(const PlannerInput& input, Plan& plan, Explanation& explana
     start_ = plan_start(input.ego, input.now_ms, running_, start_ms_, parameters_);
     if (status == Status::kOk) {
       mark_bound_for(running_, start_ms_, scene_);
+      guard_.look(scene_, start_, 0.001F * static_cast<float>(start_ms_ - scene_.time_ms), parameters_);
       predict(explanation);
       rank(input.degraded != 0, explanation);
       status = choose(explanation);
@@ -118,6 +124,8 @@ Status Planner::plan(const PlannerInput& input, Plan& plan, Explanation& explana
 
   if (status == Status::kOk || status == Status::kNoSafePlan) explain_risk(status, explanation);
 
+  if (getenv("PDBG")) { printf("%u kind %d intent %d start v %.3f a %.2f: ", start_ms_, (int)status, (int)explanation.chosen.intent, start_.speed_mps, start_.acceleration_mps2); for (int i=0;i<8;++i) printf("%.3f/%.2f ", chosen_.points[i].speed_mps, chosen_.points[i].acceleration_mps2); printf(" refined %d rss %d run %.3f\n", refined_in_force_, explanation.rss_clipped, sample(running_, start_ms_).speed_mps);
+   for (int i=0;i<candidates_.size();++i) printf("  [%d %d %.1f rej %d cost %.1f]", candidates_[i].path, (int)candidates_[i].intent, candidates_[i].acceleration_mps2, (int)explanation.rejections[i], costs_[i].total()); printf("\n"); }
   plan.kind = status == Status::kOk ? PlanKind::kDrive : PlanKind::kMinimumRisk;
   plan.start_ms = start_ms_;
   plan.trajectory = chosen_;
@@ -153,7 +161,10 @@ void Planner::forget_scene() {
 void Planner::predict(Explanation& explanation) {
   const StageScope scope(probe, Stage::kPredict);
   new (&arena_.predictor) Predictor;
-  arena_.predictor.encode(scene_, parameters_, start_ms_);
+  arena_.predictor.encode(scene_, parameters_, start_ms_, &beliefs_);
+  YieldHypotheses hypotheses[kMaxAgents];
+  arena_.predictor.hypotheses(hypotheses);
+  beliefs_.observe(scene_, hypotheses);
   arena_.predictor.decode(nullptr, allowance.prediction, unconditioned_);
   arena_.predictor.keep_going(keep_going_);
   count(explanation, Stage::kPredict, arena_.predictor.work());
@@ -163,27 +174,38 @@ std::uint8_t Planner::track_id(int agent) const {
   return agent >= 0 && agent < scene_.agents.size() ? scene_.agents[agent].track.id : kNobody;
 }
 
-Rejection Planner::judge(int path, const PathSight& sight, const PredictionSet& conditioned,
+Rejection Planner::judge(int path, const PathSight& /*sight*/, const PredictionSet& /*conditioned*/,
                          CheckReport& report) const {
   if (!guarded) return Rejection::kNone;
-  report =
-      check_feasible(scene_, path, sight, chosen_, unconditioned_, conditioned, keep_going_, parameters_);
-  switch (report.result) {
-    case CheckResult::kPassed:
-      return Rejection::kNone;
-    case CheckResult::kCollision:
-      return Rejection::kCollision;
-    case CheckResult::kTerminal:
-      return Rejection::kTerminal;
-    case CheckResult::kNotFinite:
-    case CheckResult::kInfeasible:
+  const safety::Verdict verdict = guard_.judge(path, chosen_);
+  report.hard = verdict.hard;
+  if (verdict.safe()) return Rejection::kNone;
+  report = {CheckResult::kTerminal, verdict.agent, 0, TerminalCause::kNone, verdict.from_s, verdict.needed_s};
+  switch (verdict.cause) {
+    case safety::Cause::kNone:
+    case safety::Cause::kNoPath:
+      report.terminal = TerminalCause::kNoPath;
+      break;
+    case safety::Cause::kRoadEnd:
+      report.terminal = TerminalCause::kRoadEnd;
+      break;
+    case safety::Cause::kLeader:
+      report.terminal = TerminalCause::kLeader;
+      break;
+    case safety::Cause::kFollower:
+      report.terminal = TerminalCause::kFollower;
+      break;
+    case safety::Cause::kZone:
+      report.terminal = TerminalCause::kZone;
+      break;
+    case safety::Cause::kNoRoom:
+      report.terminal = TerminalCause::kStopsInZone;
       break;
   }
-  return Rejection::kInfeasible;
+  return Rejection::kTerminal;
 }
 
 float Planner::crash_cost(const PredictionSet& prediction) const {
-  if (guarded) return 0.0F;
   float crashes = 0.0F;  // expected number
   for (const AgentPrediction& predicted : prediction.agents) {
     const Track& track = scene_.agents[predicted.agent].track;
@@ -258,7 +280,7 @@ bool Planner::evaluate(int index, Explanation& explanation) {
   const StageScope scope(probe, Stage::kExactRisk);
   exact_risk(scene_, drivable_, conditioned_, keep_going_, chosen_, parameters_, explanation.risk);
   costs_[index].risk =
-      parameters_.scoring.risk * risk_integral(explanation.risk, parameters_) + crash_cost(conditioned_);
+      parameters_.scoring.risk * risk_integral(explanation.risk, parameters_) + crash_cost(conditioned_) + hard_[index];
   count(explanation, Stage::kExactRisk, 1);
   return true;
 }
@@ -284,11 +306,11 @@ void Planner::refine(const Candidate& candidate, Explanation& explanation) {
   const StageScope scope(probe, Stage::kCheck);
   count(explanation, Stage::kCheck, 1);
   // A refinement that does not pass is dropped: what it started from has passed.
-  const bool passes_check = guarded ? check_trajectory(scene_, candidate.path, refined_, unconditioned_,
-                                                       conditioned_, keep_going_, parameters_)
-                                              .result == CheckResult::kPassed
-                                    : feasible(refined_, parameters_);
-  if (!passes_check) return;
+  const bool passes_check =
+      feasible(refined_, parameters_) && (!guarded || guard_.judge(candidate.path, refined_).safe());
+  // A start is not postponed: the next cycle would begin at rest again, for ever.
+  const bool postpones = refined_.points[1].speed_mps < 0.5F * chosen_.points[1].speed_mps;
+  if (!passes_check || postpones) return;
   chosen_ = refined_;
   refined_in_force_ = true;
 }

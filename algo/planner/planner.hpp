@@ -12,6 +12,7 @@
 #include "algo/planner/explanation.hpp"
 #include "algo/planner/probe.hpp"
 #include "algo/sadrf/risk.hpp"
+#include "algo/safety/guard.hpp"
 #include "algo/satp/predictor.hpp"
 #include "algo/scene/scene.hpp"
 #include "algo/trajectory/optimizer.hpp"
@@ -97,12 +98,15 @@ class Planner {
   Plan running_;
   Scene scene_;
   DrivableArea drivable_;
+  safety::Guard guard_;
   TrajectoryPoint start_;
+  YieldBeliefs beliefs_;
   PredictionSet unconditioned_;
   KinematicSet keep_going_;
   ReferenceLines lines_;
   CandidateList candidates_;
   CostBreakdown costs_[kMaxCandidates];
+  float hard_[kMaxCandidates] = {};
   DecisionList decisions_;
   bool keeps_plan_ = false;  ///< the running plan is among the candidates, as decision plan_key_
   DecisionKey plan_key_ = 0;

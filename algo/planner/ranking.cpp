@@ -6,6 +6,9 @@
 #include "algo/trajectory/standing_room.hpp"
 
 namespace s4tp {
+namespace {
+constexpr float kHardStopCost = 20.0F;
+}
 
 /// Looks at each candidate while its roll-out is in chosen_.
 class Planner::Ranking final : public CandidateVisitor {
@@ -34,6 +37,7 @@ class Planner::Ranking final : public CandidateVisitor {
     CheckReport report;
     const PathSight& sight = sight_along(candidate.path);
     rejection = planner_.judge(candidate.path, sight, planner_.conditioned_, report);
+    planner_.hard_[index] = report.hard ? kHardStopCost : 0.0F;
     if (rejection == Rejection::kNone) {
       score(index, candidate, previous);
     } else {
@@ -70,7 +74,7 @@ class Planner::Ranking final : public CandidateVisitor {
     if (!decisions.open_to(key, cost.total(), stays ? kMaxCandidates : planner_.shortlisted())) return;
     cost.risk = parameters.scoring.risk * rank_risk(scene, planner_.drivable_, planner_.unconditioned_,
                                                     planner_.keep_going_, rolled_out, parameters) +
-                planner_.crash_cost(planner_.unconditioned_);
+                planner_.crash_cost(planner_.unconditioned_) + planner_.hard_[index];
     decisions.offer(key, index, cost.total());
   }
 

@@ -1,6 +1,7 @@
 #include "algo/planner/scoring.hpp"
 
 #include "algo/core/inline.hpp"
+#include "algo/trajectory/along_path.hpp"
 #include "algo/trajectory/bicycle.hpp"
 
 namespace s4tp {
@@ -11,14 +12,17 @@ constexpr float kChangeRoomM = 60.0F;  // a lane change left to do starts to pre
 constexpr float kGapShare = 0.5F;      // of what the lane beside gains, for each second until its gap is met
 constexpr float kLongestS = 8.0F;
 constexpr float kLookS = static_cast<float>(kHorizonSteps) * kStepS;
-constexpr float kMissedRoute = 10.0F;  // times lane_route: driving past the last place to change lanes
+constexpr float kMissedRoute = 80.0F;  // times lane_route: driving past the last place to change lanes
 
 /// Price of the lane: how many changes are left, more pressing as the room for them shortens.
-float route_cost(const EgoPath& path, float end_s_m, const Parameters& parameters) {
+float route_cost(const EgoPath& path, float end_s_m, float end_mps, const Parameters& parameters) {
   const int changes = path.changes_needed < 0 ? -path.changes_needed : path.changes_needed;
   if (changes == 0) return 0.0F;
   const float room_m = path.route_end_s_m - end_s_m;
-  if (room_m < 0.0F) return kMissedRoute * parameters.scoring.lane_route * static_cast<float>(changes);
+  // The last place to wait for it leaves room to change from rest.
+  const float stop_m = square(end_mps) / (2.0F * parameters.comfort.braking_mps2);
+  const float needed_m = rear_axle_to_front_m(parameters) + kChangeWayM * static_cast<float>(changes);
+  if (room_m < stop_m + needed_m) return kMissedRoute * parameters.scoring.lane_route * static_cast<float>(changes);
   const float pressing = 1.0F + kChangeRoomM * static_cast<float>(changes) / (room_m + 10.0F);
   return parameters.scoring.lane_route * static_cast<float>(changes) * pressing;
 }
@@ -27,7 +31,7 @@ float route_cost(const EgoPath& path, float end_s_m, const Parameters& parameter
 float lane_cost(const Scene& scene, const Outlook& outlook, int path, float s_m, float speed_mps,
                 const Parameters& parameters) {
   return parameters.scoring.delay * outlook.delay_s(path, s_m, speed_mps) +
-         route_cost(scene.ego_paths[path], s_m, parameters);
+         route_cost(scene.ego_paths[path], s_m, speed_mps, parameters);
 }
 
 /// The lane beside that we had rather be in, or -1. \param gain  receives what it saves, 0: nothing

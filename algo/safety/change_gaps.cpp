@@ -5,16 +5,27 @@
 
 namespace s4tp {
 
+namespace {
+constexpr float kShare = 0.8F;  // of the fail-safe's braking: leaves room ahead and behind alike
+constexpr float kOverLineS = 0.5F;
+}  // namespace
+
 float change_gap_to_leader_m(float own_mps, float leader_mps, const Parameters& parameters) {
-  const float own_stop_m = square(own_mps) / (2.0F * parameters.rss.braking_min_mps2);
-  const float its_stop_m = square(leader_mps) / (2.0F * parameters.rss.braking_max_mps2);
-  return kChangeStandingGapM + own_stop_m - its_stop_m;
+  const auto& guard = parameters.guard;
+  const float own_stop_m =
+      own_mps * guard.takeover_s + square(own_mps) / (2.0F * kShare * guard.braking_mps2);
+  const float its_stop_m = square(leader_mps) / (2.0F * parameters.law.braking_max_mps2);
+  return kChangeStandingGapM + max(0.0F, own_stop_m - its_stop_m);
 }
 
-float change_gap_to_follower_m(float own_mps, float follower_mps) {
-  const float faster_mps = max(0.0F, follower_mps - own_mps);
-  const float closed_m = kFollowerReactionS * faster_mps + square(faster_mps) / (2.0F * kFollowerBrakingMps2);
-  return kChangeStandingGapM + max(kChangeFollowerHeadwayS * follower_mps, closed_m);
+float change_gap_to_follower_m(float own_mps, float follower_mps, const Parameters& parameters) {
+  const auto& rss = parameters.rss;
+  const auto& guard = parameters.guard;
+  const float own_stop_m =
+      own_mps * guard.takeover_s + square(own_mps) / (2.0F * kShare * guard.braking_mps2);
+  const float its_stop_m = follower_mps * (kOverLineS + rss.response_s) +
+                           square(follower_mps) / (2.0F * rss.braking_min_mps2);
+  return kChangeStandingGapM + max(0.0F, its_stop_m - own_stop_m);
 }
 
 }  // namespace s4tp

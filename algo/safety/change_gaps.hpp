@@ -13,6 +13,6 @@ inline constexpr float kChangeFollowerHeadwayS = 0.2F;
 [[nodiscard]] float change_gap_to_leader_m(float own_mps, float leader_mps, const Parameters& parameters);
 
 /// Least gap [m] to a follower: a faster one reacts first, and need not brake hard then.
-[[nodiscard]] float change_gap_to_follower_m(float own_mps, float follower_mps);
+[[nodiscard]] float change_gap_to_follower_m(float own_mps, float follower_mps, const Parameters& parameters);
 
 }  // namespace s4tp

@@ -14,8 +14,8 @@ namespace s4tp {
 namespace {
 
 constexpr float kGapM = 1.0F;         // left to a standing leader
-constexpr float kBeforeZoneM = 0.5F;  // stops in a zone become stops before it, if no harder than this:
-constexpr float kForZoneMps2 = 6.0F;
+constexpr float kBeforeZoneM = 0.2F;  // stops in a zone become stops before it, if no harder than this:
+constexpr float kForZoneMps2 = 8.0F;
 constexpr float kBeyondZoneM = 0.5F;  // clear of a zone we leave
 constexpr float kLeavingMps2 = 2.0F;  // drive used to leave it
 constexpr float kBesideM = 0.4F;      // without a map: who is this near to our way ahead is in it

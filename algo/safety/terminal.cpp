@@ -187,7 +187,7 @@ bool follower_safe(const Leader& follower, const Along& along, const Parameters&
   const float way_m =
       min(along.end_s_m() - along.start_s_m(), 0.5F * (along.start_mps + end_mps) * kHorizonS);
   const float gap_m = follower.gap_m + way_m - follower.speed_mps * kHorizonS;
-  return gap_m >= change_gap_to_follower_m(end_mps, follower.speed_mps);
+  return gap_m >= change_gap_to_follower_m(end_mps, follower.speed_mps, parameters);
 }
 
 bool knows_path(const Scene& scene, int path) {

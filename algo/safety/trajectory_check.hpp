@@ -26,6 +26,7 @@ struct CheckReport {
   TerminalCause terminal = TerminalCause::kNone;
   float arrives_s = 0.0F;  ///< with TerminalCause::kZone: TerminalVerdict's
   float needed_s = 0.0F;
+  bool hard = false;
 };
 
 /// Finite, feasible, no collision with the modes without plan, the conditioned modes, and "keeps doing what

@@ -32,9 +32,10 @@ float willingness(float braking_mps2, float easy, float hard) {
   return clamp((hard - braking_mps2) / (hard - easy), 0.0F, 1.0F);
 }
 
-// Whether the driver lets us pass somewhere along its way, and where it then waits.
+// Prior chance that the driver lets us pass somewhere along its way, and where it then waits; < 0: we do not
+// meet. The right of way and the braking it takes decide.
 float yielding(const EgoMotion& ego, const Way& way, const WayMotion& undisturbed, Hold& hold) {
-  float chance = 0.0F;
+  float chance = -1.0F;
   for (const Crossing& crossing : way.crossings) {
     const Passage ours = ego.passage(crossing);
     if (ours.entry_s > ours.exit_s) continue;
@@ -74,7 +75,9 @@ void likeliest_first(AgentPrediction& futures) {
 
 }  // namespace
 
-void Predictor::encode(const Scene& scene, const Parameters& parameters, std::uint32_t start_ms) {
+void Predictor::encode(const Scene& scene, const Parameters& parameters, std::uint32_t start_ms,
+                       const YieldBeliefs* beliefs) {
+  beliefs_ = beliefs;
   scene_ = &scene;
   parameters_ = &parameters;
   const std::int32_t lead_ms = static_cast<std::int32_t>(start_ms - scene.time_ms);
@@ -113,7 +116,8 @@ void Predictor::decode(const Trajectory* plan, int allowance, PredictionSet& pre
       drive(way, agent.track, on_path, Hold{}, motion);
       work_ += kHorizonSteps;
       Hold hold;
-      float yields = yielding(ego, way, motion, hold);
+      const float prior = yielding(ego, way, motion, hold);
+      float yields = prior < 0.0F ? 0.0F : with_evidence(prior, beliefs_ == nullptr ? 0.0F : beliefs_->evidence(agent.track.id));
       const bool both = room > 0 && yields > 1.0F - kCertain && yields < kCertain;
       if (!both) yields = yields >= 0.5F ? 1.0F : 0.0F;
       if (yields < 1.0F) {
@@ -134,6 +138,25 @@ void Predictor::decode(const Trajectory* plan, int allowance, PredictionSet& pre
     }
     likeliest_first(futures);
     (void)prediction.agents.push(futures);
+  }
+}
+
+void Predictor::hypotheses(YieldHypotheses (&result)[kMaxAgents]) const {
+  S4TP_ASSERT(scene_ != nullptr);
+  for (int i = 0; i < scene_->watched; ++i) {
+    const Agent& agent = scene_->agents[i];
+    result[i] = YieldHypotheses{};
+    for (int k = 0; k < agent.paths.size() && !result[i].differ; ++k) {  // the likeliest first
+      const Way& way = ways_[i][k];
+      for (const Crossing& crossing : way.crossings) {
+        const float room_m = crossing.entry_s_m - kZoneMarginM - way.start_s_m;
+        if (room_m <= 0.0F) continue;
+        const float goes_mps2 = undisturbed_acceleration(way, agent.track);
+        const float stops_mps2 = -0.5F * square(way.speed_mps) / room_m;
+        result[i] = {true, goes_mps2, min(goes_mps2, stops_mps2)};
+        break;
+      }
+    }
   }
 }
 

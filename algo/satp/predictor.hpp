@@ -7,6 +7,7 @@
 #include "algo/core/trajectory.hpp"
 #include "algo/satp/prediction.hpp"
 #include "algo/satp/way.hpp"
+#include "algo/satp/yield_belief.hpp"
 #include "algo/scene/scene.hpp"
 
 namespace s4tp {
@@ -18,7 +19,12 @@ class Predictor {
  public:
   /// Reads the scene once; `scene` must outlive the following calls of this cycle.
   /// \param start_ms  plan start: the predictions' time zero; scene.time_ms <= start_ms
-  void encode(const Scene& scene, const Parameters& parameters, std::uint32_t start_ms);
+  void encode(const Scene& scene, const Parameters& parameters, std::uint32_t start_ms,
+              const YieldBeliefs* beliefs = nullptr);
+
+  /// What each watched vehicle would do now if it went first, and if it let us go first: on its likeliest way
+  /// that crosses ours.
+  void hypotheses(YieldHypotheses (&result)[kMaxAgents]) const;
 
   /// Futures of the watched vehicles. A future brakes for us (Mode::yields) where our way and its way cross.
   /// CORE-040 Every pose is finite; each vehicle's probabilities add up to 1 and it has at least one mode.
@@ -40,6 +46,7 @@ class Predictor {
  private:
   const Scene* scene_ = nullptr;
   const Parameters* parameters_ = nullptr;
+  const YieldBeliefs* beliefs_ = nullptr;
   float lead_s_ = 0.0F;  ///< plan start minus scene time
   Way ways_[kMaxAgents][kPathsPerAgent];
   mutable int work_ = 0;

@@ -32,6 +32,18 @@ float hold_acceleration(const Hold& hold, float time_s, float s_m, float speed_m
   return following_acceleration(speed_mps, hold.s_m - s_m + kStandstillGapM, 0.0F, 0.5F);
 }
 
+// With its lane, its leader and whom it gives way to, but without us.
+float acceleration_alone(const Way& way, float time_s, float s_m, float speed_mps, float half_length_m) {
+  const Hold own_hold{way.hold_s_m, way.hold_until_s};
+  float alone_mps2 = min(free_acceleration(speed_mps, desired_at(way, s_m)),
+                         hold_acceleration(own_hold, time_s, s_m, speed_mps));
+  if (way.follows) {
+    const float gap_m = way.leader_rear_s_m + way.leader_mps * time_s - s_m - half_length_m;
+    alone_mps2 = min(alone_mps2, following_acceleration(speed_mps, gap_m, way.leader_mps, way.headway_s));
+  }
+  return max(alone_mps2, -kHardestMps2);
+}
+
 // What our being on its path leaves room for. Who finds us entering ahead of him opens the gap at once (the
 // model's plain form); who has followed us all along keeps the headway he has.
 float ego_acceleration(const EgoOnPath& ego, float time_s, float s_m, float speed_mps, float half_length_m,
@@ -51,21 +63,19 @@ float ego_acceleration(const EgoOnPath& ego, float time_s, float s_m, float spee
 
 }  // namespace
 
+float undisturbed_acceleration(const Way& way, const Track& track) {
+  return acceleration_alone(way, 0.0F, way.start_s_m, way.speed_mps, 0.5F * track.length_m);
+}
+
 void drive(const Way& way, const Track& track, const EgoOnPath& ego, const Hold& hold, WayMotion& motion) {
   const float half_length_m = 0.5F * track.length_m;
-  const Hold own_hold{way.hold_s_m, way.hold_until_s};
   float s_m = way.start_s_m;
   float speed_mps = way.speed_mps;
   float habit_mps2 = 0.0F;
   for (int step = 0; step < kHorizonSteps; step += kStepsPerUpdate) {
     const float time_s = kStepS * static_cast<float>(step);
     const float free_mps2 = free_acceleration(speed_mps, desired_at(way, s_m));
-    float alone_mps2 = min(free_mps2, hold_acceleration(own_hold, time_s, s_m, speed_mps));
-    if (way.follows) {
-      const float gap_m = way.leader_rear_s_m + way.leader_mps * time_s - s_m - half_length_m;
-      alone_mps2 = min(alone_mps2, following_acceleration(speed_mps, gap_m, way.leader_mps, way.headway_s));
-    }
-    alone_mps2 = max(alone_mps2, -kHardestMps2);
+    const float alone_mps2 = acceleration_alone(way, time_s, s_m, speed_mps, half_length_m);
     // What it does now and the model does not explain fades away; what it does for us comes on top.
     if (step == 0) habit_mps2 = clamp(track.acceleration_mps2 - alone_mps2, -kHabitMax, kHabitMax);
     const float own_mps2 = alone_mps2 + habit_mps2 * max(1.0F - time_s / kHabitS, 0.0F);

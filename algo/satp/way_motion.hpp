@@ -22,6 +22,9 @@ struct Hold {
 /// Car-following along the way. \param ego  us on its path  \param hold  on top of the way's own
 void drive(const Way& way, const Track& track, const EgoOnPath& ego, const Hold& hold, WayMotion& motion);
 
+/// Acceleration the driver would have now if we were not there [m/s^2].
+[[nodiscard]] float undisturbed_acceleration(const Way& way, const Track& track);
+
 /// When the motion passes arc length `goal_s_m` [s after plan start]; beyond the horizon at its last speed.
 [[nodiscard]] float time_at(const Way& way, const WayMotion& motion, float goal_s_m);
 

@@ -30,6 +30,8 @@ struct Agent {
   /// CORE-034 How long it has stood with nobody to wait for; at most a minute. From kGivenUpMs on all the
   /// time it stands counts, whoever comes: who has let such a gap pass lets the next one pass, too.
   std::uint16_t idle_ms = 0;
+  std::uint16_t stood_ms = 0;  ///< how long it has stood; at most a minute
+  std::uint16_t known_ms = 0;  ///< how long it has been tracked; at most a minute
   LaneIndex lane = kNoLaneIndex;
   BoundedVector<LanePath, kPathsPerAgent> paths;  ///< ways it may go; the first is the likeliest
   float path_probability[kPathsPerAgent] = {};    ///< of each path; they add up to 1
@@ -107,6 +109,8 @@ class SceneBuilder {
     std::uint32_t seen_ms = 0;  ///< list time of that
     LaneIndex lane = kNoLaneIndex;
     std::uint16_t idle_ms = 0;
+    std::uint16_t stood_ms = 0;
+    std::uint16_t known_ms = 0;
     History history;
   };
 

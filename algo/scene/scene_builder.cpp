@@ -76,6 +76,10 @@ std::int32_t counted_ms(std::int32_t step_ms) {
   return step_ms < kLongestStepMs ? step_ms : kLongestStepMs;
 }
 
+std::uint16_t bounded_ms(std::int32_t time_ms) {
+  return static_cast<std::uint16_t>(time_ms < kLongestStandMs ? time_ms : kLongestStandMs);
+}
+
 // Where a vehicle last seen as `track` is `seconds` later, roughly.
 Point coasted(const Track& track, float seconds) {
   return offset_point(track.centre, track.speed_mps * seconds, 0.0F);
@@ -132,8 +136,12 @@ void SceneBuilder::note_idle(std::int32_t passed_ms, Scene& scene) {
     const bool stands = scene.map != nullptr && scene.agents[i].track.speed_mps < kStandingMps;
     const bool idle = stands && (past.idle_ms >= kGivenUpMs || !waits_for_somebody(scene, i));
     const std::int32_t idle_ms = idle ? past.idle_ms + passed_ms : 0;
-    past.idle_ms = static_cast<std::uint16_t>(idle_ms < kLongestStandMs ? idle_ms : kLongestStandMs);
+    past.idle_ms = bounded_ms(idle_ms);
+    past.stood_ms = bounded_ms(scene.agents[i].track.speed_mps < kStandingMps ? past.stood_ms + passed_ms : 0);
+    past.known_ms = bounded_ms(past.known_ms + passed_ms);
     scene.agents[i].idle_ms = past.idle_ms;
+    scene.agents[i].stood_ms = past.stood_ms;
+    scene.agents[i].known_ms = past.known_ms;
   }
 }
 
@@ -181,6 +189,8 @@ void SceneBuilder::take_list(const TrackList& tracks, std::uint32_t list_time_ms
         if (distance(coasted(past.track, seconds), position(track.centre)) > kJumpM) {
           past.history.valid = 0;
           past.idle_ms = 0;
+          past.stood_ms = 0;
+          past.known_ms = 0;
           past.lane = kNoLaneIndex;
         }
         past.track = track;

@@ -1,0 +1,58 @@
+#include "algo/occupancy/lane_reach.hpp"
+
+#include "algo/core/inline.hpp"
+
+namespace s4tp::occupancy {
+namespace {
+
+constexpr float kChangeWayM = 8.0F;   // a lane change takes at least this much of the lane that is left
+constexpr float kHorizonM = 160.0F;   // the map's own, and a little
+constexpr int kMostRounds = 12;       // lanes of a way, changes included
+
+bool has_lane(const LaneMap& map, LaneIndex lane) {
+  return lane >= 0 && lane < kMaxLanes && map.lanes[lane].present;
+}
+
+}  // namespace
+
+void LaneReach::measure(const LaneMap& map, const Agent& agent) {
+  for (float& way_m : to_start_m_) way_m = kNoWayM;
+  LaneIndex front[kMaxLanes];  // lanes whose neighbours are still to be looked at
+  int count = 0;
+  bool waiting[kMaxLanes] = {};
+  const auto offer = [&](LaneIndex lane, float way_m) {
+    // What is not a number is no way.
+    if (!has_lane(map, lane) || !(way_m < to_start_m_[lane]) || !(way_m < kHorizonM)) return;
+    to_start_m_[lane] = way_m;
+    if (!waiting[lane]) {
+      waiting[lane] = true;
+      front[count++] = lane;
+    }
+  };
+  for (int i = 0; i < agent.paths.size(); ++i) {
+    for (const PathLane& part : agent.paths[i].lanes) offer(part.lane, part.start_s_m - agent.frenet[i].s_m);
+  }
+  // A shorter way found later is followed again: rounds bound how often.
+  for (int round = 0; round < kMostRounds && count > 0; ++round) {
+    LaneIndex now[kMaxLanes];
+    const int waiting_now = count;
+    for (int i = 0; i < waiting_now; ++i) {
+      now[i] = front[i];
+      waiting[now[i]] = false;
+    }
+    count = 0;
+    for (int i = 0; i < waiting_now; ++i) {
+      const Lane& lane = map.lanes[now[i]];
+      const float start_m = to_start_m_[now[i]];
+      const float end_m = start_m + lane.length_m;
+      if (end_m < 0.0F) continue;  // it has left the lane
+      for (const LaneIndex successor : lane.successors) offer(successor, end_m);
+      if (lane.in_junction || min(lane.length_m, end_m) < kChangeWayM) continue;
+      // Lanes side by side begin side by side.
+      offer(lane.left, start_m);
+      offer(lane.right, start_m);
+    }
+  }
+}
+
+}  // namespace s4tp::occupancy

@@ -1,0 +1,31 @@
+#pragma once
+/// How far a vehicle is from every lane, by the shortest legal way (METHOD 4.9): successors and lane changes,
+/// whatever way is likely.
+///
+/// \code
+///   ====[car]======> lane 3 ------> lane 7 (junction) ---->     to lane 7: what is left of lane 3
+///   ===============> lane 4 ------> lane 8 (junction) ---->     to lane 8: the same, a change in between
+/// \endcode
+
+#include "algo/scene/scene.hpp"
+
+namespace s4tp::occupancy {
+
+/// Stands for "no legal way" [m].
+inline constexpr float kNoWayM = 1e6F;
+
+class LaneReach {
+ public:
+  /// Measures from the centre of the agent's box. An agent on no lane reaches none.
+  /// \note bounded work: each of the map's lanes is looked at a few times
+  void measure(const LaneMap& map, const Agent& agent);
+
+  /// Way from the vehicle's centre to the start of the lane; negative on the lane, kNoWayM when no way leads
+  /// there. \pre lane is an index of the map
+  [[nodiscard]] float to_start_m(LaneIndex lane) const { return to_start_m_[lane]; }
+
+ private:
+  float to_start_m_[kMaxLanes];
+};
+
+}  // namespace s4tp::occupancy

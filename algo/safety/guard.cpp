@@ -1,0 +1,385 @@
+#include "algo/safety/guard.hpp"
+
+#include "algo/core/inline.hpp"
+#include "algo/safety/lane_change.hpp"
+#include "algo/trajectory/along_path.hpp"
+#include "algo/trajectory/bicycle.hpp"
+
+#pragma GCC diagnostic ignored "-Wdouble-promotion"
+#include <cstdio>
+#include <cstdlib>
+namespace s4tp::safety {
+namespace {
+bool dbg = getenv("GDBG") != nullptr;
+
+
+using occupancy::kNeverS;
+using occupancy::Pace;
+
+constexpr float kHorizonS = static_cast<float>(kHorizonSteps) * kStepS;
+constexpr float kWaitingRoomM = 1.0F;   // between two zones there is room to stand, clear of both
+constexpr float kClearOfZoneM = 0.3F;   // before it
+constexpr float kStandingMps = 0.3F;
+constexpr float kCrawledM = 0.05F;
+constexpr float kStopTubeM = 0.25F;
+constexpr float kStoppingMps2 = -2.0F;
+constexpr float kGoesOnMps2 = 1.5F;     // how a plan is driven on beyond its horizon
+constexpr float kOverLineS = 0.5F;      // until a lane change just begun is over the line
+/// A fail-safe after a lane change: how long the plan is driven on, and how much of the braking then follows.
+struct Settling {
+  float drives_on_s;
+  float share;
+};
+constexpr Settling kSettlings[] = {{2.0F, 1.0F}, {0.0F, 1.0F}, {0.0F, 0.6F}, {0.0F, 0.35F}};
+constexpr float kCurvesMps2 = 3.0F;
+constexpr int kCapSamples = 4;
+
+}  // namespace
+
+/// A plan seen along its path.
+struct Guard::Own {
+  float s_m[kTrajectoryPoints];  ///< of the box centre
+  float speed_mps[kTrajectoryPoints];
+  float branch_s_m;  ///< of the box centre, where the fail-safe begins to brake
+  float branch_mps;
+
+  [[nodiscard]] float end_s_m() const { return s_m[kHorizonSteps]; }
+  [[nodiscard]] float stop_s_m(float braking_mps2) const {
+    return branch_s_m + occupancy::stopping_way_m(branch_mps, braking_mps2);
+  }
+  [[nodiscard]] Pace beyond(float cap_mps) const {
+    const float end_mps = speed_mps[kHorizonSteps];
+    return {end_mps, kGoesOnMps2, max(end_mps, cap_mps)};
+  }
+  /// When the centre comes to `at_s_m`; the plan is driven on beyond its horizon.
+  [[nodiscard]] float time_at_s(float at_s_m, float cap_mps) const {
+    if (at_s_m > end_s_m())
+      return min(kNeverS, kHorizonS + occupancy::time_to_cover_s(beyond(cap_mps), at_s_m - end_s_m()));
+    int i = 0;
+    while (i < kHorizonSteps && s_m[i] < at_s_m) ++i;
+    return static_cast<float>(i) * kStepS;
+  }
+  [[nodiscard]] float speed_at_mps(float time_s, float cap_mps) const {
+    if (time_s >= kHorizonS) return occupancy::speed_after_mps(beyond(cap_mps), time_s - kHorizonS);
+    return speed_mps[to_int(time_s / kStepS, 0, kHorizonSteps)];
+  }
+  [[nodiscard]] float place_at_m(float time_s, float cap_mps) const {
+    if (time_s >= kHorizonS) return end_s_m() + occupancy::way_after_m(beyond(cap_mps), time_s - kHorizonS);
+    return s_m[to_int(time_s / kStepS, 0, kHorizonSteps)];
+  }
+};
+
+void Guard::look(const Scene& scene, const TrajectoryPoint& start, float lead_s,
+                 const Parameters& parameters) {
+  scene_ = &scene;
+  parameters_ = &parameters;
+  start_ = start;
+  lead_s_ = lead_s;
+  centre_m_ = rear_axle_to_centre_m(parameters);
+  front_m_ = rear_axle_to_front_m(parameters);
+  if (scene.map == nullptr) return;
+  for (int path = 0; path < scene.ego_paths.size(); ++path) look_along(path);
+  for (int i = 0; i < scene.agents.size(); ++i) {
+    occupancy::LaneReach reach;
+    reach.measure(*scene.map, scene.agents[i]);
+    for (int path = 0; path < scene.ego_paths.size(); ++path)
+      add_threats(scene.ego_paths[path], i, reach, sights_[path]);
+  }
+  for (int path = 0; path < scene.ego_paths.size(); ++path) drop_those_behind(sights_[path]);
+}
+
+void Guard::look_along(int index) {
+  const EgoPath& path = scene_->ego_paths[index];
+  Sight& sight = sights_[index];
+  sight = Sight{};
+  sight.start_s_m =
+      project(*scene_->map, path.path, position(start_.rear_axle), path.frenet.s_m, 15.0F).s_m;
+  sight.end_s_m = dead_end_s_m(*scene_, path);
+  sight.leader_stop_s_m = kNoDeadEndM;
+  const float half_lane_m = 0.5F * path_point(*scene_->map, path.path, path.frenet.s_m).width_m;
+  sight.changes = path.manoeuvre != Manoeuvre::kKeep;
+  sight.half_over = abs(path.frenet.d_m) < half_lane_m;
+  const float centre_s_m = path.frenet.s_m + centre_m_;
+  for (int i = 0; i < scene_->agents.size(); ++i) {
+    const Agent& agent = scene_->agents[i];
+    bool known = false;
+    const bool joining = joins(*scene_, path, agent);
+    const OnPath seen = see_on_path(*scene_, path, agent, *parameters_, joining, known);
+    if (!known || !(seen.overlaps || joining) || seen.crossing) continue;
+    const float along_mps = max(0.0F, seen.along_mps);
+    if (seen.centre_s_m > centre_s_m) {
+      // It may have begun to brake when it was last seen.
+      const float age_s = 1e-3F * static_cast<float>(agent.age_ms);
+      const float rear_s_m = seen.centre_s_m - seen.half_length_m;
+      const float stop_s_m = rear_s_m - along_mps * age_s +
+                             occupancy::stopping_way_m(along_mps, parameters_->law.braking_max_mps2);
+      if (stop_s_m >= sight.leader_stop_s_m) continue;
+      sight.leader_stop_s_m = stop_s_m;
+      sight.leader = static_cast<std::uint8_t>(i);
+    } else if (sight.changes && seen.along_mps >= 0.0F) {
+      InLane behind;
+      behind.agent = static_cast<std::uint8_t>(i);
+      behind.bumper_s_m = seen.centre_s_m + seen.half_length_m + along_mps * lead_s_;
+      behind.speed_mps = along_mps;
+      if (sight.behind.push(behind)) continue;
+      int last = 0;  // the nearest ones matter
+      for (int k = 1; k < sight.behind.size(); ++k) {
+        if (sight.behind[k].bumper_s_m < sight.behind[last].bumper_s_m) last = k;
+      }
+      if (sight.behind[last].bumper_s_m < behind.bumper_s_m) sight.behind[last] = behind;
+    }
+  }
+  find_groups(path, sight);
+}
+
+void Guard::find_groups(const EgoPath& path, Sight& sight) const {
+  for (int i = 0; i < path.zones.size(); ++i) {  // in the order of their entries
+    const ConflictZone& zone = path.zones[i];
+    const bool yields = zone.priority != Priority::kFirstHasPriority;
+    if (!sight.groups.empty()) {
+      ZoneGroup& last = sight.groups[sight.groups.size() - 1];
+      if (zone.entry_s_m < last.exit_s_m + kWaitingRoomM) {
+        last.exit_s_m = max(last.exit_s_m, zone.exit_s_m);
+        last.end = static_cast<std::uint8_t>(i + 1);
+        last.yields = last.yields || yields;
+        continue;
+      }
+    }
+    ZoneGroup group;
+    group.entry_s_m = zone.entry_s_m;
+    group.exit_s_m = zone.exit_s_m;
+    group.stop_s_m = zone.entry_s_m - kClearOfZoneM;
+    group.first = static_cast<std::uint8_t>(i);
+    group.end = static_cast<std::uint8_t>(i + 1);
+    group.yields = yields;
+    (void)sight.groups.push(group);  // there are no more groups than zones
+  }
+  for (ZoneGroup& group : sight.groups) {
+    group.cap_mps = kNeverS;
+    for (int k = 0; k < kCapSamples; ++k) {
+      const float share = static_cast<float>(k) / static_cast<float>(kCapSamples - 1);
+      const PathPoint there =
+          path_point(*scene_->map, path.path, lerp(group.entry_s_m, group.exit_s_m, share));
+      const float bend_mps = sqrt(kCurvesMps2 / max(abs(there.curvature_1pm), 1e-3F));
+      group.cap_mps = min(group.cap_mps, min(there.speed_limit_mps, bend_mps));
+    }
+  }
+}
+
+void Guard::add_threats(const EgoPath& path, int agent, const occupancy::LaneReach& reach, Sight& sight) const {
+  for (int z = 0; z < path.zones.size(); ++z) {
+    Threat threat;
+    threat.zone = static_cast<std::uint8_t>(z);
+    threat.agent = static_cast<std::uint8_t>(agent);
+    threat.when =
+        zone_occupancy(*scene_, scene_->agents[agent], reach, path.zones[z], lead_s_, *parameters_);
+    if (threat.when.claim == Claim::kNone) continue;
+    if (!sight.threats.push(threat)) sight.too_many = true;
+  }
+}
+
+void Guard::drop_those_behind(Sight& sight) const {
+  // Nobody drives through the one ahead in its lane, who stays out.
+  for (Threat& threat : sight.threats) {
+    if (threat.when.claim != Claim::kMayCome || threat.when.to_entry_m <= 0.0F) continue;
+    const Agent& agent = scene_->agents[threat.agent];
+    if (agent.lane == kNoLaneIndex) continue;
+    for (const Threat& other : sight.threats) {
+      if (other.zone != threat.zone || scene_->agents[other.agent].lane != agent.lane) continue;
+      const bool stays_out = other.when.claim == Claim::kOwes || other.when.claim == Claim::kCanStop ||
+                             other.when.claim == Claim::kStands;
+      if (stays_out && other.when.to_entry_m < threat.when.to_entry_m) threat.when.claim = Claim::kIsBehind;
+    }
+  }
+}
+
+bool Guard::followers_can_brake(const Sight& sight, const Own& own, float brakes_from_s, float braking_mps2,
+                                Verdict& verdict) const {
+  const auto& rss = parameters_->rss;
+  const float half_m = 0.5F * parameters_->vehicle.length_m;
+  for (const InLane& behind : sight.behind) {
+    // From when we are over the line it has its response time, then it brakes down to our speed.
+    const float onset_s = sight.half_over ? 0.0F : kOverLineS;
+    const float from_s = onset_s + rss.response_s;
+    float s_m = behind.bumper_s_m;
+    float speed_mps = behind.speed_mps;
+    float own_s_m = own.s_m[0] - half_m;
+    float own_mps = own.speed_mps[0];
+    constexpr float kLookS = 0.2F;
+    constexpr int kLooks = 25;
+    for (int i = 1; i <= kLooks; ++i) {
+      const float time_s = static_cast<float>(i) * kLookS;
+      if (time_s <= brakes_from_s) {
+        own_s_m = own.place_at_m(time_s, 0.0F) - half_m;
+        own_mps = own.speed_at_mps(time_s, 0.0F);
+      } else {
+        const float later_mps = max(0.0F, own_mps - braking_mps2 * kLookS);
+        own_s_m = own_s_m + 0.5F * (own_mps + later_mps) * kLookS;
+        own_mps = later_mps;
+      }
+      const float later_mps =
+          time_s > from_s ? max(0.0F, speed_mps - rss.braking_min_mps2 * kLookS) : speed_mps;
+      s_m = s_m + 0.5F * (speed_mps + later_mps) * kLookS;
+      speed_mps = later_mps;
+      if (s_m > own_s_m - parameters_->guard.margin_m) {
+        verdict.cause = Cause::kFollower;
+        verdict.agent = behind.agent;
+        if (dbg) printf("   F: agent %d behind gap %.1f v %.1f own %.1f -> %.1f hit at %.1f half_over %d\n", behind.agent, own.s_m[0]-half_m-behind.bumper_s_m, behind.speed_mps, own.speed_mps[0], own.speed_mps[30], time_s, sight.half_over);
+        return false;
+      }
+      if (speed_mps <= 0.0F || (own_mps <= 0.0F && speed_mps <= 0.0F)) break;
+    }
+  }
+  return true;
+}
+
+bool Guard::passes_threat(const EgoPath& path, const Sight& sight, const Threat& threat, const Own& own,
+                          Verdict& verdict) const {
+  const ConflictZone& zone = path.zones[threat.zone];
+  const ZoneOccupancy& when = threat.when;
+  if (when.claim != Claim::kMayCome) return true;
+  float cap_mps = 0.0F;
+  for (const ZoneGroup& group : sight.groups) {
+    if (threat.zone >= group.first && threat.zone < group.end) cap_mps = group.cap_mps;
+  }
+  const float in_s = own.time_at_s(zone.entry_s_m, cap_mps);
+  const float out_s = own.time_at_s(zone.exit_s_m, cap_mps);
+  if (when.until_s < in_s) return true;  // it is certain to have left
+  if (!zone.merging && when.from_s > out_s) return true;
+  const Agent& agent = scene_->agents[threat.agent];
+  if (zone.merging) {
+    // Along the common lane: our way and its way to where the zone ends.
+    const float half_m = 0.5F * (parameters_->vehicle.length_m + agent.track.length_m);
+    const float its_to_exit_m = when.to_exit_m - 0.5F * agent.track.length_m;
+    const bool ahead = when.to_entry_m <= 0.0F && zone.exit_s_m - own.s_m[0] > its_to_exit_m;
+    if (ahead) {
+      const float stop_m = occupancy::stopping_way_m(agent.track.speed_mps, parameters_->law.braking_max_mps2);
+      const float behind_s_m = zone.exit_s_m - its_to_exit_m + stop_m - half_m;
+      if (own.stop_s_m(parameters_->guard.braking_mps2) <= behind_s_m - parameters_->guard.margin_m)
+        return true;
+    } else {
+      const float respond_s = max(in_s, 0.0F) + parameters_->law.duty_response_s;
+      const Pace fastest = fastest_legal(*scene_, agent, zone, *parameters_);
+      const float its_mps = occupancy::speed_after_mps(fastest, respond_s + lead_s_);
+      const float its_left_m = its_to_exit_m - occupancy::way_after_m(fastest, respond_s + lead_s_);
+      const float own_left_m = zone.exit_s_m - own.place_at_m(respond_s, cap_mps);
+      const float slower_mps = max(0.0F, its_mps - own.speed_at_mps(respond_s, cap_mps));
+      const float needed_m =
+          half_m + parameters_->guard.margin_m +
+          occupancy::stopping_way_m(slower_mps, parameters_->law.duty_braking_mps2);
+      if (its_left_m - own_left_m >= needed_m) return true;
+    }
+  }
+  verdict = {Cause::kZone, threat.agent, when.from_s, out_s};
+  return false;
+}
+
+bool Guard::passes_group(const EgoPath& path, const Sight& sight, const ZoneGroup& group, const Own& own,
+                         Verdict& verdict) const {
+  const bool inside = own.s_m[0] > group.entry_s_m;
+  const bool stands = own.end_s_m() < group.exit_s_m && own.speed_mps[kHorizonSteps] < kStandingMps;
+  if (!inside && group.yields) {
+    if (stands) {
+      verdict = {Cause::kNoRoom};
+      return false;
+    }
+    // Room beyond it, if whoever is ahead brakes hard.
+    const float rear_to_front_m = front_m_ - centre_m_;
+    if (sight.leader_stop_s_m - rear_to_front_m < group.exit_s_m) {
+      verdict = {Cause::kNoRoom, sight.leader};
+      return false;
+    }
+  }
+  if (sight.too_many && !inside) {
+    verdict = {Cause::kZone};
+    return false;
+  }
+  const float hard_mps2 = parameters_->vehicle.braking_max_mps2;
+  for (const Threat& threat : sight.threats) {
+    if (threat.zone < group.first || threat.zone >= group.end) continue;
+    // What cannot be avoided any more is no reason to do something else.
+    const ConflictZone& zone = path.zones[threat.zone];
+    if (own.s_m[0] > zone.exit_s_m) continue;
+    if (own.s_m[0] + occupancy::stopping_way_m(own.speed_mps[0], hard_mps2) > zone.entry_s_m) continue;
+    if (!passes_threat(path, sight, threat, own, verdict)) return false;
+  }
+  return true;
+}
+
+Verdict Guard::judge(int index, const Trajectory& trajectory) const {
+  Verdict verdict;
+  if (scene_ == nullptr || scene_->map == nullptr || index < 0 || index >= scene_->ego_paths.size()) {
+    verdict.cause = Cause::kNoPath;
+    return verdict;
+  }
+  const EgoPath& path = scene_->ego_paths[index];
+  const Sight& sight = sights_[index];
+  const auto& guard = parameters_->guard;
+  Own own;
+  own.s_m[0] = sight.start_s_m + centre_m_;
+  own.speed_mps[0] = trajectory.points[0].speed_mps;
+  for (int i = 1; i < kTrajectoryPoints; ++i) {
+    own.speed_mps[i] = trajectory.points[i].speed_mps;
+    own.s_m[i] = own.s_m[i - 1] + 0.5F * (own.speed_mps[i - 1] + own.speed_mps[i]) * kStepS;
+  }
+  const int branch = to_int(guard.takeover_s / kStepS - 0.5F, 0, kHorizonSteps - 1);
+  own.branch_mps = own.speed_mps[branch + 1];
+  own.branch_s_m =
+      own.s_m[branch] + (guard.takeover_s - static_cast<float>(branch) * kStepS) * own.speed_mps[branch + 1];
+  const float stop_s_m = own.stop_s_m(guard.braking_mps2);
+
+  const float front_m = front_m_ - centre_m_;
+  if (stop_s_m + front_m > max(sight.end_s_m, own.s_m[0] + front_m + 0.1F)) {
+    verdict.cause = Cause::kRoadEnd;
+    return verdict;
+  }
+  // Behind a leader. Whoever came in nearer than that has broken the law: then it only must not get worse.
+  const float coasting_s_m = own.s_m[0] + own.speed_mps[0] * guard.takeover_s +
+                             occupancy::stopping_way_m(own.speed_mps[0], guard.braking_mps2);
+  const float free_s_m = max(sight.leader_stop_s_m - front_m - guard.margin_m, coasting_s_m + 0.01F);
+  if (stop_s_m > free_s_m) {
+    verdict = {Cause::kLeader, sight.leader};
+    return verdict;
+  }
+  for (const ZoneGroup& group : sight.groups) {
+    if (own.s_m[0] >= group.exit_s_m) continue;
+    // Whoever stands nearer than that may go on standing.
+    // A stop that is being driven may use up the tube.
+    const float used_m = trajectory.points[branch].acceleration_mps2 < kStoppingMps2 ? kStopTubeM : 0.0F;
+    const float wait_s_m = max(group.stop_s_m + used_m, min(own.s_m[0] + kCrawledM, group.entry_s_m));
+    if (dbg) printf("   G: s0 %.2f v %.2f a %.2f branch %.2f %.2f stop %.2f wait %.2f group [%.2f %.2f]\n", own.s_m[0], own.speed_mps[0], trajectory.points[0].acceleration_mps2, own.branch_s_m, own.branch_mps, stop_s_m, wait_s_m, group.entry_s_m, group.exit_s_m);
+    if (stop_s_m <= wait_s_m) {
+      // It can still be given up, but no longer at ease: that is worth knowing.
+      if (own.stop_s_m(parameters_->comfort.braking_mps2) > wait_s_m) {
+        Verdict claim;
+        verdict.hard = !passes_group(path, sight, group, own, claim);
+      }
+      break;
+    }
+    verdict.clears = true;
+    if (!passes_group(path, sight, group, own, verdict)) return verdict;
+  }
+  if (sight.changes && !sight.half_over) {
+    bool brakes = false;
+    for (const Settling& settling : kSettlings) {
+      const float braking_mps2 = settling.share * guard.braking_mps2;
+      const float from_s = max(guard.takeover_s, settling.drives_on_s);
+      const float stops_s_m = settling.drives_on_s > 0.0F
+                                  ? own.place_at_m(from_s, 0.0F) +
+                                        occupancy::stopping_way_m(own.speed_at_mps(from_s, 0.0F), braking_mps2)
+                                  : own.stop_s_m(braking_mps2);
+      if (stops_s_m > free_s_m) { if (dbg) printf("   L: %.1f > %.1f (share %.1f)\n", stops_s_m, free_s_m, settling.share); continue; }
+      brakes = followers_can_brake(sight, own, from_s, braking_mps2, verdict);
+      if (brakes) break;
+    }
+    if (!brakes) {
+      if (verdict.cause == Cause::kNone) verdict.cause = Cause::kFollower;
+      return verdict;
+    }
+    verdict.cause = Cause::kNone;
+    verdict.agent = 255;
+  }
+  return verdict;
+}
+
+}  // namespace s4tp::safety

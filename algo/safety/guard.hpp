@@ -1,0 +1,115 @@
+#pragma once
+/// The guard (METHOD 4.9): a plan is taken only when a fail-safe from its first part meets nobody who keeps
+/// to the law. Knows tracks, map and plan; never predictions, beliefs or manoeuvres.
+///
+/// \code
+///   plan    ----+------------------------>
+///   stop        '-----|                      the fail-safe brakes to a standstill at a legal place, or
+///   clear   ----------[ zones ]------|       the plan itself goes through all zones of a group before
+///               ^ the next plan, and one missed boundary                 anybody may be there
+/// \endcode
+
+#include <cstdint>
+
+#include "algo/core/parameters.hpp"
+#include "algo/core/trajectory.hpp"
+#include "algo/occupancy/lane_reach.hpp"
+#include "algo/safety/legal_occupancy.hpp"
+#include "algo/scene/scene.hpp"
+
+namespace s4tp::safety {
+
+/// Why a plan is refused.
+enum class Cause : std::uint8_t {
+  kNone = 0,  ///< it is not
+  kNoPath,    ///< nothing is known of the way
+  kRoadEnd,   ///< cannot stop before the road ends
+  kLeader,    ///< cannot stop behind whoever is ahead
+  kFollower,  ///< leaves whoever is behind, in a lane it comes into, no room to brake
+  kZone,      ///< somebody may be in a conflict zone with us
+  kNoRoom,    ///< would stand in a conflict zone
+};
+
+struct Verdict {
+  Cause cause = Cause::kNone;
+  std::uint8_t agent = 255;  ///< who is in the way; 255: nobody
+  float from_s = 0.0F;       ///< kZone: how soon it can be there
+  float needed_s = 0.0F;     ///< kZone: until when we are there
+  bool clears = false;       ///< the fail-safe is to go through a group of zones; else it stops
+  bool hard = false;  ///< safe only because the fail-safe brakes hard before a group nobody leaves to us yet
+  [[nodiscard]] bool safe() const { return cause == Cause::kNone; }
+};
+
+/// All zones between two places where one can wait.
+struct ZoneGroup {
+  float entry_s_m = 0.0F;  ///< along the path, of our box centre
+  float exit_s_m = 0.0F;
+  float stop_s_m = 0.0F;  ///< where our centre stands to wait for it
+  std::uint8_t first = 0;  ///< zones [first, end) of the path
+  std::uint8_t end = 0;
+  bool yields = false;  ///< somebody there goes before us
+  float cap_mps = 0.0F;    ///< slowest bend or limit in it
+};
+
+class Guard {
+ public:
+  /// Looks at the scene once a cycle. \param start  where plans begin, `lead_s` after the scene's time.
+  /// The scene must outlive the judging.
+  void look(const Scene& scene, const TrajectoryPoint& start, float lead_s, const Parameters& parameters);
+
+  /// \param path  index of the ego path the trajectory follows \pre look() was called this cycle
+  /// \note bounded work: steps + vehicles at the path's zones
+  [[nodiscard]] Verdict judge(int path, const Trajectory& trajectory) const;
+
+ private:
+  static constexpr int kMostThreats = 32;  ///< of one path; more: the zone counts as taken
+  static constexpr int kPaths = decltype(Scene::ego_paths)::kCapacity;
+
+  /// A vehicle that may be in a zone of the path.
+  struct Threat {
+    std::uint8_t zone = 0;
+    std::uint8_t agent = 0;
+    ZoneOccupancy when;
+  };
+  /// Somebody in the lane of the path, ahead or behind.
+  struct InLane {
+    std::uint8_t agent = 255;
+    float bumper_s_m = 0.0F;  ///< its rear bumper ahead of us, its front bumper behind us, at plan start
+    float speed_mps = 0.0F;
+  };
+  /// What one path offers to all plans on it.
+  struct Sight {
+    float start_s_m = 0.0F;   ///< of our rear axle at plan start
+    float end_s_m = 0.0F;     ///< of the road
+    float leader_stop_s_m = 0.0F;  ///< foremost place for our front bumper if who is ahead brakes hard
+    std::uint8_t leader = 255;
+    bool changes = false;    ///< our box is, or comes, from another lane
+    bool half_over = false;  ///< most of us is in the lane already
+    BoundedVector<InLane, 4> behind;  ///< only where `changes`
+    BoundedVector<ZoneGroup, kMaxPathZones> groups;
+    BoundedVector<Threat, kMostThreats> threats;
+    bool too_many = false;
+  };
+  struct Own;
+
+  void look_along(int path);
+  void find_groups(const EgoPath& path, Sight& sight) const;
+  void add_threats(const EgoPath& path, int agent, const occupancy::LaneReach& reach, Sight& sight) const;
+  void drop_those_behind(Sight& sight) const;
+  [[nodiscard]] bool passes_group(const EgoPath& path, const Sight& sight, const ZoneGroup& group,
+                                  const Own& own, Verdict& verdict) const;
+  [[nodiscard]] bool passes_threat(const EgoPath& path, const Sight& sight, const Threat& threat,
+                                   const Own& own, Verdict& verdict) const;
+  [[nodiscard]] bool followers_can_brake(const Sight& sight, const Own& own, float brakes_from_s,
+                                         float braking_mps2, Verdict& verdict) const;
+
+  const Scene* scene_ = nullptr;
+  const Parameters* parameters_ = nullptr;
+  TrajectoryPoint start_;
+  float lead_s_ = 0.0F;
+  float centre_m_ = 0.0F;  ///< from our rear axle
+  float front_m_ = 0.0F;
+  Sight sights_[kPaths];
+};
+
+}  // namespace s4tp::safety

@@ -1,0 +1,103 @@
+#include "algo/safety/legal_occupancy.hpp"
+
+#include "algo/core/inline.hpp"
+
+namespace s4tp::safety {
+namespace {
+
+using occupancy::kNeverS;
+using occupancy::Pace;
+
+constexpr float kUsualHalfLengthM = 2.5F;  // of the boxes the map node takes for its zones
+constexpr float kStandingMps = 0.3F;       // all that a standing vehicle's measured speed may be
+constexpr float kSetsOffMps2 = 0.5F;
+constexpr float kShortOfZoneM = 0.5F;  // who gives way stops so far before
+constexpr float kBendRad = 0.5F;       // lanes that turn by less are driven like straight ones
+constexpr float kGripMps2 = 7.0F;      // physics: nobody turns faster
+
+/// Speed that grip allows in the lane's bend; large when it has none.
+float grip_speed_mps(const Lane& lane) {
+  if (lane.point_count < 3) return kNeverS;
+  const Point first = lane.points[1] - lane.points[0];
+  const Point last = lane.points[lane.point_count - 1] - lane.points[lane.point_count - 2];
+  const float turned_rad = abs(atan2(cross(first, last), dot(first, last)));
+  return turned_rad < kBendRad ? kNeverS : sqrt(kGripMps2 * lane.length_m / turned_rad);
+}
+
+float seconds(std::uint16_t time_ms) {
+  return 1e-3F * static_cast<float>(time_ms);
+}
+
+/// D1: whoever owes us the way stops before the zone, if the duty's braking does it. The response runs once:
+/// from when the vehicle was first in sight.
+bool gives_way(const Agent& agent, float to_entry_m, const Parameters& parameters) {
+  const auto& law = parameters.law;
+  const float response_s = max(0.0F, law.duty_response_s - seconds(agent.known_ms));
+  const float room_m = to_entry_m - agent.track.speed_mps * response_s;
+  return room_m > 0.0F && occupancy::stopping_way_m(agent.track.speed_mps, law.duty_braking_mps2) <= room_m;
+}
+
+/// L1.
+bool can_stop_gently(const Pace& fastest, float to_entry_m, const Parameters& parameters) {
+  const auto& law = parameters.law;
+  const float room_m =
+      to_entry_m - kShortOfZoneM - occupancy::way_after_m(fastest, law.ask_response_s);
+  const float later_mps = occupancy::speed_after_mps(fastest, law.ask_response_s);
+  return room_m > 0.0F && square(later_mps) <= 2.0F * law.ask_braking_mps2 * room_m;
+}
+
+/// L2.
+bool stands_in_sight(const Scene& scene, const Agent& agent, const Parameters& parameters) {
+  return agent.track.speed_mps < kStandingMps && agent.track.acceleration_mps2 < kSetsOffMps2 &&
+         seconds(agent.stood_ms) >= parameters.law.seen_s && scene.waited_s >= parameters.law.seen_s;
+}
+
+}  // namespace
+
+Pace fastest_legal(const Scene& scene, const Agent& agent, const ConflictZone& zone,
+                   const Parameters& parameters) {
+  const Lane& there = scene.map->lanes[zone.other_lane];
+  float limit_mps = there.speed_limit_mps;
+  if (agent.lane != kNoLaneIndex) limit_mps = max(limit_mps, scene.map->lanes[agent.lane].speed_limit_mps);
+  return {agent.track.speed_mps, parameters.law.gain_mps2,
+          max(parameters.law.over_limit * limit_mps, agent.track.speed_mps)};
+}
+
+ZoneOccupancy zone_occupancy(const Scene& scene, const Agent& agent, const occupancy::LaneReach& reach,
+                             const ConflictZone& zone, float lead_s, const Parameters& parameters) {
+  ZoneOccupancy result;
+  const float to_lane_m = reach.to_start_m(zone.other_lane);
+  if (to_lane_m >= occupancy::kNoWayM) return result;
+  const float longer_m = 0.5F * agent.track.length_m - kUsualHalfLengthM;
+  result.to_entry_m = to_lane_m + zone.other_entry_m - longer_m;
+  result.to_exit_m = to_lane_m + zone.other_exit_m + longer_m;
+  if (result.to_exit_m <= 0.0F) return result;
+
+  const Pace fastest = fastest_legal(scene, agent, zone, parameters);
+  result.claim = Claim::kMayCome;
+  result.until_s =
+      occupancy::latest_time_s(agent.track.speed_mps, parameters.law.braking_max_mps2, result.to_exit_m) -
+      lead_s;
+  if (result.to_entry_m <= 0.0F) {
+    result.from_s = -lead_s;
+    return result;
+  }
+  result.from_s = occupancy::time_to_cover_s(fastest, result.to_entry_m) - lead_s;
+  // A bend is driven no faster than grip lets it; braking for it is not counted on.
+  const float grip_mps = grip_speed_mps(scene.map->lanes[zone.other_lane]);
+  if (grip_mps < fastest.top_mps) {
+    const float in_bend_m = min(result.to_entry_m, max(zone.other_entry_m, 0.0F));
+    const float before_s = occupancy::time_to_cover_s(fastest, result.to_entry_m - in_bend_m);
+    result.from_s = max(result.from_s, before_s + in_bend_m / max(grip_mps, 1.0F) - lead_s);
+  }
+  if (zone.priority == Priority::kFirstHasPriority) {
+    if (gives_way(agent, result.to_entry_m, parameters)) result.claim = Claim::kOwes;
+  } else if (can_stop_gently(fastest, result.to_entry_m, parameters)) {
+    result.claim = Claim::kCanStop;
+  } else if (stands_in_sight(scene, agent, parameters)) {
+    result.claim = Claim::kStands;
+  }
+  return result;
+}
+
+}  // namespace s4tp::safety

@@ -1,0 +1,50 @@
+#pragma once
+/// Legal occupancy (METHOD 4.9): when a vehicle that keeps to the law can be on ground we share with it.
+/// Knows tracks and map; never predictions, beliefs or manoeuvres.
+///
+/// \code
+///   may come        [from ......................... until)    until: only when it cannot stop before
+///   owes us (D1)    stops before the zone: never there
+///   licensed (L1)   driving as fast as it may, it can still stop gently: never there
+///   licensed (L2)   stands in sight of us, who stand, too: never there before it sets off
+/// \endcode
+
+#include <cstdint>
+
+#include "algo/core/parameters.hpp"
+#include "algo/occupancy/lane_reach.hpp"
+#include "algo/occupancy/pace.hpp"
+#include "algo/scene/scene.hpp"
+
+namespace s4tp::safety {
+
+/// Why a vehicle is, or is not, expected in a zone.
+enum class Claim : std::uint8_t {
+  kNone = 0,   ///< no legal way of its leads there, or it has left
+  kMayCome,    ///< with priority, or too near to give way
+  kOwes,       ///< D1: it stops before the zone
+  kCanStop,    ///< L1: it has priority, and can stop gently from as fast as it may be
+  kStands,     ///< L2: it has priority, stands, and has seen us stand
+  kIsBehind,   ///< who is in front of it in its lane is expected to stay out
+};
+
+/// One vehicle at one zone; times from plan start.
+struct ZoneOccupancy {
+  Claim claim = Claim::kNone;
+  float from_s = occupancy::kNeverS;   ///< earliest time it can be in the zone; <= 0: is in it
+  float until_s = occupancy::kNeverS;  ///< when it is certain to have left
+  float to_entry_m = 0.0F;             ///< at the scene's time, of its box for a usual car's zone
+  float to_exit_m = 0.0F;
+};
+
+/// Speed, gain and top speed of a vehicle that drives as fast as the law lets it to the zone's lane.
+[[nodiscard]] occupancy::Pace fastest_legal(const Scene& scene, const Agent& agent, const ConflictZone& zone,
+                                            const Parameters& parameters);
+
+/// \param reach  measured for the agent
+/// \param lead_s  plan start after the scene's time
+[[nodiscard]] ZoneOccupancy zone_occupancy(const Scene& scene, const Agent& agent,
+                                           const occupancy::LaneReach& reach, const ConflictZone& zone,
+                                           float lead_s, const Parameters& parameters);
+
+}  // namespace s4tp::safety

@@ -1,0 +1,39 @@
+#pragma once
+/// Yield beliefs (METHOD 4.3): how each vehicle's driving speaks for "lets us go first" against "goes first".
+/// Bayes filter on log-odds; the prior is the prediction's own, evidence comes on top of it.
+
+#include <cstdint>
+
+#include "algo/core/bounded.hpp"
+#include "algo/satp/way.hpp"
+#include "algo/scene/scene.hpp"
+
+namespace s4tp {
+
+/// What a vehicle would do now under either hypothesis [m/s^2].
+struct YieldHypotheses {
+  bool differ = false;  ///< false: nothing can be learned from how it drives
+  float goes_mps2 = 0.0F;
+  float yields_mps2 = 0.0F;
+};
+
+class YieldBeliefs {
+ public:
+  void reset() { beliefs_.clear(); }
+  /// Log-odds of the evidence that the track lets us go first; 0: none.
+  [[nodiscard]] float evidence(std::uint8_t track) const;
+  /// One cycle's observation of each watched vehicle. Tracks that are no longer watched are forgotten.
+  void observe(const Scene& scene, const YieldHypotheses (&hypotheses)[kMaxAgents]);
+
+ private:
+  struct Belief {
+    std::uint8_t track = 255;
+    float log_odds = 0.0F;
+  };
+  BoundedVector<Belief, kMaxAgents> beliefs_;
+};
+
+/// The probability `prior` with evidence taken into account, in 0.02 .. 0.98 of the prior's kind.
+[[nodiscard]] float with_evidence(float prior, float log_odds);
+
+}  // namespace s4tp
