@@ -6,6 +6,9 @@ namespace s4tp::occupancy {
 namespace {
 
 constexpr float kChangeWayM = 8.0F;   // a lane change takes at least this much of the lane that is left
+constexpr float kCmPerM = 100.0F;
+constexpr float kMPerCm = 0.01F;
+constexpr std::int16_t kNoWayCm = 30000;
 constexpr float kHorizonM = 160.0F;   // the map's own, and a little
 constexpr int kMostRounds = 12;       // lanes of a way, changes included
 
@@ -15,15 +18,21 @@ bool has_lane(const LaneMap& map, LaneIndex lane) {
 
 }  // namespace
 
+float LaneReach::to_start_m(LaneIndex lane) const {
+  return kMPerCm * static_cast<float>(to_start_cm_[lane]);
+}
+
 void LaneReach::measure(const LaneMap& map, const Agent& agent) {
-  for (float& way_m : to_start_m_) way_m = kNoWayM;
+  for (std::int16_t& way_cm : to_start_cm_) way_cm = kNoWayCm;
   LaneIndex front[kMaxLanes];  // lanes whose neighbours are still to be looked at
   int count = 0;
   bool waiting[kMaxLanes] = {};
   const auto offer = [&](LaneIndex lane, float way_m) {
     // What is not a number is no way.
-    if (!has_lane(map, lane) || !(way_m < to_start_m_[lane]) || !(way_m < kHorizonM)) return;
-    to_start_m_[lane] = way_m;
+    if (!has_lane(map, lane) || !(abs(way_m) < kHorizonM)) return;
+    const std::int16_t way_cm = static_cast<std::int16_t>(to_int(kCmPerM * way_m, -kNoWayCm, kNoWayCm));
+    if (way_cm >= to_start_cm_[lane]) return;
+    to_start_cm_[lane] = way_cm;
     if (!waiting[lane]) {
       waiting[lane] = true;
       front[count++] = lane;
@@ -43,7 +52,7 @@ void LaneReach::measure(const LaneMap& map, const Agent& agent) {
     count = 0;
     for (int i = 0; i < waiting_now; ++i) {
       const Lane& lane = map.lanes[now[i]];
-      const float start_m = to_start_m_[now[i]];
+      const float start_m = to_start_m(now[i]);
       const float end_m = start_m + lane.length_m;
       if (end_m < 0.0F) continue;  // it has left the lane
       for (const LaneIndex successor : lane.successors) offer(successor, end_m);

@@ -7,12 +7,14 @@
 ///   ===============> lane 4 ------> lane 8 (junction) ---->     to lane 8: the same, a change in between
 /// \endcode
 
+#include <cstdint>
+
 #include "algo/scene/scene.hpp"
 
 namespace s4tp::occupancy {
 
 /// Stands for "no legal way" [m].
-inline constexpr float kNoWayM = 1e6F;
+inline constexpr float kNoWayM = 300.0F;
 
 class LaneReach {
  public:
@@ -22,10 +24,10 @@ class LaneReach {
 
   /// Way from the vehicle's centre to the start of the lane; negative on the lane, kNoWayM when no way leads
   /// there. \pre lane is an index of the map
-  [[nodiscard]] float to_start_m(LaneIndex lane) const { return to_start_m_[lane]; }
+  [[nodiscard]] float to_start_m(LaneIndex lane) const;
 
  private:
-  float to_start_m_[kMaxLanes];
+  std::int16_t to_start_cm_[kMaxLanes];
 };
 
 }  // namespace s4tp::occupancy

@@ -75,6 +75,7 @@ Status Planner::init(const Parameters& parameters) {
   parameters_crc_ = s4tp::parameters_crc(parameters);
   scene_builder_.reset();
   beliefs_.reset();
+  guard_.reset();
   initialized_ = true;
   return Status::kOk;
 }
@@ -165,6 +166,7 @@ void Planner::predict(Explanation& explanation) {
   YieldHypotheses hypotheses[kMaxAgents];
   arena_.predictor.hypotheses(hypotheses);
   beliefs_.observe(scene_, hypotheses);
+  if (getenv("PDBG")) for (int i=0;i<scene_.watched;++i) printf("   Y track %d v %.2f a %.2f differ %d goes %.2f yields %.2f evidence %.2f paths %d p0 %.2f stood %d\n", scene_.agents[i].track.id, scene_.agents[i].track.speed_mps, scene_.agents[i].track.acceleration_mps2, hypotheses[i].differ, hypotheses[i].goes_mps2, hypotheses[i].yields_mps2, beliefs_.evidence(scene_.agents[i].track.id), scene_.agents[i].paths.size(), scene_.agents[i].path_probability[0], scene_.agents[i].stood_ms);
   arena_.predictor.decode(nullptr, allowance.prediction, unconditioned_);
   arena_.predictor.keep_going(keep_going_);
   count(explanation, Stage::kPredict, arena_.predictor.work());
@@ -236,6 +238,7 @@ Status Planner::choose(Explanation& explanation) {
   if (best < 0) return Status::kNoSafePlan;
   if (best != held && !evaluate(best, explanation)) return Status::kNoSafePlan;
   refine(candidates_[best], explanation);
+  guard_.commit(candidates_[best].path, guard_.judge(candidates_[best].path, chosen_));
 
   const StageScope scope(probe, Stage::kExplain);
   explanation.chosen = candidates_[best];

@@ -7,7 +7,7 @@
 
 namespace s4tp {
 namespace {
-constexpr float kHardStopCost = 20.0F;
+constexpr float kHardStopCost = 60.0F;
 }
 
 /// Looks at each candidate while its roll-out is in chosen_.

@@ -12,6 +12,7 @@ constexpr float kChangeRoomM = 60.0F;  // a lane change left to do starts to pre
 constexpr float kGapShare = 0.5F;      // of what the lane beside gains, for each second until its gap is met
 constexpr float kLongestS = 8.0F;
 constexpr float kLookS = static_cast<float>(kHorizonSteps) * kStepS;
+constexpr float kShortOfRoom = 0.04F;  // share of that, with no room left to change from rest
 constexpr float kMissedRoute = 80.0F;  // times lane_route: driving past the last place to change lanes
 
 /// Price of the lane: how many changes are left, more pressing as the room for them shortens.
@@ -19,12 +20,15 @@ float route_cost(const EgoPath& path, float end_s_m, float end_mps, const Parame
   const int changes = path.changes_needed < 0 ? -path.changes_needed : path.changes_needed;
   if (changes == 0) return 0.0F;
   const float room_m = path.route_end_s_m - end_s_m;
-  // The last place to wait for it leaves room to change from rest.
-  const float stop_m = square(end_mps) / (2.0F * parameters.comfort.braking_mps2);
-  const float needed_m = rear_axle_to_front_m(parameters) + kChangeWayM * static_cast<float>(changes);
-  if (room_m < stop_m + needed_m) return kMissedRoute * parameters.scoring.lane_route * static_cast<float>(changes);
-  const float pressing = 1.0F + kChangeRoomM * static_cast<float>(changes) / (room_m + 10.0F);
-  return parameters.scoring.lane_route * static_cast<float>(changes) * pressing;
+  const float count = static_cast<float>(changes);
+  const float missed = kMissedRoute * parameters.scoring.lane_route * count;
+  // Whoever cannot stop before the end has missed it. The last place to wait leaves room to change from rest.
+  const float to_place_m = room_m - rear_axle_to_front_m(parameters) -
+                           square(end_mps) / (2.0F * parameters.comfort.braking_mps2);
+  if (to_place_m < 0.0F) return missed;
+  const float shortage = max(0.0F, 1.0F - to_place_m / (kChangeWayM * count));
+  const float pressing = 1.0F + kChangeRoomM * count / (room_m + 10.0F);
+  return parameters.scoring.lane_route * count * pressing + kShortOfRoom * missed * shortage;
 }
 
 /// What being in the lane of `path` at the horizon's end costs: time, and lane changes left.

@@ -18,10 +18,10 @@ using occupancy::Pace;
 
 constexpr float kHorizonS = static_cast<float>(kHorizonSteps) * kStepS;
 constexpr float kWaitingRoomM = 1.0F;   // between two zones there is room to stand, clear of both
-constexpr float kClearOfZoneM = 0.3F;   // before it
+constexpr float kClearOfZoneM = 0.7F;   // before it
 constexpr float kStandingMps = 0.3F;
 constexpr float kCrawledM = 0.05F;
-constexpr float kStopTubeM = 0.25F;
+constexpr float kStopTubeM = 0.4F;
 constexpr float kStoppingMps2 = -2.0F;
 constexpr float kGoesOnMps2 = 1.5F;     // how a plan is driven on beyond its horizon
 constexpr float kOverLineS = 0.5F;      // until a lane change just begun is over the line
@@ -78,14 +78,12 @@ void Guard::look(const Scene& scene, const TrajectoryPoint& start, float lead_s,
   centre_m_ = rear_axle_to_centre_m(parameters);
   front_m_ = rear_axle_to_front_m(parameters);
   if (scene.map == nullptr) return;
-  for (int path = 0; path < scene.ego_paths.size(); ++path) look_along(path);
-  for (int i = 0; i < scene.agents.size(); ++i) {
-    occupancy::LaneReach reach;
-    reach.measure(*scene.map, scene.agents[i]);
-    for (int path = 0; path < scene.ego_paths.size(); ++path)
-      add_threats(scene.ego_paths[path], i, reach, sights_[path]);
+  occupancy::LaneReach reach[kMaxTracks];
+  for (int i = 0; i < scene.agents.size(); ++i) reach[i].measure(*scene.map, scene.agents[i]);
+  for (int path = 0; path < scene.ego_paths.size(); ++path) {
+    look_along(path);
+    find_threats(scene.ego_paths[path], reach, sights_[path]);
   }
-  for (int path = 0; path < scene.ego_paths.size(); ++path) drop_those_behind(sights_[path]);
 }
 
 void Guard::look_along(int index) {
@@ -166,30 +164,51 @@ void Guard::find_groups(const EgoPath& path, Sight& sight) const {
   }
 }
 
-void Guard::add_threats(const EgoPath& path, int agent, const occupancy::LaneReach& reach, Sight& sight) const {
+void Guard::find_threats(const EgoPath& path, const occupancy::LaneReach (&reach)[kMaxTracks],
+                         Sight& sight) const {
+  const int count = scene_->agents.size();
   for (int z = 0; z < path.zones.size(); ++z) {
-    Threat threat;
-    threat.zone = static_cast<std::uint8_t>(z);
-    threat.agent = static_cast<std::uint8_t>(agent);
-    threat.when =
-        zone_occupancy(*scene_, scene_->agents[agent], reach, path.zones[z], lead_s_, *parameters_);
-    if (threat.when.claim == Claim::kNone) continue;
-    if (!sight.threats.push(threat)) sight.too_many = true;
+    ZoneOccupancy when[kMaxTracks];
+    for (int i = 0; i < count; ++i) {
+      const Agent& agent = scene_->agents[i];
+      when[i] = zone_occupancy(*scene_, agent, reach[i], path.zones[z], lead_s_, *parameters_);
+      const bool latched = when[i].to_entry_m > 0.0F && is_latched(agent.track.id);
+      if (when[i].claim == Claim::kMayCome && latched) when[i].claim = Claim::kStands;
+      const bool stays_out = when[i].claim != Claim::kMayCome && when[i].claim != Claim::kNone;
+      if (stays_out) sight.staying_out |= static_cast<std::uint16_t>(1U << i);
+    }
+    for (int i = 0; i < count; ++i) {
+      if (when[i].claim != Claim::kMayCome || is_behind(when, i)) continue;
+      const Threat threat{static_cast<std::uint8_t>(z), static_cast<std::uint8_t>(i), when[i]};
+      if (!sight.threats.push(threat)) sight.too_many = true;
+    }
   }
 }
 
-void Guard::drop_those_behind(Sight& sight) const {
+bool Guard::is_behind(const ZoneOccupancy (&when)[kMaxTracks], int index) const {
   // Nobody drives through the one ahead in its lane, who stays out.
-  for (Threat& threat : sight.threats) {
-    if (threat.when.claim != Claim::kMayCome || threat.when.to_entry_m <= 0.0F) continue;
-    const Agent& agent = scene_->agents[threat.agent];
-    if (agent.lane == kNoLaneIndex) continue;
-    for (const Threat& other : sight.threats) {
-      if (other.zone != threat.zone || scene_->agents[other.agent].lane != agent.lane) continue;
-      const bool stays_out = other.when.claim == Claim::kOwes || other.when.claim == Claim::kCanStop ||
-                             other.when.claim == Claim::kStands;
-      if (stays_out && other.when.to_entry_m < threat.when.to_entry_m) threat.when.claim = Claim::kIsBehind;
-    }
+  const LaneIndex lane = scene_->agents[index].lane;
+  if (lane == kNoLaneIndex || when[index].to_entry_m <= 0.0F) return false;
+  for (int i = 0; i < scene_->agents.size(); ++i) {
+    const bool stays_out = when[i].claim != Claim::kMayCome && when[i].claim != Claim::kNone;
+    if (stays_out && scene_->agents[i].lane == lane && when[i].to_entry_m < when[index].to_entry_m) return true;
+  }
+  return false;
+}
+
+bool Guard::is_latched(std::uint8_t track) const {
+  for (const std::uint8_t latched : latched_) {
+    if (latched == track) return true;
+  }
+  return false;
+}
+
+void Guard::commit(int path, const Verdict& verdict) {
+  if (!verdict.clears) latched_.clear();
+  if (!verdict.clears || path < 0 || path >= scene_->ego_paths.size()) return;
+  for (int i = 0; i < scene_->agents.size(); ++i) {
+    const std::uint8_t track = scene_->agents[i].track.id;
+    if ((sights_[path].staying_out >> i & 1U) != 0 && !is_latched(track)) (void)latched_.push(track);
   }
 }
 

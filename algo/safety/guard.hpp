@@ -61,6 +61,12 @@ class Guard {
   /// \note bounded work: steps + vehicles at the path's zones
   [[nodiscard]] Verdict judge(int path, const Trajectory& trajectory) const;
 
+  /// Says which plan is in force from now on. While it goes through a group, whoever was to stay out of it
+  /// when we entered still is: a licence used is not withdrawn half way.
+  void commit(int path, const Verdict& verdict);
+  /// Forgets what is in force.
+  void reset() { latched_.clear(); }
+
  private:
   static constexpr int kMostThreats = 32;  ///< of one path; more: the zone counts as taken
   static constexpr int kPaths = decltype(Scene::ego_paths)::kCapacity;
@@ -88,14 +94,16 @@ class Guard {
     BoundedVector<InLane, 4> behind;  ///< only where `changes`
     BoundedVector<ZoneGroup, kMaxPathZones> groups;
     BoundedVector<Threat, kMostThreats> threats;
+    std::uint16_t staying_out = 0;  ///< bit i: agent i leaves a zone to us
     bool too_many = false;
   };
   struct Own;
 
   void look_along(int path);
   void find_groups(const EgoPath& path, Sight& sight) const;
-  void add_threats(const EgoPath& path, int agent, const occupancy::LaneReach& reach, Sight& sight) const;
-  void drop_those_behind(Sight& sight) const;
+  void find_threats(const EgoPath& path, const occupancy::LaneReach (&reach)[kMaxTracks], Sight& sight) const;
+  [[nodiscard]] bool is_behind(const ZoneOccupancy (&when)[kMaxTracks], int index) const;
+  [[nodiscard]] bool is_latched(std::uint8_t track) const;
   [[nodiscard]] bool passes_group(const EgoPath& path, const Sight& sight, const ZoneGroup& group,
                                   const Own& own, Verdict& verdict) const;
   [[nodiscard]] bool passes_threat(const EgoPath& path, const Sight& sight, const Threat& threat,
@@ -110,6 +118,7 @@ class Guard {
   float centre_m_ = 0.0F;  ///< from our rear axle
   float front_m_ = 0.0F;
   Sight sights_[kPaths];
+  BoundedVector<std::uint8_t, kMaxTracks> latched_;  ///< tracks that stay out of the group we pass
 };
 
 }  // namespace s4tp::safety

@@ -79,6 +79,8 @@ ZoneOccupancy zone_occupancy(const Scene& scene, const Agent& agent, const occup
       occupancy::latest_time_s(agent.track.speed_mps, parameters.law.braking_max_mps2, result.to_exit_m) -
       lead_s;
   if (result.to_entry_m <= 0.0F) {
+    // Where it stands it is an obstacle like any other; the rest of the zone is left by whoever does not move.
+    if (stands_in_sight(scene, agent, parameters)) result.claim = Claim::kStands;
     result.from_s = -lead_s;
     return result;
   }

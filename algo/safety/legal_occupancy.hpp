@@ -25,7 +25,6 @@ enum class Claim : std::uint8_t {
   kOwes,       ///< D1: it stops before the zone
   kCanStop,    ///< L1: it has priority, and can stop gently from as fast as it may be
   kStands,     ///< L2: it has priority, stands, and has seen us stand
-  kIsBehind,   ///< who is in front of it in its lane is expected to stay out
 };
 
 /// One vehicle at one zone; times from plan start.

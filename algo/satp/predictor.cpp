@@ -3,12 +3,18 @@
 #include "algo/core/inline.hpp"
 #include "algo/satp/way_motion.hpp"
 
+#pragma GCC diagnostic ignored "-Wdouble-promotion"
+#include <cstdio>
+#include <cstdlib>
 namespace s4tp {
 namespace {
 
 constexpr float kZoneMarginS = 0.5F;
 constexpr float kZoneMarginM = 1.0F;
 constexpr float kCertain = 0.95F;
+constexpr float kStandingMps = 0.3F;
+constexpr float kGoesOnStanding = 0.05F;  // prior chance, where its way is open
+constexpr float kNeverS = 1e3F;
 
 // Straight on, or on the arc it drives.
 void place_on_arc(const Track& track, float lead_s, Mode& mode) {
@@ -32,6 +38,11 @@ float willingness(float braking_mps2, float easy, float hard) {
   return clamp((hard - braking_mps2) / (hard - easy), 0.0F, 1.0F);
 }
 
+// Chance that whoever has priority minds us in the zone first by so much.
+float seen_first(float lead_s) {
+  return clamp(0.4F + 0.3F * lead_s, 0.0F, 0.97F);
+}
+
 // Prior chance that the driver lets us pass somewhere along its way, and where it then waits; < 0: we do not
 // meet. The right of way and the braking it takes decide.
 float yielding(const EgoMotion& ego, const Way& way, const WayMotion& undisturbed, Hold& hold) {
@@ -53,7 +64,8 @@ float yielding(const EgoMotion& ego, const Way& way, const WayMotion& undisturbe
     } else if (ego.conditioned() && we_first) {
       const bool has_priority = crossing.priority == Priority::kFirstHasPriority;
       here =
-          has_priority ? 0.6F * willingness(braking_mps2, 1.5F, 4.0F) : willingness(braking_mps2, 2.0F, 5.0F);
+          has_priority ? seen_first(their_entry_s - ours.entry_s) * willingness(braking_mps2, 1.5F, 4.0F)
+                       : willingness(braking_mps2, 2.0F, 5.0F);
     }
     if (here <= chance) continue;
     chance = here;
@@ -116,7 +128,12 @@ void Predictor::decode(const Trajectory* plan, int allowance, PredictionSet& pre
       drive(way, agent.track, on_path, Hold{}, motion);
       work_ += kHorizonSteps;
       Hold hold;
-      const float prior = yielding(ego, way, motion, hold);
+      float prior = yielding(ego, way, motion, hold);
+      if (prior < 0.0F && agent.track.speed_mps < kStandingMps) {
+        prior = kGoesOnStanding;
+        hold = {way.start_s_m, kNeverS};
+      }
+      if (getenv("PDBG") && plan) printf("     pred track %d path %d prob %.2f prior %.2f\n", agent.track.id, k, agent.path_probability[k], prior);
       float yields = prior < 0.0F ? 0.0F : with_evidence(prior, beliefs_ == nullptr ? 0.0F : beliefs_->evidence(agent.track.id));
       const bool both = room > 0 && yields > 1.0F - kCertain && yields < kCertain;
       if (!both) yields = yields >= 0.5F ? 1.0F : 0.0F;
@@ -157,6 +174,9 @@ void Predictor::hypotheses(YieldHypotheses (&result)[kMaxAgents]) const {
         break;
       }
     }
+    // Whoever stands in the junction may go on standing.
+    if (!result[i].differ && agent.paths.size() > 0 && agent.track.speed_mps < kStandingMps)
+      result[i] = {true, undisturbed_acceleration(ways_[i][0], agent.track), 0.0F};
   }
 }
 
