@@ -7,7 +7,7 @@
 #include "algo/core/status.hpp"
 #include "algo/sadrf/risk.hpp"
 #include "algo/safety/rss.hpp"
-#include "algo/safety/trajectory_check.hpp"
+#include "algo/safety/guard.hpp"
 #include "algo/trajectory/candidates.hpp"
 
 namespace s4tp {
@@ -23,9 +23,9 @@ struct CostBreakdown {
   [[nodiscard]] float total() const;
 };
 
-/// The motion that would have gone furthest, had the check not rejected it.
+/// The motion that would have gone furthest, had the guard not refused it.
 struct HeldUp {
-  CheckReport report;        ///< why it was; kPassed: nothing was rejected for what others do
+  safety::Verdict verdict;   ///< why it was; safe: nothing was refused
   std::uint8_t track = 255;  ///< track id of who is in its way; 255: nobody
   Manoeuvre manoeuvre = Manoeuvre::kKeep;
   float way_m = 0.0F;  ///< it would have driven within the horizon

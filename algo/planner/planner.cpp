@@ -5,17 +5,12 @@
 #include "algo/core/inline.hpp"
 #include "algo/core/self_test.hpp"
 #include "algo/planner/stage_scope.hpp"
-#include "algo/safety/lane_change.hpp"
+#include "algo/sadrf/overlap.hpp"
 #include "algo/safety/minimum_risk.hpp"
 #include "algo/safety/rss.hpp"
-#include "algo/safety/terminal.hpp"
 #include "algo/trajectory/along_path.hpp"
 #include "algo/trajectory/bicycle.hpp"
 
-#pragma GCC diagnostic ignored "-Wdouble-promotion"
-#pragma GCC diagnostic ignored "-Wmisleading-indentation"
-#include <cstdio>
-#include <cstdlib>
 namespace s4tp {
 namespace {
 
@@ -103,7 +98,6 @@ Status Planner::plan(const PlannerInput& input, Plan& plan, Explanation& explana
     }
     start_ = plan_start(input.ego, input.now_ms, running_, start_ms_, parameters_);
     if (status == Status::kOk) {
-      mark_bound_for(running_, start_ms_, scene_);
       guard_.look(scene_, start_, 0.001F * static_cast<float>(start_ms_ - scene_.time_ms), parameters_);
       predict(explanation);
       rank(input.degraded != 0, explanation);
@@ -125,8 +119,6 @@ Status Planner::plan(const PlannerInput& input, Plan& plan, Explanation& explana
 
   if (status == Status::kOk || status == Status::kNoSafePlan) explain_risk(status, explanation);
 
-  if (getenv("PDBG")) { printf("%u kind %d intent %d start v %.3f a %.2f: ", start_ms_, (int)status, (int)explanation.chosen.intent, start_.speed_mps, start_.acceleration_mps2); for (int i=0;i<8;++i) printf("%.3f/%.2f ", chosen_.points[i].speed_mps, chosen_.points[i].acceleration_mps2); printf(" refined %d rss %d run %.3f\n", refined_in_force_, explanation.rss_clipped, sample(running_, start_ms_).speed_mps);
-   for (int i=0;i<candidates_.size();++i) printf("  [%d %d %.1f rej %d cost %.1f]", candidates_[i].path, (int)candidates_[i].intent, candidates_[i].acceleration_mps2, (int)explanation.rejections[i], costs_[i].total()); printf("\n"); }
   plan.kind = status == Status::kOk ? PlanKind::kDrive : PlanKind::kMinimumRisk;
   plan.start_ms = start_ms_;
   plan.trajectory = chosen_;
@@ -166,7 +158,6 @@ void Planner::predict(Explanation& explanation) {
   YieldHypotheses hypotheses[kMaxAgents];
   arena_.predictor.hypotheses(hypotheses);
   beliefs_.observe(scene_, hypotheses);
-  if (getenv("PDBG")) for (int i=0;i<scene_.watched;++i) printf("   Y track %d v %.2f a %.2f differ %d goes %.2f yields %.2f evidence %.2f paths %d p0 %.2f stood %d\n", scene_.agents[i].track.id, scene_.agents[i].track.speed_mps, scene_.agents[i].track.acceleration_mps2, hypotheses[i].differ, hypotheses[i].goes_mps2, hypotheses[i].yields_mps2, beliefs_.evidence(scene_.agents[i].track.id), scene_.agents[i].paths.size(), scene_.agents[i].path_probability[0], scene_.agents[i].stood_ms);
   arena_.predictor.decode(nullptr, allowance.prediction, unconditioned_);
   arena_.predictor.keep_going(keep_going_);
   count(explanation, Stage::kPredict, arena_.predictor.work());
@@ -176,47 +167,14 @@ std::uint8_t Planner::track_id(int agent) const {
   return agent >= 0 && agent < scene_.agents.size() ? scene_.agents[agent].track.id : kNobody;
 }
 
-Rejection Planner::judge(int path, const PathSight& /*sight*/, const PredictionSet& /*conditioned*/,
-                         CheckReport& report) const {
+Rejection Planner::judge(int path, safety::Verdict& verdict) const {
   if (!guarded) return Rejection::kNone;
-  const safety::Verdict verdict = guard_.judge(path, chosen_);
-  report.hard = verdict.hard;
-  if (verdict.safe()) return Rejection::kNone;
-  report = {CheckResult::kTerminal, verdict.agent, 0, TerminalCause::kNone, verdict.from_s, verdict.needed_s};
-  switch (verdict.cause) {
-    case safety::Cause::kNone:
-    case safety::Cause::kNoPath:
-      report.terminal = TerminalCause::kNoPath;
-      break;
-    case safety::Cause::kRoadEnd:
-      report.terminal = TerminalCause::kRoadEnd;
-      break;
-    case safety::Cause::kLeader:
-      report.terminal = TerminalCause::kLeader;
-      break;
-    case safety::Cause::kFollower:
-      report.terminal = TerminalCause::kFollower;
-      break;
-    case safety::Cause::kZone:
-      report.terminal = TerminalCause::kZone;
-      break;
-    case safety::Cause::kNoRoom:
-      report.terminal = TerminalCause::kStopsInZone;
-      break;
-  }
-  return Rejection::kTerminal;
+  verdict = guard_.judge(path, chosen_);
+  return verdict.safe() ? Rejection::kNone : Rejection::kRefused;
 }
 
 float Planner::crash_cost(const PredictionSet& prediction) const {
-  float crashes = 0.0F;  // expected number
-  for (const AgentPrediction& predicted : prediction.agents) {
-    const Track& track = scene_.agents[predicted.agent].track;
-    for (const Mode& mode : predicted.modes) {
-      const bool hit = first_collision(chosen_, mode, track, kHorizonSteps, 0.0F, parameters_) >= 0;
-      if (hit) crashes = crashes + mode.probability;
-    }
-  }
-  return kCrashCost * crashes;
+  return kCrashCost * expected_collisions(scene_, prediction, chosen_, parameters_);
 }
 
 Status Planner::choose(Explanation& explanation) {
@@ -272,9 +230,8 @@ bool Planner::evaluate(int index, Explanation& explanation) {
   }
   {
     const StageScope scope(probe, Stage::kCheck);
-    CheckReport report;
-    const PathSight sight = look_along(scene_, candidate.path, start_, parameters_);
-    explanation.rejections[index] = judge(candidate.path, sight, conditioned_, report);
+    safety::Verdict verdict;
+    explanation.rejections[index] = judge(candidate.path, verdict);
     count(explanation, Stage::kCheck, 1);
     if (explanation.rejections[index] != Rejection::kNone) return false;
   }

@@ -60,9 +60,8 @@ class Planner {
 
   WorkAllowance allowance;
   Probe* probe = nullptr;  ///< optional; not owned
-  /// False for comparisons only, never in a car: the score alone decides among feasible candidates, with what
-  /// is predicted to be hit as one more term; no check, no terminal condition, no RSS envelope. The
-  /// minimum-risk manoeuvre is left for when there is no candidate at all.
+  /// False for comparisons only, never in a car: the score alone decides among feasible candidates; no guard,
+  /// no RSS envelope. The minimum-risk manoeuvre is left for when there is no candidate at all.
   bool guarded = true;
   /// True for comparisons only, never in a car: every other vehicle is taken to stand where it is now, as if
   /// it had always stood there and will for ever.
@@ -82,9 +81,8 @@ class Planner {
   [[nodiscard]] std::uint8_t track_id(int agent) const;
   void explain_risk(Status status, Explanation& explanation);
   /// \pre chosen_ is feasible
-  [[nodiscard]] Rejection judge(int path, const PathSight& sight, const PredictionSet& conditioned,
-                                CheckReport& report) const;
-  /// What stands for the check in an unguarded planner's score; 0 in a guarded one's.
+  [[nodiscard]] Rejection judge(int path, safety::Verdict& verdict) const;
+  /// Price of the touches that are to be expected.
   [[nodiscard]] float crash_cost(const PredictionSet& prediction) const;
   void refine(const Candidate& candidate, Explanation& explanation);
 
@@ -106,7 +104,7 @@ class Planner {
   ReferenceLines lines_;
   CandidateList candidates_;
   CostBreakdown costs_[kMaxCandidates];
-  float hard_[kMaxCandidates] = {};
+  float hard_[kMaxCandidates] = {};  ///< price of what can only be given up by braking hard
   DecisionList decisions_;
   bool keeps_plan_ = false;  ///< the running plan is among the candidates, as decision plan_key_
   DecisionKey plan_key_ = 0;

@@ -34,33 +34,24 @@ class Planner::Ranking final : public CandidateVisitor {
       rejection = Rejection::kLeftOut;
       return;
     }
-    CheckReport report;
-    const PathSight& sight = sight_along(candidate.path);
-    rejection = planner_.judge(candidate.path, sight, planner_.conditioned_, report);
-    planner_.hard_[index] = report.hard ? kHardStopCost : 0.0F;
+    safety::Verdict verdict;
+    rejection = planner_.judge(candidate.path, verdict);
+    planner_.hard_[index] = verdict.hard ? kHardStopCost : 0.0F;
     if (rejection == Rejection::kNone) {
       score(index, candidate, previous);
     } else {
-      note_held_up(candidate.path, report);
+      note_held_up(candidate.path, verdict);
     }
   }
 
  private:
-  const PathSight& sight_along(int path) {
-    if (!seen_[path]) {
-      sights_[path] = look_along(planner_.scene_, path, planner_.start_, planner_.parameters_);
-    }
-    seen_[path] = true;
-    return sights_[path];
-  }
-
   void score(int index, const Candidate& candidate, bool previous) {
     const Scene& scene = planner_.scene_;
     const Parameters& parameters = planner_.parameters_;
     DecisionList& decisions = planner_.decisions_;
     CostBreakdown& cost = planner_.costs_[index];
     const bool other_lane = candidate.path != plan_path_;
-    cost = score_motion(scene, outlook_, candidate.path, sight_along(candidate.path).start_s_m, rolled_out,
+    cost = score_motion(scene, outlook_, candidate.path, planner_.guard_.start_s_m(candidate.path), rolled_out,
                         other_lane, careful_, parameters);
     count(explanation_, Stage::kRank, 1);
     const DecisionKey key = decision_key(scene, candidate.path, rolled_out, planner_.unconditioned_);
@@ -78,23 +69,19 @@ class Planner::Ranking final : public CandidateVisitor {
     decisions.offer(key, index, cost.total());
   }
 
-  void note_held_up(int path, const CheckReport& report) {
-    // What the car itself cannot do holds nobody up.
-    if (report.result != CheckResult::kCollision && report.result != CheckResult::kTerminal) return;
+  void note_held_up(int path, const safety::Verdict& verdict) {
     const Manoeuvre manoeuvre = planner_.scene_.ego_paths[path].manoeuvre;
     HeldUp& held_up = manoeuvre == Manoeuvre::kKeep ? explanation_.held_up : explanation_.beside;
     float way_m = 0.0F;
     for (const TrajectoryPoint& point : rolled_out.points) way_m = way_m + kStepS * point.speed_mps;
-    if (held_up.report.result != CheckResult::kPassed && way_m <= held_up.way_m) return;
-    held_up = {report, planner_.track_id(report.agent), manoeuvre, way_m};
+    if (!held_up.verdict.safe() && way_m <= held_up.way_m) return;
+    held_up = {verdict, planner_.track_id(verdict.agent), manoeuvre, way_m};
   }
 
   Planner& planner_;
   const bool careful_;
   Explanation& explanation_;
   Outlook outlook_;
-  PathSight sights_[decltype(Scene::ego_paths)::kCapacity];  ///< made when a path is first looked along
-  bool seen_[decltype(Scene::ego_paths)::kCapacity] = {};
   int plan_path_ = 0;  ///< where the running plan leads, as far as it can go on; our own lane's path else
 };
 

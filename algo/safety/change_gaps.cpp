@@ -1,7 +1,6 @@
 #include "algo/safety/change_gaps.hpp"
 
 #include "algo/core/inline.hpp"
-#include "algo/safety/lane_change.hpp"
 
 namespace s4tp {
 

@@ -6,7 +6,6 @@
 namespace s4tp {
 
 inline constexpr float kChangeStandingGapM = 1.0F;  ///< to either, when both stand
-inline constexpr float kChangeFollowerHeadwayS = 0.2F;
 
 /// Least gap [m] to a leader at `leader_mps` who brakes with rss b_max, when we brake with rss b_min: only
 /// there does the proper response (rss.hpp) ask for less. May be negative behind a faster one.

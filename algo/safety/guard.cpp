@@ -5,12 +5,8 @@
 #include "algo/trajectory/along_path.hpp"
 #include "algo/trajectory/bicycle.hpp"
 
-#pragma GCC diagnostic ignored "-Wdouble-promotion"
-#include <cstdio>
-#include <cstdlib>
 namespace s4tp::safety {
 namespace {
-bool dbg = getenv("GDBG") != nullptr;
 
 
 using occupancy::kNeverS;
@@ -243,7 +239,6 @@ bool Guard::followers_can_brake(const Sight& sight, const Own& own, float brakes
       if (s_m > own_s_m - parameters_->guard.margin_m) {
         verdict.cause = Cause::kFollower;
         verdict.agent = behind.agent;
-        if (dbg) printf("   F: agent %d behind gap %.1f v %.1f own %.1f -> %.1f hit at %.1f half_over %d\n", behind.agent, own.s_m[0]-half_m-behind.bumper_s_m, behind.speed_mps, own.speed_mps[0], own.speed_mps[30], time_s, sight.half_over);
         return false;
       }
       if (speed_mps <= 0.0F || (own_mps <= 0.0F && speed_mps <= 0.0F)) break;
@@ -366,7 +361,6 @@ Verdict Guard::judge(int index, const Trajectory& trajectory) const {
     // A stop that is being driven may use up the tube.
     const float used_m = trajectory.points[branch].acceleration_mps2 < kStoppingMps2 ? kStopTubeM : 0.0F;
     const float wait_s_m = max(group.stop_s_m + used_m, min(own.s_m[0] + kCrawledM, group.entry_s_m));
-    if (dbg) printf("   G: s0 %.2f v %.2f a %.2f branch %.2f %.2f stop %.2f wait %.2f group [%.2f %.2f]\n", own.s_m[0], own.speed_mps[0], trajectory.points[0].acceleration_mps2, own.branch_s_m, own.branch_mps, stop_s_m, wait_s_m, group.entry_s_m, group.exit_s_m);
     if (stop_s_m <= wait_s_m) {
       // It can still be given up, but no longer at ease: that is worth knowing.
       if (own.stop_s_m(parameters_->comfort.braking_mps2) > wait_s_m) {
@@ -387,7 +381,7 @@ Verdict Guard::judge(int index, const Trajectory& trajectory) const {
                                   ? own.place_at_m(from_s, 0.0F) +
                                         occupancy::stopping_way_m(own.speed_at_mps(from_s, 0.0F), braking_mps2)
                                   : own.stop_s_m(braking_mps2);
-      if (stops_s_m > free_s_m) { if (dbg) printf("   L: %.1f > %.1f (share %.1f)\n", stops_s_m, free_s_m, settling.share); continue; }
+      if (stops_s_m > free_s_m) continue;
       brakes = followers_can_brake(sight, own, from_s, braking_mps2, verdict);
       if (brakes) break;
     }

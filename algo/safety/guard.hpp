@@ -61,6 +61,9 @@ class Guard {
   /// \note bounded work: steps + vehicles at the path's zones
   [[nodiscard]] Verdict judge(int path, const Trajectory& trajectory) const;
 
+  /// Where plans on `path` begin: of our rear axle, along it.
+  [[nodiscard]] float start_s_m(int path) const { return sights_[path].start_s_m; }
+
   /// Says which plan is in force from now on. While it goes through a group, whoever was to stay out of it
   /// when we entered still is: a licence used is not withdrawn half way.
   void commit(int path, const Verdict& verdict);

@@ -2,14 +2,11 @@
 
 #include "algo/core/inline.hpp"
 #include "algo/trajectory/bicycle.hpp"
-#include "algo/trajectory/candidates.hpp"
 
 namespace s4tp {
 namespace {
 
 constexpr float kSwingS = 0.5F;     // sideways motion that goes on before steering back shows
-constexpr float kTouchM = 0.5F;     // left between us and him
-constexpr float kBoundForM = 1.5F;  // nearer to a path's centre, a plan's end is in its lane
 
 /// Whether a lane is that of the path at one of its parts.
 bool on_path(const LanePath& path, LaneIndex lane) {
@@ -20,11 +17,6 @@ bool on_path(const LanePath& path, LaneIndex lane) {
 }
 
 }  // namespace
-
-bool changes_lane(const Scene& scene, const EgoPath& path) {
-  const float width_m = path_point(*scene.map, path.path, path.frenet.s_m).width_m;
-  return path.manoeuvre != Manoeuvre::kKeep && abs(path.frenet.d_m) >= 0.5F * width_m;
-}
 
 bool change_under_way(const Scene& scene, const EgoPath& path, const TrajectoryPoint& start,
                       const Parameters& parameters) {
@@ -39,19 +31,6 @@ bool change_under_way(const Scene& scene, const EgoPath& path, const TrajectoryP
                          : -parameters.vehicle.rear_overhang_m;
   const float corner_m = abs(frenet.d_m) - on_m * towards - 0.5F * parameters.vehicle.width_m * turned.cos;
   return corner_m < half_lane_m;
-}
-
-void mark_bound_for(const Plan& running, std::uint32_t start_ms, Scene& scene) {
-  const bool drives = running.kind == PlanKind::kDrive && plan_covers(running, start_ms);
-  const TrajectoryPoint& end = running.trajectory.points[kHorizonSteps];
-  for (EgoPath& path : scene.ego_paths) {
-    path.bound_for = false;
-    if (!drives) continue;
-    const float guess_s_m =
-        path.frenet.s_m + distance(position(end.rear_axle), position(scene.ego.rear_axle));
-    const Frenet frenet = project(*scene.map, path.path, position(end.rear_axle), guess_s_m, 15.0F);
-    path.bound_for = abs(frenet.d_m) < kBoundForM;
-  }
 }
 
 bool joins(const Scene& scene, const EgoPath& path, const Agent& agent) {
@@ -90,19 +69,6 @@ Neighbours find_neighbours(const Scene& scene, const EgoPath& path, const Parame
     nearest = {i, gap_m, seen.along_mps, agent.track.acceleration_mps2};
   }
   return found;
-}
-
-bool can_stay_behind(float gap_m, float speed_mps, const Trajectory& trajectory) {
-  for (int i = 1; i < kTrajectoryPoints; ++i) {
-    const float own_mps = trajectory.points[i].speed_mps;
-    const bool brakes = static_cast<float>(i) * kStepS > kFollowerReactionS && speed_mps > own_mps;
-    const float later_mps = brakes ? max(own_mps, speed_mps - kFollowerBrakingMps2 * kStepS) : speed_mps;
-    gap_m = gap_m + 0.5F * kStepS * (trajectory.points[i - 1].speed_mps + own_mps - speed_mps - later_mps);
-    if (gap_m < kTouchM) return false;
-    speed_mps = later_mps;
-  }
-  const float faster_mps = max(0.0F, speed_mps - trajectory.points[kHorizonSteps].speed_mps);
-  return square(faster_mps) <= 2.0F * kFollowerBrakingMps2 * (gap_m - kTouchM);
 }
 
 }  // namespace s4tp

@@ -2,7 +2,7 @@
 
 #include "algo/core/inline.hpp"
 #include "algo/safety/lane_change.hpp"
-#include "algo/safety/right_of_way.hpp"
+#include "algo/safety/legal_occupancy.hpp"
 #include "algo/safety/rss.hpp"
 #include "algo/trajectory/along_path.hpp"
 #include "algo/trajectory/bicycle.hpp"
@@ -129,9 +129,12 @@ bool may_leave(const Scene& scene, const EgoPath& path, float s_m, float way_m, 
     if (-to_entry_m > to_exit_m) continue;  // most of it is behind us: on
     const float in_s = driving_time_s(max(to_entry_m, 0.0F), speed_mps);
     const float out_s = driving_time_s(min(to_exit_m, way_m), speed_mps);
-    for (int i = 0; i < scene.agents.size(); ++i) {
-      const Passage passage = judge_passage(scene, i, zone, in_s, out_s, Resolve::kCommitted, parameters);
-      if (passage == Passage::kRefused) return false;
+    for (const Agent& agent : scene.agents) {
+      occupancy::LaneReach reach;
+      reach.measure(*scene.map, agent);
+      const safety::ZoneOccupancy when =
+          safety::zone_occupancy(scene, agent, reach, zone, 0.0F, parameters);
+      if (when.claim == safety::Claim::kMayCome && when.from_s < out_s && when.until_s > in_s) return false;
     }
   }
   return true;

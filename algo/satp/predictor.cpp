@@ -3,9 +3,6 @@
 #include "algo/core/inline.hpp"
 #include "algo/satp/way_motion.hpp"
 
-#pragma GCC diagnostic ignored "-Wdouble-promotion"
-#include <cstdio>
-#include <cstdlib>
 namespace s4tp {
 namespace {
 
@@ -133,7 +130,6 @@ void Predictor::decode(const Trajectory* plan, int allowance, PredictionSet& pre
         prior = kGoesOnStanding;
         hold = {way.start_s_m, kNeverS};
       }
-      if (getenv("PDBG") && plan) printf("     pred track %d path %d prob %.2f prior %.2f\n", agent.track.id, k, agent.path_probability[k], prior);
       float yields = prior < 0.0F ? 0.0F : with_evidence(prior, beliefs_ == nullptr ? 0.0F : beliefs_->evidence(agent.track.id));
       const bool both = room > 0 && yields > 1.0F - kCertain && yields < kCertain;
       if (!both) yields = yields >= 0.5F ? 1.0F : 0.0F;

@@ -20,16 +20,10 @@ struct History {
   std::uint16_t valid = 0;  ///< bit i: samples[i] was seen
 };
 
-/// Who has stood for longer with nobody to wait for does not use his right.
-inline constexpr int kGivenUpMs = 2000;
-
 /// A vehicle as of the scene's time (tracks are brought forward from the list's time).
 struct Agent {
   Track track;
   std::uint16_t age_ms = 0;  ///< since it was last in a list; coasted meanwhile
-  /// CORE-034 How long it has stood with nobody to wait for; at most a minute. From kGivenUpMs on all the
-  /// time it stands counts, whoever comes: who has let such a gap pass lets the next one pass, too.
-  std::uint16_t idle_ms = 0;
   std::uint16_t stood_ms = 0;  ///< how long it has stood; at most a minute
   std::uint16_t known_ms = 0;  ///< how long it has been tracked; at most a minute
   LaneIndex lane = kNoLaneIndex;
@@ -58,7 +52,6 @@ enum class Manoeuvre : std::uint8_t { kKeep = 0, kLeft = 1, kRight = 2 };
 struct EgoPath {
   Manoeuvre manoeuvre = Manoeuvre::kKeep;
   std::int8_t changes_needed = 0;  ///< from that lane to the route's
-  bool bound_for = false;          ///< the running plan leads there (lane_change.hpp)
   LanePath path;
   Frenet frenet;               ///< of our rear axle
   float aside_m = 0.0F;        ///< left of the centre line it is driven, past who stand (standing_room.hpp)
@@ -108,14 +101,13 @@ class SceneBuilder {
     Track track;                ///< as last seen
     std::uint32_t seen_ms = 0;  ///< list time of that
     LaneIndex lane = kNoLaneIndex;
-    std::uint16_t idle_ms = 0;
     std::uint16_t stood_ms = 0;
     std::uint16_t known_ms = 0;
     History history;
   };
 
   void note_waiting(std::int32_t passed_ms, const Scene& scene, const Parameters& parameters);
-  void note_idle(std::int32_t passed_ms, Scene& scene);
+  void note_standing(std::int32_t passed_ms, Scene& scene);
   void advance_time(std::uint32_t time_ms);
   void take_list(const TrackList& tracks, std::uint32_t list_time_ms);
   int find_past(const Track& track, std::uint32_t list_time_ms) const;

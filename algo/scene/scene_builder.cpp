@@ -1,7 +1,6 @@
 #include "algo/core/inline.hpp"
 #include "algo/scene/agent_paths.hpp"
 #include "algo/scene/ego_paths.hpp"
-#include "algo/scene/hindrance.hpp"
 #include "algo/scene/lane_table.hpp"
 #include "algo/scene/relevance.hpp"
 #include "algo/scene/scene.hpp"
@@ -130,16 +129,12 @@ void SceneBuilder::note_waiting(std::int32_t passed_ms, const Scene& scene, cons
   }
 }
 
-void SceneBuilder::note_idle(std::int32_t passed_ms, Scene& scene) {
+void SceneBuilder::note_standing(std::int32_t passed_ms, Scene& scene) {
   for (int i = 0; i < scene.agents.size(); ++i) {  // one for each of past_, in its order
     Past& past = past_[i];
-    const bool stands = scene.map != nullptr && scene.agents[i].track.speed_mps < kStandingMps;
-    const bool idle = stands && (past.idle_ms >= kGivenUpMs || !waits_for_somebody(scene, i));
-    const std::int32_t idle_ms = idle ? past.idle_ms + passed_ms : 0;
-    past.idle_ms = bounded_ms(idle_ms);
-    past.stood_ms = bounded_ms(scene.agents[i].track.speed_mps < kStandingMps ? past.stood_ms + passed_ms : 0);
+    const bool stands = scene.agents[i].track.speed_mps < kStandingMps;
+    past.stood_ms = stands ? bounded_ms(past.stood_ms + passed_ms) : std::uint16_t{0};
     past.known_ms = bounded_ms(past.known_ms + passed_ms);
-    scene.agents[i].idle_ms = past.idle_ms;
     scene.agents[i].stood_ms = past.stood_ms;
     scene.agents[i].known_ms = past.known_ms;
   }
@@ -188,7 +183,6 @@ void SceneBuilder::take_list(const TrackList& tracks, std::uint32_t list_time_ms
         const float seconds = 1e-3F * static_cast<float>(elapsed_ms(past.seen_ms, list_time_ms));
         if (distance(coasted(past.track, seconds), position(track.centre)) > kJumpM) {
           past.history.valid = 0;
-          past.idle_ms = 0;
           past.stood_ms = 0;
           past.known_ms = 0;
           past.lane = kNoLaneIndex;
@@ -264,7 +258,7 @@ Status SceneBuilder::build(std::uint32_t time_ms, const EgoState& ego, const Tra
     agent.history = past.history;
     (void)scene.agents.push(agent);
   }
-  note_idle(passed_ms, scene);
+  note_standing(passed_ms, scene);
   rank_agents(relevance, parameters, scene);
   return ego_lane_ != kNoLaneIndex ? Status::kOk : Status::kNoLane;
 }

@@ -1,7 +1,6 @@
 #include "algo/trajectory/candidates.hpp"
 
 #include "algo/core/inline.hpp"
-#include "algo/safety/right_of_way.hpp"
 #include "algo/trajectory/along_path.hpp"
 #include "algo/trajectory/bicycle.hpp"
 #include "algo/trajectory/roll_out.hpp"
@@ -89,8 +88,7 @@ void find_stops(const Scene& scene, const EgoPath& path, const Parameters& param
     const float edge_s_m = zone.entry_s_m - centre_m - kStopBeforeZoneM;
     const bool passed = line_s_m < course.where.s_m - kPassedM;
     if (!passed) add_stop(line_s_m, course);
-    const bool may_wait_there = passed || waits_beyond_line(scene, line_s_m, course.where.s_m);
-    if (may_wait_there && clear_of_zones(path, edge_s_m, parameters)) add_stop(edge_s_m, course);
+    if (passed && clear_of_zones(path, edge_s_m, parameters)) add_stop(edge_s_m, course);
   }
   const float end_s_m = dead_end_s_m(scene, path);
   if (end_s_m >= kNoDeadEndM) return;

@@ -48,8 +48,7 @@ struct Candidate {
 enum class Rejection : std::uint8_t {
   kNone = 0,
   kInfeasible = 1,  ///< curvature, lateral acceleration, steering angle or rate
-  kCollision = 2,   ///< predicted overlap
-  kTerminal = 3,    ///< the end is not safe for ever
+  kRefused = 3,     ///< the guard knows no fail-safe from it
   kLeftOut = 4,     ///< more feasible ones than fit
 };
 

@@ -93,15 +93,4 @@ void keep_aside(const Parameters& parameters, Scene& scene) {
   }
 }
 
-bool leaves_room(const Scene& scene, const EgoPath& path, const Agent& agent, float from_s_m, float to_s_m,
-                 const Parameters& parameters) {
-  const Box other = box_of(agent);
-  PathCursor cursor(*scene.map, path.path);
-  float s_m = from_s_m;
-  for (int i = 0; i < kMostSteps && s_m < to_s_m; ++i, s_m = s_m + kStepM) {
-    if (!leaves_room(cursor.at(s_m).pose, path.aside_m, other, parameters)) return false;
-  }
-  return true;
-}
-
 }  // namespace s4tp

@@ -18,9 +18,4 @@ inline constexpr float kStandingRoomM = 0.4F;
 /// bystander. \pre scene.map is there, or there are no ego paths
 void keep_aside(const Parameters& parameters, Scene& scene);
 
-/// Whether our box, our rear axle driven EgoPath::aside_m beside the centre line of `path` from `from_s_m` to
-/// `to_s_m` (at most 40 m), keeps kStandingRoomM from the vehicle where it is now.
-[[nodiscard]] bool leaves_room(const Scene& scene, const EgoPath& path, const Agent& agent, float from_s_m,
-                               float to_s_m, const Parameters& parameters);
-
 }  // namespace s4tp

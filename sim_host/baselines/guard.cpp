@@ -4,7 +4,7 @@
 
 #include "algo/safety/minimum_risk.hpp"
 #include "algo/safety/rss.hpp"
-#include "algo/safety/trajectory_check.hpp"
+#include "algo/trajectory/bicycle.hpp"
 #include "algo/trajectory/candidates.hpp"
 
 namespace s4tp::baselines {
@@ -30,6 +30,7 @@ Status Guard::init(const Parameters& parameters) {
   int first_bad = 0;
   parameters_ = parameters;
   scene_builder_.reset();
+  guard_.reset();
   return validate(parameters, first_bad);
 }
 
@@ -39,12 +40,17 @@ Status Guard::apply(const PlannerInput& input, Status status, Plan& plan, Explan
                                            parameters_, scene_);
   if (status == Status::kOk) status = seen;
   if (status == Status::kOk) {
-    const CheckReport report = check(plan.trajectory, input.start_ms);
-    if (report.result != CheckResult::kPassed) {
+    guard_.look(scene_, plan.trajectory.points[0],
+                1e-3F * static_cast<float>(input.start_ms - scene_.time_ms), parameters_);
+    const int path = path_of(scene_, plan.trajectory);
+    const safety::Verdict verdict = guard_.judge(path, plan.trajectory);
+    if (verdict.safe() && feasible(plan.trajectory, parameters_)) {
+      guard_.commit(path, verdict);
+    } else {
       status = Status::kNoSafePlan;
-      explanation.held_up.report = report;
-      if (report.agent < scene_.agents.size())
-        explanation.held_up.track = scene_.agents[report.agent].track.id;
+      explanation.held_up.verdict = verdict;
+      if (verdict.agent < scene_.agents.size())
+        explanation.held_up.track = scene_.agents[verdict.agent].track.id;
     }
   }
   explanation.status = status;
@@ -58,15 +64,6 @@ Status Guard::apply(const PlannerInput& input, Status status, Plan& plan, Explan
   const TrajectoryPoint start = plan_start(input.ego, input.now_ms, running, input.start_ms, parameters_);
   minimum_risk(scene_, start, running, input.start_ms, parameters_, plan.trajectory);
   return status;
-}
-
-CheckReport Guard::check(const Trajectory& trajectory, std::uint32_t start_ms) {
-  predictor_.encode(scene_, parameters_, start_ms);
-  predictor_.decode(nullptr, kMaxPredictionWork, unconditioned_);
-  predictor_.decode(&trajectory, kMaxPredictionWork, conditioned_);
-  predictor_.keep_going(keep_going_);
-  return check_trajectory(scene_, path_of(scene_, trajectory), trajectory, unconditioned_, conditioned_,
-                          keep_going_, parameters_);
 }
 
 }  // namespace s4tp::baselines

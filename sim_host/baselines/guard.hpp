@@ -1,5 +1,5 @@
 #pragma once
-/// The guard around somebody else's plan: check, RSS envelope, minimum-risk manoeuvre, as the S4TP planner
+/// The guard around somebody else's plan: verdict, RSS envelope, minimum-risk manoeuvre, as the S4TP planner
 /// has them inside. Every planner is compared with it and without (METHOD section 4).
 ///
 /// It sees the tracks as they are, whatever its planner makes of them. A plan that does not pass is replaced
@@ -19,15 +19,10 @@ class Guard {
   [[nodiscard]] Status apply(const PlannerInput& input, Status status, Plan& plan, Explanation& explanation);
 
  private:
-  [[nodiscard]] CheckReport check(const Trajectory& trajectory, std::uint32_t start_ms);
-
   Parameters parameters_;
   SceneBuilder scene_builder_;
   Scene scene_;
-  Predictor predictor_;
-  PredictionSet unconditioned_;
-  PredictionSet conditioned_;
-  KinematicSet keep_going_;
+  safety::Guard guard_;
 };
 
 /// A planner with the guard behind it; a planner itself.

@@ -272,14 +272,15 @@ float IdmLanePlanner::stop_for_zones(const EgoPath& path, Explanation& explanati
 
 bool IdmLanePlanner::refuses(const ConflictZone& zone, float in_s, float out_s, float margin_s,
                              Explanation& explanation) const {
-  explanation.held_up.report = {CheckResult::kTerminal, kNobody, 0, TerminalCause::kStopsInZone};
+  explanation.held_up.verdict.cause = safety::Cause::kNoRoom;
+  explanation.held_up.verdict.agent = kNobody;
   explanation.held_up.way_m = kFarM;
   explanation.held_up.track = kNobody;
   if (out_s >= kNeverS) return true;  // no room behind it: the junction is kept clear
-  explanation.held_up.report.terminal = TerminalCause::kZone;
+  explanation.held_up.verdict.cause = safety::Cause::kZone;
   for (int i = 0; i < scene_.agents.size(); ++i) {
     const Agent& agent = scene_.agents[i];
-    explanation.held_up.report.agent = static_cast<std::uint8_t>(i);
+    explanation.held_up.verdict.agent = static_cast<std::uint8_t>(i);
     explanation.held_up.track = agent.track.id;
     const float speed_mps = agent.track.speed_mps;
     const float longer_m = 0.5F * agent.track.length_m - kUsualHalfLengthM;

@@ -5,8 +5,8 @@
 
 #include "algo/core/math.hpp"
 #include "algo/sadrf/futures.hpp"
+#include "algo/sadrf/overlap.hpp"
 #include "algo/safety/minimum_risk.hpp"
-#include "algo/safety/trajectory_check.hpp"
 #include "algo/trajectory/along_path.hpp"
 #include "algo/trajectory/bicycle.hpp"
 #include "algo/trajectory/candidates.hpp"
@@ -137,6 +137,7 @@ Status PredictiveDecision::init(const Parameters& parameters) {
   int first_bad = 0;
   parameters_ = parameters;
   scene_builder_.reset();
+  guard_.reset();
   return validate(parameters, first_bad);
 }
 
@@ -153,6 +154,7 @@ Status PredictiveDecision::plan(const PlannerInput& input, Plan& plan, Explanati
     predictor_.encode(scene_, parameters_, input.start_ms);
     predictor_.decode(nullptr, kMaxPredictionWork, unconditioned_);
     predictor_.keep_going(keep_going_);
+    guard_.look(scene_, start, 1e-3F * static_cast<float>(input.start_ms - scene_.time_ms), parameters_);
     int left_out = 0;
     generate_candidates(scene_, start, running, input.start_ms, parameters_, kMaxCandidates, lines_,
                         candidates_, left_out);
@@ -163,11 +165,7 @@ Status PredictiveDecision::plan(const PlannerInput& input, Plan& plan, Explanati
     for (const Candidate& candidate : candidates_) {
       roll_out(lines_[candidate.path], candidate, start, running, input.start_ms, parameters_, trajectory);
       predictor_.decode(&trajectory, kMaxPredictionWork, conditioned);
-      if (guarded_) {
-        const CheckReport report = check_trajectory(scene_, candidate.path, trajectory, unconditioned_,
-                                                    conditioned, keep_going_, parameters_);
-        if (report.result != CheckResult::kPassed) continue;
-      }
+      if (guarded_ && !guard_.judge(candidate.path, trajectory).safe()) continue;
       const float cost = weighted(pd_features(scene_, candidate.path, lines_[candidate.path], trajectory,
                                               conditioned, keep_going_, parameters_),
                                   kPdWeights);
@@ -178,6 +176,8 @@ Status PredictiveDecision::plan(const PlannerInput& input, Plan& plan, Explanati
       plan.trajectory = trajectory;
       chosen = conditioned;
     }
+    if (status == Status::kOk)
+      guard_.commit(explanation.chosen.path, guard_.judge(explanation.chosen.path, plan.trajectory));
   }
   if (status != Status::kOk) {
     plan.kind = PlanKind::kMinimumRisk;

@@ -52,6 +52,7 @@ class PredictiveDecision {
 
  private:
   bool guarded_;
+  safety::Guard guard_;
   Parameters parameters_;
   SceneBuilder scene_builder_;
   Scene scene_;

@@ -21,12 +21,10 @@ const char* intent_name(Intent intent) {
 }
 
 /// What kept the plan from going further, as one word.
-const char* held_up_name(const CheckReport& report) {
-  static constexpr const char* kChecks[] = {"", "not finite", "infeasible", "hits", "terminal"};
-  static constexpr const char* kCauses[] = {"",     "no path", "road end", "lane end", "stops in zone",
-                                            "zone", "leader",  "follower"};
-  if (report.result == CheckResult::kTerminal) return kCauses[static_cast<int>(report.terminal)];
-  return kChecks[static_cast<int>(report.result)];
+const char* held_up_name(safety::Cause cause) {
+  static constexpr const char* kCauses[] = {"",         "no path", "road end",     "leader",
+                                            "follower", "zone",    "stops in zone"};
+  return kCauses[static_cast<int>(cause)];
 }
 
 int rejected(const Explanation& explanation, Rejection why) {
@@ -38,7 +36,7 @@ int rejected(const Explanation& explanation, Rejection why) {
 }  // namespace
 
 void print_explanations(std::ostream& out, const campaign::Trace& trace, double pre_roll_s) {
-  out << "  time s  status         plan   v m/s  path intent       a m/s2  cand infeas coll term  rss"
+  out << "  time s  status         plan   v m/s  path intent       a m/s2  cand infeas refused  rss"
          "   progress  speed   jerk    lat   lane   risk   total  runner-up  risk from  held up by\n";
   for (const campaign::CycleTrace& cycle : trace.cycles) {
     const Explanation& e = cycle.record.explanation;
@@ -47,7 +45,7 @@ void print_explanations(std::ostream& out, const campaign::Trace& trace, double 
     const float accelerations = plan.trajectory.points[5].acceleration_mps2;
     char line[300];
     std::snprintf(line, sizeof line,
-                  "%8.1f  %-13s  %-5s %6.2f  %4d %-11s %7.2f  %4d %6d %4d %4d  %3s  %8.1f %6.1f %6.2f %6.2f "
+                  "%8.1f  %-13s  %-5s %6.2f  %4d %-11s %7.2f  %4d %6d %7d  %3s  %8.1f %6.1f %6.2f %6.2f "
                   "%6.1f %6.1f "
                   "%7.1f  %9.1f  %9d  %s %d\n",
                   plan.start_ms / 1000.0 - pre_roll_s, status_name(e.status),
@@ -55,12 +53,12 @@ void print_explanations(std::ostream& out, const campaign::Trace& trace, double 
                   static_cast<double>(plan.trajectory.points[0].speed_mps), e.chosen.path,
                   e.status == Status::kOk ? intent_name(e.chosen.intent) : "-",
                   static_cast<double>(accelerations), e.candidate_count, rejected(e, Rejection::kInfeasible),
-                  rejected(e, Rejection::kCollision), rejected(e, Rejection::kTerminal),
+                  rejected(e, Rejection::kRefused),
                   e.rss_clipped ? "yes" : "", static_cast<double>(c.progress), static_cast<double>(c.speed),
                   static_cast<double>(c.jerk), static_cast<double>(c.lateral), static_cast<double>(c.lane),
                   static_cast<double>(c.risk), static_cast<double>(c.total()),
                   static_cast<double>(e.runner_up_cost.total()), e.dominating_track,
-                  held_up_name(e.held_up.report), e.held_up.track);
+                  held_up_name(e.held_up.verdict.cause), e.held_up.track);
     out << line;
   }
 }

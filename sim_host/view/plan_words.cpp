@@ -65,23 +65,20 @@ std::string name_of(const campaign::CycleTrace& cycle, int id) {
   return kind + where + (beside_lane ? std::string(" on the ") + side : std::string());
 }
 
-Because because_of(const CheckReport& report) {
-  if (report.result == CheckResult::kCollision) return Because::kTooNear;
-  switch (report.terminal) {
-    case TerminalCause::kNone:
+Because because_of(const safety::Verdict& verdict) {
+  switch (verdict.cause) {
+    case safety::Cause::kNone:
       return Because::kNothing;
-    case TerminalCause::kNoPath:
-    case TerminalCause::kRoadEnd:
+    case safety::Cause::kNoPath:
+    case safety::Cause::kRoadEnd:
       return Because::kRoadEnd;
-    case TerminalCause::kLaneEnd:
-      return Because::kLaneEnd;
-    case TerminalCause::kStopsInZone:
+    case safety::Cause::kNoRoom:
       return Because::kNoRoom;
-    case TerminalCause::kZone:
+    case safety::Cause::kZone:
       return Because::kGivingWay;
-    case TerminalCause::kLeader:
+    case safety::Cause::kLeader:
       return Because::kLeader;
-    case TerminalCause::kFollower:
+    case safety::Cause::kFollower:
       return Because::kBehind;
   }
   return Because::kNothing;
@@ -123,15 +120,12 @@ Reason driving_reason(const campaign::CycleTrace& cycle, Doing doing) {
                     doing == Doing::kDriving;
   if (e.rss_clipped) return about(doing, Because::kDistance, e.rss_track);
   if (!slow) return about(doing, Because::kNothing);
-  const bool held = e.held_up.report.result != CheckResult::kPassed &&
+  const bool held = !e.held_up.verdict.safe() &&
                     e.held_up.way_m > way_m(cycle.record.plan.trajectory) + kNoticeableM;
   const bool near =
       e.leader_track != kNobody && e.leader_gap_m < 8.0F + kFollowingS * start_of(cycle).speed_mps;
   if (held) {
-    const Because because = because_of(e.held_up.report);
-    // Whom we follow and would run into is the same story.
-    const bool same = because == Because::kTooNear && near && e.held_up.track == e.leader_track;
-    return about(doing, same ? Because::kLeader : because, e.held_up.track);
+    return about(doing, because_of(e.held_up.verdict), e.held_up.track);
   }
   if (near && (doing != Doing::kDriving || e.chosen.intent == Intent::kFollow))
     return about(doing, Because::kLeader, e.leader_track);
@@ -165,16 +159,16 @@ const char* doing_words(Doing doing) {
   return "?";
 }
 
-std::string giving_way(const std::string& who, const CheckReport& report) {
-  if (report.arrives_s <= 0.0F) return who + " is in our way";
-  if (report.arrives_s > kSoonS) return who + " has to pass first";
-  return format("%s can be there in %.1f s, we would need %.1f s", who.c_str(), report.arrives_s,
-                report.needed_s);
+std::string giving_way(const std::string& who, const safety::Verdict& verdict) {
+  if (verdict.from_s <= 0.0F) return who + " is in our way";
+  if (verdict.from_s > kSoonS) return who + " has to pass first";
+  return format("%s can be there in %.1f s, we would need %.1f s", who.c_str(), verdict.from_s,
+                verdict.needed_s);
 }
 
 /// The half sentence behind the colon; empty when there is nothing to say.
 std::string because_words(const campaign::CycleTrace& cycle, const Reason& reason,
-                          const CheckReport& report) {
+                          const safety::Verdict& verdict) {
   const Explanation& e = cycle.record.explanation;
   const std::string who = name_of(cycle, reason.track < 0 ? kNobody : reason.track);
   switch (reason.because) {
@@ -185,15 +179,11 @@ std::string because_words(const campaign::CycleTrace& cycle, const Reason& reaso
                  ? format("%s is %.0f m away", who.c_str(), std::max(e.leader_gap_m, 0.0F))
                  : who + " leaves no more room";
     case Because::kGivingWay:
-      return giving_way(who, report);
+      return giving_way(who, verdict);
     case Because::kNoRoom:
       return "beyond the junction there is no room, and it must not be blocked";
     case Because::kRoadEnd:
       return "our lane ends ahead";
-    case Because::kLaneEnd:
-      return "this lane does not lead to the goal, and the place to leave it is near";
-    case Because::kTooNear:
-      return format("%s would come too near in %.1f s", who.c_str(), 0.1 * (report.step + 1));
     case Because::kBehind:
       return who + " would have to brake hard for us";
     case Because::kDistance:
@@ -231,18 +221,15 @@ std::string cost_text(const CostBreakdown& cost) {
 
 std::string held_up_text(const campaign::CycleTrace& cycle, const HeldUp& held_up, const char* where) {
   static constexpr const char* kCauses[] = {
-      "", "no path", "road's end", "lane's end", "would stand in the zone", "zone", "leader", "follower"};
-  const CheckReport& report = held_up.report;
-  if (report.result == CheckResult::kPassed) return "";
-  const bool hits = report.result == CheckResult::kCollision;
+      "", "no path", "road's end", "leader", "follower", "zone", "would stand in the zone"};
+  const safety::Verdict& verdict = held_up.verdict;
+  if (verdict.safe()) return "";
   std::string line = format("\n  held up %s: %s, %.1f m wanted", where,
-                            hits ? format("overlap at +%.1f s", 0.1 * (report.step + 1)).c_str()
-                                 : kCauses[static_cast<int>(report.terminal)],
-                            held_up.way_m);
+                            kCauses[static_cast<int>(verdict.cause)], held_up.way_m);
   if (held_up.track != kNobody)
     line += format(", track %d (%s)", held_up.track, name_of(cycle, held_up.track).c_str());
-  if (report.terminal == TerminalCause::kZone)
-    line += format(", there in %.1f s, we leave in %.1f s", report.arrives_s, report.needed_s);
+  if (verdict.cause == safety::Cause::kZone)
+    line += format(", there in %.1f s, we leave in %.1f s", verdict.from_s, verdict.needed_s);
   return line;
 }
 
@@ -275,22 +262,22 @@ std::string in_words(const campaign::CycleTrace& cycle) {
   const Explanation& e = cycle.record.explanation;
   const Reason reason = reason_of(cycle);
   std::string words = doing_words(reason.doing);
-  const std::string because = because_words(cycle, reason, e.held_up.report);
+  const std::string because = because_words(cycle, reason, e.held_up.verdict);
   if (!because.empty()) words += ": " + because;
   // The check's word on the way that was wanted most.
-  if (reason.because == Because::kNoSafeWay && e.held_up.report.result != CheckResult::kPassed) {
+  if (reason.because == Because::kNoSafeWay && !e.held_up.verdict.safe()) {
     Reason wanted = reason;
-    wanted.because = because_of(e.held_up.report);
-    words += "; " + because_words(cycle, wanted, e.held_up.report);
+    wanted.because = because_of(e.held_up.verdict);
+    words += "; " + because_words(cycle, wanted, e.held_up.verdict);
   }
   words += ".";
   // Behind somebody slower a passenger wonders why he is not passed.
   const bool follows = reason.because == Because::kLeader && reason.doing == Doing::kDriving;
-  if (follows && e.beside.report.result != CheckResult::kPassed && e.beside.track != kNobody &&
+  if (follows && !e.beside.verdict.safe() && e.beside.track != kNobody &&
       e.beside.way_m > way_m(cycle.record.plan.trajectory) + kNoticeableM) {
     words += std::string(" No change to the ") + manoeuvre_name(e.beside.manoeuvre) + ": " +
-             because_words(cycle, about(reason.doing, because_of(e.beside.report), e.beside.track),
-                           e.beside.report) +
+             because_words(cycle, about(reason.doing, because_of(e.beside.verdict), e.beside.track),
+                           e.beside.verdict) +
              ".";
   }
   return words;
@@ -306,10 +293,9 @@ std::string in_numbers(const campaign::CycleTrace& cycle) {
                cost_text(e.runner_up_cost);
   }
   lines += format(
-      "\n  rejected of %d: %d infeasible, %d overlapping, %d with an unsafe end, %d left out (and %d not "
-      "made)",
-      e.candidate_count, rejected(e, Rejection::kInfeasible), rejected(e, Rejection::kCollision),
-      rejected(e, Rejection::kTerminal), rejected(e, Rejection::kLeftOut), e.left_out);
+      "\n  rejected of %d: %d infeasible, %d refused by the guard, %d left out (and %d not made)",
+      e.candidate_count, rejected(e, Rejection::kInfeasible), rejected(e, Rejection::kRefused),
+      rejected(e, Rejection::kLeftOut), e.left_out);
   lines += held_up_text(cycle, e.held_up, "in our lane") + held_up_text(cycle, e.beside, "beside");
   if (e.dominating_track != kNobody)
     lines += format("\n  risk:      track %d (%s) at +%.1f s", e.dominating_track,

@@ -25,8 +25,6 @@ enum class Because {
   kGivingWay,  ///< somebody may be where our ways cross
   kNoRoom,     ///< we would have to stand where ways cross
   kRoadEnd,    ///< the road or lane ends
-  kLaneEnd,    ///< a lane change is due before it goes on
-  kTooNear,    ///< somebody would come too near
   kBehind,     ///< who comes from behind in the other lane
   kDistance,   ///< the proper response to a distance somebody has made too short
   kRisk,       ///< the faster way was riskier

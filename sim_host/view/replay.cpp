@@ -196,8 +196,7 @@ ordered_json cycle_json(const CycleTrace& cycle, const Snapshot& now, Vec2 origi
     return track != cycle.tracks.end() ? car_of(*track, now, origin) : -1;
   };
   json["risk"] = {peaks(cycle.risk.obstacle), peaks(cycle.risk.road), peaks(cycle.risk.social)};
-  json["candidates"] = {e.candidate_count, rejected(Rejection::kInfeasible), rejected(Rejection::kCollision),
-                        rejected(Rejection::kTerminal)};
+  json["candidates"] = {e.candidate_count, rejected(Rejection::kInfeasible), rejected(Rejection::kRefused)};
   json["cost"] = costs(e.chosen_cost);
   json["runner_up"] = costs(e.runner_up_cost);
   json["riskiest"] = named(e.dominating_track);

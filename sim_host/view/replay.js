@@ -131,7 +131,7 @@
     const explained = cycle && cycle.cost;
     element('reasons').hidden = !explained;
     if (!explained) return;
-    const [count, infeasible, hits, unsafe] = cycle.candidates;
+    const [count, infeasible, refused] = cycle.candidates;
     const sum = (costs) => costs.reduce((a, b) => a + b, 0);
     const other = sum(cycle.runner_up.map(Math.abs)) > 0;
     element('costs').innerHTML = row(['cost', 'this plan', 'next best'], 'th') +
@@ -139,8 +139,8 @@
       row(['sum', number(sum(cycle.cost)), other ? number(sum(cycle.runner_up)) : '–'], 'th');
     const who = (id) => (id >= 0 ? `car ${id}` : 'nobody');
     element('numbers').textContent = cycle.numbers.replace(/^ {2}/gm, '');
-    element('counts').textContent = `${count} candidates; rejected: ${infeasible} beyond the car's limits, ${hits} would touch ` +
-      `somebody, ${unsafe} have no safe end. Most risk from ${who(cycle.riskiest)}; held up by ${who(cycle.held_up_by)}.`;
+    element('counts').textContent = `${count} candidates; rejected: ${infeasible} beyond the car's limits, ` +
+      `${refused} refused by the guard. Most risk from ${who(cycle.riskiest)}; held up by ${who(cycle.held_up_by)}.`;
   };
 
   const show = (t) => {

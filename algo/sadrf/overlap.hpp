@@ -1,0 +1,22 @@
+#pragma once
+/// Predicted overlap of boxes: the crash term of a score, apart from the field (METHOD section 3: a vehicle
+/// that stands across a lane has no ego-side risk).
+
+#include "algo/core/parameters.hpp"
+#include "algo/core/trajectory.hpp"
+#include "algo/satp/prediction.hpp"
+#include "algo/scene/scene.hpp"
+
+namespace s4tp {
+
+/// First step whose boxes are nearer than `margin_m`, or -1. A vehicle nearer than that from the first step on
+/// counts when the gap has halved, or, touching already, when it is 0.3 m deeper: standing close is not a
+/// collision (CHECK-008).
+[[nodiscard]] int first_collision(const Trajectory& trajectory, const Mode& mode, const Track& track,
+                                  int steps, float margin_m, const Parameters& parameters);
+
+/// Expected number of vehicles the trajectory touches within the horizon, over all their futures.
+[[nodiscard]] float expected_collisions(const Scene& scene, const PredictionSet& prediction,
+                                        const Trajectory& trajectory, const Parameters& parameters);
+
+}  // namespace s4tp
