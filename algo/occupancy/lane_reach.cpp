@@ -5,12 +5,12 @@
 namespace s4tp::occupancy {
 namespace {
 
-constexpr float kChangeWayM = 8.0F;   // a lane change takes at least this much of the lane that is left
+constexpr float kChangeWayM = 8.0F;  // a lane change takes at least this much of the lane that is left
 constexpr float kCmPerM = 100.0F;
 constexpr float kMPerCm = 0.01F;
 constexpr std::int16_t kNoWayCm = 30000;
-constexpr float kHorizonM = 160.0F;   // the map's own, and a little
-constexpr int kMostRounds = 12;       // lanes of a way, changes included
+constexpr float kHorizonM = 160.0F;  // the map's own, and a little
+constexpr int kMostRounds = 12;      // lanes of a way, changes included
 
 bool has_lane(const LaneMap& map, LaneIndex lane) {
   return lane >= 0 && lane < kMaxLanes && map.lanes[lane].present;

@@ -6,8 +6,8 @@
 #include "algo/core/bounded.hpp"
 #include "algo/core/status.hpp"
 #include "algo/sadrf/risk.hpp"
-#include "algo/safety/rss.hpp"
 #include "algo/safety/guard.hpp"
+#include "algo/safety/rss.hpp"
 #include "algo/trajectory/candidates.hpp"
 
 namespace s4tp {

@@ -239,8 +239,8 @@ bool Planner::evaluate(int index, Explanation& explanation) {
   if (explanation.work[static_cast<int>(Stage::kExactRisk)] >= allowance.exact_risks) return true;
   const StageScope scope(probe, Stage::kExactRisk);
   exact_risk(scene_, drivable_, conditioned_, keep_going_, chosen_, parameters_, explanation.risk);
-  costs_[index].risk =
-      parameters_.scoring.risk * risk_integral(explanation.risk, parameters_) + crash_cost(conditioned_) + hard_[index];
+  costs_[index].risk = parameters_.scoring.risk * risk_integral(explanation.risk, parameters_) +
+                       crash_cost(conditioned_) + hard_[index];
   count(explanation, Stage::kExactRisk, 1);
   return true;
 }

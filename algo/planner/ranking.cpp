@@ -51,8 +51,8 @@ class Planner::Ranking final : public CandidateVisitor {
     DecisionList& decisions = planner_.decisions_;
     CostBreakdown& cost = planner_.costs_[index];
     const bool other_lane = candidate.path != plan_path_;
-    cost = score_motion(scene, outlook_, candidate.path, planner_.guard_.start_s_m(candidate.path), rolled_out,
-                        other_lane, careful_, parameters);
+    cost = score_motion(scene, outlook_, candidate.path, planner_.guard_.start_s_m(candidate.path),
+                        rolled_out, other_lane, careful_, parameters);
     count(explanation_, Stage::kRank, 1);
     const DecisionKey key = decision_key(scene, candidate.path, rolled_out, planner_.unconditioned_);
     if (previous) {

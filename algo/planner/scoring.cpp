@@ -23,8 +23,8 @@ float route_cost(const EgoPath& path, float end_s_m, float end_mps, const Parame
   const float count = static_cast<float>(changes);
   const float missed = kMissedRoute * parameters.scoring.lane_route * count;
   // Whoever cannot stop before the end has missed it. The last place to wait leaves room to change from rest.
-  const float to_place_m = room_m - rear_axle_to_front_m(parameters) -
-                           square(end_mps) / (2.0F * parameters.comfort.braking_mps2);
+  const float to_place_m =
+      room_m - rear_axle_to_front_m(parameters) - square(end_mps) / (2.0F * parameters.comfort.braking_mps2);
   if (to_place_m < 0.0F) return missed;
   const float shortage = max(0.0F, 1.0F - to_place_m / (kChangeWayM * count));
   const float pressing = 1.0F + kChangeRoomM * count / (room_m + 10.0F);

@@ -6,7 +6,7 @@
 namespace s4tp {
 namespace {
 
-constexpr float kDeeperM = 0.3F;  // boxes that touch from the start count once this much deeper
+constexpr float kDeeperM = 0.3F;     // boxes that touch from the start count once this much deeper
 constexpr float kRoundingM = 0.01F;  // more than what rounding can change in a distance within reach
 constexpr float kShareKept = 0.5F;   // of a gap that was below the margin from the start
 

@@ -22,8 +22,8 @@ float change_gap_to_follower_m(float own_mps, float follower_mps, const Paramete
   const auto& guard = parameters.guard;
   const float own_stop_m =
       own_mps * guard.takeover_s + square(own_mps) / (2.0F * kShare * guard.braking_mps2);
-  const float its_stop_m = follower_mps * (kOverLineS + rss.response_s) +
-                           square(follower_mps) / (2.0F * rss.braking_min_mps2);
+  const float its_stop_m =
+      follower_mps * (kOverLineS + rss.response_s) + square(follower_mps) / (2.0F * rss.braking_min_mps2);
   return kChangeStandingGapM + max(0.0F, its_stop_m - own_stop_m);
 }
 

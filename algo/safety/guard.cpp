@@ -8,25 +8,26 @@
 namespace s4tp::safety {
 namespace {
 
-
 using occupancy::kNeverS;
 using occupancy::Pace;
 
 constexpr float kHorizonS = static_cast<float>(kHorizonSteps) * kStepS;
-constexpr float kWaitingRoomM = 1.0F;   // between two zones there is room to stand, clear of both
-constexpr float kClearOfZoneM = 0.7F;   // before it
+constexpr float kWaitingRoomM = 1.0F;  // between two zones there is room to stand, clear of both
+constexpr float kClearOfZoneM = 0.7F;  // before it
 constexpr float kStandingMps = 0.3F;
 constexpr float kCrawledM = 0.05F;
 constexpr float kStopTubeM = 0.4F;
 constexpr float kStoppingMps2 = -2.0F;
-constexpr float kGoesOnMps2 = 1.5F;     // how a plan is driven on beyond its horizon
-constexpr float kOverLineS = 0.5F;      // until a lane change just begun is over the line
+constexpr float kGoesOnMps2 = 1.5F;  // how a plan is driven on beyond its horizon
+constexpr float kOverLineS = 0.5F;   // until a lane change just begun is over the line
 /// A fail-safe after a lane change: how long the plan is driven on, and how much of the braking then follows.
 struct Settling {
   float drives_on_s;
   float share;
 };
 constexpr Settling kSettlings[] = {{2.0F, 1.0F}, {0.0F, 1.0F}, {0.0F, 0.6F}, {0.0F, 0.35F}};
+constexpr float kBuildUpS = 0.1F;  // at speed, until braking has built up
+constexpr float kAtOnceM = 0.1F;
 constexpr float kCurvesMps2 = 3.0F;
 constexpr int kCapSamples = 4;
 
@@ -86,8 +87,7 @@ void Guard::look_along(int index) {
   const EgoPath& path = scene_->ego_paths[index];
   Sight& sight = sights_[index];
   sight = Sight{};
-  sight.start_s_m =
-      project(*scene_->map, path.path, position(start_.rear_axle), path.frenet.s_m, 15.0F).s_m;
+  sight.start_s_m = project(*scene_->map, path.path, position(start_.rear_axle), path.frenet.s_m, 15.0F).s_m;
   sight.end_s_m = dead_end_s_m(*scene_, path);
   sight.leader_stop_s_m = kNoDeadEndM;
   const float half_lane_m = 0.5F * path_point(*scene_->map, path.path, path.frenet.s_m).width_m;
@@ -110,6 +110,7 @@ void Guard::look_along(int index) {
       if (stop_s_m >= sight.leader_stop_s_m) continue;
       sight.leader_stop_s_m = stop_s_m;
       sight.leader = static_cast<std::uint8_t>(i);
+      sight.leader_moves = along_mps > kStandingMps;
     } else if (sight.changes && seen.along_mps >= 0.0F) {
       InLane behind;
       behind.agent = static_cast<std::uint8_t>(i);
@@ -187,7 +188,8 @@ bool Guard::is_behind(const ZoneOccupancy (&when)[kMaxTracks], int index) const 
   if (lane == kNoLaneIndex || when[index].to_entry_m <= 0.0F) return false;
   for (int i = 0; i < scene_->agents.size(); ++i) {
     const bool stays_out = when[i].claim != Claim::kMayCome && when[i].claim != Claim::kNone;
-    if (stays_out && scene_->agents[i].lane == lane && when[i].to_entry_m < when[index].to_entry_m) return true;
+    if (stays_out && scene_->agents[i].lane == lane && when[i].to_entry_m < when[index].to_entry_m)
+      return true;
   }
   return false;
 }
@@ -267,7 +269,8 @@ bool Guard::passes_threat(const EgoPath& path, const Sight& sight, const Threat&
     const float its_to_exit_m = when.to_exit_m - 0.5F * agent.track.length_m;
     const bool ahead = when.to_entry_m <= 0.0F && zone.exit_s_m - own.s_m[0] > its_to_exit_m;
     if (ahead) {
-      const float stop_m = occupancy::stopping_way_m(agent.track.speed_mps, parameters_->law.braking_max_mps2);
+      const float stop_m =
+          occupancy::stopping_way_m(agent.track.speed_mps, parameters_->law.braking_max_mps2);
       const float behind_s_m = zone.exit_s_m - its_to_exit_m + stop_m - half_m;
       if (own.stop_s_m(parameters_->guard.braking_mps2) <= behind_s_m - parameters_->guard.margin_m)
         return true;
@@ -278,9 +281,8 @@ bool Guard::passes_threat(const EgoPath& path, const Sight& sight, const Threat&
       const float its_left_m = its_to_exit_m - occupancy::way_after_m(fastest, respond_s + lead_s_);
       const float own_left_m = zone.exit_s_m - own.place_at_m(respond_s, cap_mps);
       const float slower_mps = max(0.0F, its_mps - own.speed_at_mps(respond_s, cap_mps));
-      const float needed_m =
-          half_m + parameters_->guard.margin_m +
-          occupancy::stopping_way_m(slower_mps, parameters_->law.duty_braking_mps2);
+      const float needed_m = half_m + parameters_->guard.margin_m +
+                             occupancy::stopping_way_m(slower_mps, parameters_->law.duty_braking_mps2);
       if (its_left_m - own_left_m >= needed_m) return true;
     }
   }
@@ -347,10 +349,12 @@ Verdict Guard::judge(int index, const Trajectory& trajectory) const {
     verdict.cause = Cause::kRoadEnd;
     return verdict;
   }
-  // Behind a leader. Whoever came in nearer than that has broken the law: then it only must not get worse.
-  const float coasting_s_m = own.s_m[0] + own.speed_mps[0] * guard.takeover_s +
-                             occupancy::stopping_way_m(own.speed_mps[0], guard.braking_mps2);
-  const float free_s_m = max(sight.leader_stop_s_m - front_m - guard.margin_m, coasting_s_m + 0.01F);
+  // Behind a leader. Nearer than that another has broken the law: then the plan brakes as hard as it takes,
+  // or as hard as it can.
+  const float at_once_s_m = own.s_m[0] + own.speed_mps[0] * kBuildUpS +
+                            occupancy::stopping_way_m(own.speed_mps[0], guard.braking_mps2) + kAtOnceM;
+  const float least_s_m = sight.leader_moves ? at_once_s_m : own.s_m[0] + kAtOnceM;
+  const float free_s_m = max(sight.leader_stop_s_m - front_m - guard.margin_m, least_s_m);
   if (stop_s_m > free_s_m) {
     verdict = {Cause::kLeader, sight.leader};
     return verdict;
@@ -377,10 +381,11 @@ Verdict Guard::judge(int index, const Trajectory& trajectory) const {
     for (const Settling& settling : kSettlings) {
       const float braking_mps2 = settling.share * guard.braking_mps2;
       const float from_s = max(guard.takeover_s, settling.drives_on_s);
-      const float stops_s_m = settling.drives_on_s > 0.0F
-                                  ? own.place_at_m(from_s, 0.0F) +
-                                        occupancy::stopping_way_m(own.speed_at_mps(from_s, 0.0F), braking_mps2)
-                                  : own.stop_s_m(braking_mps2);
+      const float stops_s_m =
+          settling.drives_on_s > 0.0F
+              ? own.place_at_m(from_s, 0.0F) +
+                    occupancy::stopping_way_m(own.speed_at_mps(from_s, 0.0F), braking_mps2)
+              : own.stop_s_m(braking_mps2);
       if (stops_s_m > free_s_m) continue;
       brakes = followers_can_brake(sight, own, from_s, braking_mps2, verdict);
       if (brakes) break;

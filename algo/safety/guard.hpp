@@ -44,11 +44,11 @@ struct Verdict {
 struct ZoneGroup {
   float entry_s_m = 0.0F;  ///< along the path, of our box centre
   float exit_s_m = 0.0F;
-  float stop_s_m = 0.0F;  ///< where our centre stands to wait for it
+  float stop_s_m = 0.0F;   ///< where our centre stands to wait for it
   std::uint8_t first = 0;  ///< zones [first, end) of the path
   std::uint8_t end = 0;
-  bool yields = false;  ///< somebody there goes before us
-  float cap_mps = 0.0F;    ///< slowest bend or limit in it
+  bool yields = false;   ///< somebody there goes before us
+  float cap_mps = 0.0F;  ///< slowest bend or limit in it
 };
 
 class Guard {
@@ -88,12 +88,13 @@ class Guard {
   };
   /// What one path offers to all plans on it.
   struct Sight {
-    float start_s_m = 0.0F;   ///< of our rear axle at plan start
-    float end_s_m = 0.0F;     ///< of the road
+    float start_s_m = 0.0F;        ///< of our rear axle at plan start
+    float end_s_m = 0.0F;          ///< of the road
     float leader_stop_s_m = 0.0F;  ///< foremost place for our front bumper if who is ahead brakes hard
     std::uint8_t leader = 255;
-    bool changes = false;    ///< our box is, or comes, from another lane
-    bool half_over = false;  ///< most of us is in the lane already
+    bool leader_moves = false;
+    bool changes = false;             ///< our box is, or comes, from another lane
+    bool half_over = false;           ///< most of us is in the lane already
     BoundedVector<InLane, 4> behind;  ///< only where `changes`
     BoundedVector<ZoneGroup, kMaxPathZones> groups;
     BoundedVector<Threat, kMostThreats> threats;

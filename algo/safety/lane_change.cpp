@@ -6,7 +6,7 @@
 namespace s4tp {
 namespace {
 
-constexpr float kSwingS = 0.5F;     // sideways motion that goes on before steering back shows
+constexpr float kSwingS = 0.5F;  // sideways motion that goes on before steering back shows
 
 /// Whether a lane is that of the path at one of its parts.
 bool on_path(const LanePath& path, LaneIndex lane) {

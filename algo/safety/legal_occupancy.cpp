@@ -40,8 +40,7 @@ bool gives_way(const Agent& agent, float to_entry_m, const Parameters& parameter
 /// L1.
 bool can_stop_gently(const Pace& fastest, float to_entry_m, const Parameters& parameters) {
   const auto& law = parameters.law;
-  const float room_m =
-      to_entry_m - kShortOfZoneM - occupancy::way_after_m(fastest, law.ask_response_s);
+  const float room_m = to_entry_m - kShortOfZoneM - occupancy::way_after_m(fastest, law.ask_response_s);
   const float later_mps = occupancy::speed_after_mps(fastest, law.ask_response_s);
   return room_m > 0.0F && square(later_mps) <= 2.0F * law.ask_braking_mps2 * room_m;
 }
@@ -79,7 +78,8 @@ ZoneOccupancy zone_occupancy(const Scene& scene, const Agent& agent, const occup
       occupancy::latest_time_s(agent.track.speed_mps, parameters.law.braking_max_mps2, result.to_exit_m) -
       lead_s;
   if (result.to_entry_m <= 0.0F) {
-    // Where it stands it is an obstacle like any other; the rest of the zone is left by whoever does not move.
+    // Where it stands it is an obstacle like any other; the rest of the zone is left by whoever does not
+    // move.
     if (stands_in_sight(scene, agent, parameters)) result.claim = Claim::kStands;
     result.from_s = -lead_s;
     return result;

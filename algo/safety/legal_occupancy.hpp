@@ -20,11 +20,11 @@ namespace s4tp::safety {
 
 /// Why a vehicle is, or is not, expected in a zone.
 enum class Claim : std::uint8_t {
-  kNone = 0,   ///< no legal way of its leads there, or it has left
-  kMayCome,    ///< with priority, or too near to give way
-  kOwes,       ///< D1: it stops before the zone
-  kCanStop,    ///< L1: it has priority, and can stop gently from as fast as it may be
-  kStands,     ///< L2: it has priority, stands, and has seen us stand
+  kNone = 0,  ///< no legal way of its leads there, or it has left
+  kMayCome,   ///< with priority, or too near to give way
+  kOwes,      ///< D1: it stops before the zone
+  kCanStop,   ///< L1: it has priority, and can stop gently from as fast as it may be
+  kStands,    ///< L2: it has priority, stands, and has seen us stand
 };
 
 /// One vehicle at one zone; times from plan start.

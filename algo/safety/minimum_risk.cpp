@@ -132,8 +132,7 @@ bool may_leave(const Scene& scene, const EgoPath& path, float s_m, float way_m, 
     for (const Agent& agent : scene.agents) {
       occupancy::LaneReach reach;
       reach.measure(*scene.map, agent);
-      const safety::ZoneOccupancy when =
-          safety::zone_occupancy(scene, agent, reach, zone, 0.0F, parameters);
+      const safety::ZoneOccupancy when = safety::zone_occupancy(scene, agent, reach, zone, 0.0F, parameters);
       if (when.claim == safety::Claim::kMayCome && when.from_s < out_s && when.until_s > in_s) return false;
     }
   }

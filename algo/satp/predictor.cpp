@@ -60,9 +60,8 @@ float yielding(const EgoMotion& ego, const Way& way, const WayMotion& undisturbe
       here = willingness(braking_mps2, 3.0F, 7.0F);
     } else if (ego.conditioned() && we_first) {
       const bool has_priority = crossing.priority == Priority::kFirstHasPriority;
-      here =
-          has_priority ? seen_first(their_entry_s - ours.entry_s) * willingness(braking_mps2, 1.5F, 4.0F)
-                       : willingness(braking_mps2, 2.0F, 5.0F);
+      here = has_priority ? seen_first(their_entry_s - ours.entry_s) * willingness(braking_mps2, 1.5F, 4.0F)
+                          : willingness(braking_mps2, 2.0F, 5.0F);
     }
     if (here <= chance) continue;
     chance = here;
@@ -130,7 +129,10 @@ void Predictor::decode(const Trajectory* plan, int allowance, PredictionSet& pre
         prior = kGoesOnStanding;
         hold = {way.start_s_m, kNeverS};
       }
-      float yields = prior < 0.0F ? 0.0F : with_evidence(prior, beliefs_ == nullptr ? 0.0F : beliefs_->evidence(agent.track.id));
+      float yields =
+          prior < 0.0F
+              ? 0.0F
+              : with_evidence(prior, beliefs_ == nullptr ? 0.0F : beliefs_->evidence(agent.track.id));
       const bool both = room > 0 && yields > 1.0F - kCertain && yields < kCertain;
       if (!both) yields = yields >= 0.5F ? 1.0F : 0.0F;
       if (yields < 1.0F) {

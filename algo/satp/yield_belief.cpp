@@ -5,11 +5,11 @@
 namespace s4tp {
 namespace {
 
-constexpr float kSpreadMps2 = 1.5F;     // of what drivers do about what the model says
-constexpr float kWeakMps2 = 0.5F;       // hypotheses nearer than this are not told apart
-constexpr float kMostAStep = 1.0F;      // log-odds
+constexpr float kSpreadMps2 = 1.5F;  // of what drivers do about what the model says
+constexpr float kWeakMps2 = 0.5F;    // hypotheses nearer than this are not told apart
+constexpr float kMostAStep = 1.0F;   // log-odds
 constexpr float kMost = 7.0F;
-constexpr float kToGoing = 0.2F * kStepS;   // share of evidence for yielding that is forgotten a cycle
+constexpr float kToGoing = 0.2F * kStepS;  // share of evidence for yielding that is forgotten a cycle
 constexpr float kToYielding = 0.05F * kStepS;
 constexpr float kSurest = 0.98F;
 
@@ -27,8 +27,7 @@ void YieldBeliefs::observe(const Scene& scene, const YieldHypotheses (&hypothese
   for (int i = 0; i < scene.watched; ++i) {
     const Track& track = scene.agents[i].track;
     Belief belief{track.id, evidence(track.id)};
-    belief.log_odds =
-        belief.log_odds * (1.0F - (belief.log_odds > 0.0F ? kToGoing : kToYielding));
+    belief.log_odds = belief.log_odds * (1.0F - (belief.log_odds > 0.0F ? kToGoing : kToYielding));
     const YieldHypotheses& expected = hypotheses[i];
     if (expected.differ && expected.goes_mps2 - expected.yields_mps2 > kWeakMps2) {
       const float seen_mps2 = track.acceleration_mps2;

@@ -23,9 +23,9 @@ struct History {
 /// A vehicle as of the scene's time (tracks are brought forward from the list's time).
 struct Agent {
   Track track;
-  std::uint16_t age_ms = 0;  ///< since it was last in a list; coasted meanwhile
-  std::uint16_t stood_ms = 0;  ///< how long it has stood; at most a minute
-  std::uint16_t known_ms = 0;  ///< how long it has been tracked; at most a minute
+  std::uint16_t age_ms = 0;    ///< since it was last in a list; coasted meanwhile
+  std::uint16_t stood_ms = 0;  ///< CORE-034 how long it has stood, and ...
+  std::uint16_t known_ms = 0;  ///< ... how long it has been in sight; at most a minute
   LaneIndex lane = kNoLaneIndex;
   BoundedVector<LanePath, kPathsPerAgent> paths;  ///< ways it may go; the first is the likeliest
   float path_probability[kPathsPerAgent] = {};    ///< of each path; they add up to 1

@@ -120,8 +120,8 @@ Reason driving_reason(const campaign::CycleTrace& cycle, Doing doing) {
                     doing == Doing::kDriving;
   if (e.rss_clipped) return about(doing, Because::kDistance, e.rss_track);
   if (!slow) return about(doing, Because::kNothing);
-  const bool held = !e.held_up.verdict.safe() &&
-                    e.held_up.way_m > way_m(cycle.record.plan.trajectory) + kNoticeableM;
+  const bool held =
+      !e.held_up.verdict.safe() && e.held_up.way_m > way_m(cycle.record.plan.trajectory) + kNoticeableM;
   const bool near =
       e.leader_track != kNobody && e.leader_gap_m < 8.0F + kFollowingS * start_of(cycle).speed_mps;
   if (held) {
@@ -292,10 +292,9 @@ std::string in_numbers(const campaign::CycleTrace& cycle) {
       lines += "\n  runner-up: " + candidate_text(e.runner_up, e.runner_up_manoeuvre) + "; " +
                cost_text(e.runner_up_cost);
   }
-  lines += format(
-      "\n  rejected of %d: %d infeasible, %d refused by the guard, %d left out (and %d not made)",
-      e.candidate_count, rejected(e, Rejection::kInfeasible), rejected(e, Rejection::kRefused),
-      rejected(e, Rejection::kLeftOut), e.left_out);
+  lines += format("\n  rejected of %d: %d infeasible, %d refused by the guard, %d left out (and %d not made)",
+                  e.candidate_count, rejected(e, Rejection::kInfeasible), rejected(e, Rejection::kRefused),
+                  rejected(e, Rejection::kLeftOut), e.left_out);
   lines += held_up_text(cycle, e.held_up, "in our lane") + held_up_text(cycle, e.beside, "beside");
   if (e.dominating_track != kNobody)
     lines += format("\n  risk:      track %d (%s) at +%.1f s", e.dominating_track,

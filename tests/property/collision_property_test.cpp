@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "algo/safety/trajectory_check.hpp"
+#include "algo/sadrf/overlap.hpp"
 #include "algo/trajectory/bicycle.hpp"
 
 namespace s4tp {

@@ -1,7 +1,7 @@
 #pragma once
 /// A straight way of ours and one lane that crosses it: what tests of right of way are written on.
 
-#include "algo/safety/terminal.hpp"
+#include "algo/safety/guard.hpp"
 #include "algo/trajectory/bicycle.hpp"
 #include "tests/support/driving_scenes.hpp"
 
@@ -40,7 +40,9 @@ struct Crossing {
     trajectory.points[0] = start;
     for (int i = 1; i < kTrajectoryPoints; ++i)
       trajectory.points[i] = bicycle_step(trajectory.points[i - 1], acceleration_mps2, 0.0F, kStepS);
-    return judge_terminal(scene, 0, trajectory, parameters).safe();
+    safety::Guard guard;
+    guard.look(scene, start, 0.0F, parameters);
+    return guard.judge(0, trajectory).safe();
   }
   Agent& other(float s_m, float speed_mps) { return add_vehicle(scene, map, theirs, s_m, speed_mps); }
   [[nodiscard]] const ConflictZone& zone() const { return scene.ego_paths[0].zones[0]; }

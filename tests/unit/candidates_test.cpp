@@ -269,8 +269,8 @@ TEST(Candidates, StopsBeforeConflictZones) {
   EXPECT_NEAR(later->target_s_m, 80.0F - 1.5F - 1.0F, 1e-4F);
 }
 
-// CAND-006 Who has waited long at the line (rear axle at 74) is offered to wait before the zone, centre 1 m
-// short of it, but not between two zones that leave no room: the second one's edge, 90.5, lies in the first.
+// CAND-006 Beyond the line (rear axle at 74) a stop is offered before the zone itself, centre 1 m short of
+// it, but not between two zones that leave no room: the second one's edge, 90.5, lies in the first.
 TEST(Candidates, CreepToTheZone) {
   LaneMap map = straight_road(1, 300.0F);
   Scene scene;
@@ -284,9 +284,9 @@ TEST(Candidates, CreepToTheZone) {
   zone.entry_s_m = 90.5F;
   zone.exit_s_m = 95.0F;
   ASSERT_TRUE(way.zones.push(zone));
-  const TrajectoryPoint start = state_on(map, way.path, 73.8F, 0.0F);
-  put_ego(scene, start);
-  const auto furthest_stop_m = [&] {
+  const auto furthest_stop_m = [&](float s_m) {
+    const TrajectoryPoint start = state_on(map, way.path, s_m, 0.0F);
+    put_ego(scene, start);
     const CandidateList list = generate(scene, start);
     float furthest_m = 0.0F;
     for (const Candidate& candidate : list) {
@@ -294,9 +294,8 @@ TEST(Candidates, CreepToTheZone) {
     }
     return furthest_m;
   };
-  EXPECT_NEAR(furthest_stop_m(), 74.0F, 1e-4F);
-  scene.waited_s = 20.5F;
-  EXPECT_NEAR(furthest_stop_m(), 80.0F - 1.5F - 1.0F, 1e-4F);
+  EXPECT_NEAR(furthest_stop_m(73.8F), 74.0F, 1e-4F);
+  EXPECT_NEAR(furthest_stop_m(75.0F), 80.0F - 1.5F - 1.0F, 1e-4F);
 }
 
 // CAND-010 From 8 m/s the 10.7 m turn is entered below 6 m/s and driven at sqrt(3 * 10.7) = 5.67 m/s, a

@@ -117,18 +117,18 @@ TEST(Outlook, NoReturnIntoATightColumn) {
   EXPECT_NEAR(delays_s[1], 1.1F, 0.05F);
 }
 
-// One abreast at our speed, the limit: we can only fall back behind him, 11.45 m behind his centre (see
-// lane_gap_test.cpp) and 1 m more: 22 - 12.45 m. From 50 m at the horizon's end 9.45 m have to be lost: 4.6
+// One abreast at our speed, the limit: we can only fall back behind him, 15.37 m behind his centre (see
+// lane_gap_test.cpp) and 1 m more: 22 - 16.37 m. From 50 m at the horizon's end 13.37 m have to be lost: 5.48
 // s.
 TEST(Outlook, GapsAreAimedAt) {
   Road road;
   road.vehicle(1, 22.0F, 10.0F);  // at 52 m at the horizon's end
   road.look();
-  EXPECT_NEAR(road.outlook.time_to_gap_s(1, 50.0F, 10.0F), 4.6F, 0.05F);
-  EXPECT_EQ(road.outlook.time_to_gap_s(1, 40.0F, 10.0F), 0.0F);
+  EXPECT_NEAR(road.outlook.time_to_gap_s(1, 50.0F, 10.0F), 5.48F, 0.05F);
+  EXPECT_EQ(road.outlook.time_to_gap_s(1, 36.0F, 10.0F), 0.0F);
   const GapAim aim = road.outlook.gap_aim(road.scene, 1);
   EXPECT_EQ(aim.path, 1);
-  EXPECT_NEAR(aim.s_m, 9.55F, 0.05F);
+  EXPECT_NEAR(aim.s_m, 5.63F, 0.05F);
   EXPECT_EQ(aim.speed_mps, 10.0F);
 }
 

@@ -32,10 +32,10 @@ void add_track(campaign::CycleTrace& cycle, std::uint8_t id, Pose centre, float 
   cycle.tracks.push_back(track);
 }
 
-void hold_up(campaign::CycleTrace& cycle, TerminalCause cause, std::uint8_t track, float arrives_s = 0.0F,
+void hold_up(campaign::CycleTrace& cycle, safety::Cause cause, std::uint8_t track, float from_s = 0.0F,
              float needed_s = 0.0F) {
   HeldUp& held_up = cycle.record.explanation.held_up;
-  held_up.report = {CheckResult::kTerminal, 0, 0, cause, arrives_s, needed_s};
+  held_up.verdict = {cause, 0, from_s, needed_s};
   held_up.track = track;
   held_up.way_m = 40.0F;
 }
@@ -56,9 +56,9 @@ TEST(PlanWords, FreeRoadNeedsNoReason) {
 TEST(PlanWords, WaitingForACrossingCar) {
   campaign::CycleTrace cycle = plan(0.0F, 0.0F);
   add_track(cycle, 7, {15.0F, 20.0F, kFromLeft});
-  hold_up(cycle, TerminalCause::kZone, 7, 3.2F, 4.1F);
+  hold_up(cycle, safety::Cause::kZone, 7, 3.2F, 4.1F);
   EXPECT_EQ(in_words(cycle), "Waiting: the car from the left can be there in 3.2 s, we would need 4.1 s.");
-  hold_up(cycle, TerminalCause::kZone, 7, 0.0F, 4.1F);
+  hold_up(cycle, safety::Cause::kZone, 7, 0.0F, 4.1F);
   EXPECT_EQ(in_words(cycle), "Waiting: the car from the left is in our way.");
 }
 
@@ -79,9 +79,9 @@ TEST(PlanWords, NamesVehiclesByPlaceAndSize) {
   for (const auto& given : kCases) {
     campaign::CycleTrace cycle = plan(5.0F, 2.0F);
     add_track(cycle, 7, given.centre, given.length_m);
-    hold_up(cycle, TerminalCause::kZone, 7);
+    hold_up(cycle, safety::Cause::kZone, 7);
     EXPECT_EQ(in_words(cycle), std::string("Slowing down: ") + given.name + " is in our way.");
-    hold_up(cycle, TerminalCause::kZone, 8);
+    hold_up(cycle, safety::Cause::kZone, 8);
     EXPECT_EQ(in_words(cycle), "Slowing down: somebody is in our way.");
   }
 }
@@ -89,16 +89,14 @@ TEST(PlanWords, NamesVehiclesByPlaceAndSize) {
 // Each cause has its words.
 TEST(PlanWords, EveryCauseHasWords) {
   const struct {
-    TerminalCause cause;
+    safety::Cause cause;
     const char* words;
   } kCases[] = {
-      {TerminalCause::kRoadEnd, "Slowing down: our lane ends ahead."},
-      {TerminalCause::kLaneEnd,
-       "Slowing down: this lane does not lead to the goal, and the place to leave it is near."},
-      {TerminalCause::kStopsInZone,
+      {safety::Cause::kRoadEnd, "Slowing down: our lane ends ahead."},
+      {safety::Cause::kNoRoom,
        "Slowing down: beyond the junction there is no room, and it must not be blocked."},
-      {TerminalCause::kLeader, "Slowing down: the car ahead leaves no more room."},
-      {TerminalCause::kFollower, "Slowing down: the car ahead would have to brake hard for us."},
+      {safety::Cause::kLeader, "Slowing down: the car ahead leaves no more room."},
+      {safety::Cause::kFollower, "Slowing down: the car ahead would have to brake hard for us."},
   };
   for (const auto& given : kCases) {
     campaign::CycleTrace cycle = plan(8.0F, 5.0F);
@@ -106,17 +104,13 @@ TEST(PlanWords, EveryCauseHasWords) {
     hold_up(cycle, given.cause, 7);
     EXPECT_EQ(in_words(cycle), given.words);
   }
-  campaign::CycleTrace cycle = plan(8.0F, 5.0F);
-  add_track(cycle, 7, {15.0F, 20.0F, kFromLeft});
-  cycle.record.explanation.held_up = {{CheckResult::kCollision, 0, 17}, 7, Manoeuvre::kKeep, 40.0F};
-  EXPECT_EQ(in_words(cycle), "Slowing down: the car from the left would come too near in 1.8 s.");
 }
 
 // A motion that would have gone hardly further than the plan holds nobody up: 30 steps at 10 m/s are 31 m, 32
 // m were wanted.
 TEST(PlanWords, HardlyFurtherIsNoReason) {
   campaign::CycleTrace cycle = plan(10.0F, 10.0F);
-  hold_up(cycle, TerminalCause::kRoadEnd, 255);
+  hold_up(cycle, safety::Cause::kRoadEnd, 255);
   cycle.record.explanation.held_up.way_m = 32.0F;
   EXPECT_EQ(in_words(cycle), "Driving on.");
 }
@@ -131,7 +125,7 @@ TEST(PlanWords, FollowingAndNotPassing) {
   e.leader_track = 7;
   e.leader_gap_m = 13.4F;
   EXPECT_EQ(in_words(cycle), "Driving on: the car ahead is 13 m away.");
-  e.beside = {{CheckResult::kTerminal, 1, 0, TerminalCause::kFollower}, 9, Manoeuvre::kLeft, 40.0F};
+  e.beside = {{safety::Cause::kFollower, 1}, 9, Manoeuvre::kLeft, 40.0F};
   EXPECT_EQ(in_words(cycle),
             "Driving on: the car ahead is 13 m away. No change to the left: the car behind on the left would "
             "have to "
@@ -175,7 +169,7 @@ TEST(PlanWords, LaneChangesAndStops) {
   EXPECT_EQ(in_words(stop), "Stopping to be safe: what the sensors say cannot be right.");
   stop.record.explanation.status = Status::kNoSafePlan;
   add_track(stop, 7, {15.0F, 20.0F, kFromLeft});
-  hold_up(stop, TerminalCause::kZone, 7, 1.0F, 3.0F);
+  hold_up(stop, safety::Cause::kZone, 7, 1.0F, 3.0F);
   EXPECT_EQ(in_words(stop),
             "Stopping to be safe: no way on is safe enough; the car from the left can be there in 1.0 s, we "
             "would need "
@@ -189,8 +183,8 @@ TEST(PlanWords, NumbersForAnEngineer) {
   Explanation& e = cycle.record.explanation;
   e.candidate_count = 4;
   e.decisions = 2;
-  e.rejections[0] = e.rejections[1] = Rejection::kTerminal;
-  e.rejections[2] = Rejection::kCollision;
+  e.rejections[0] = e.rejections[1] = Rejection::kRefused;
+  e.rejections[2] = Rejection::kInfeasible;
   e.chosen_cost.progress = -20.0F;
   e.chosen_cost.risk = 2.5F;
   e.runner_up_cost.progress = -15.0F;
@@ -203,8 +197,8 @@ TEST(PlanWords, NumbersForAnEngineer) {
   e.work[static_cast<int>(Stage::kPredict)] = 150;
   const std::string numbers = in_numbers(cycle);
   for (const char* part : {"cost -17.5 = progress -20.0", "risk 2.5", "runner-up: right", "cost -15.0",
-                           "of 4: 0 infeasible, 1 overlapping, 2 with an unsafe end",
-                           "track 7 (the car ahead) at +1.2 s", "at most -1.5 m/s2", "predict 150"}) {
+                           "of 4: 1 infeasible, 2 refused by the guard", "track 7 (the car ahead) at +1.2 s",
+                           "at most -1.5 m/s2", "predict 150"}) {
     EXPECT_NE(numbers.find(part), std::string::npos) << part << "\n" << numbers;
   }
 }

@@ -105,11 +105,11 @@ TEST(Guard, LetsASafePlanThrough) {
   }
 }
 
-// At 10 m/s for 3 s the front comes to 34 m; a car stands from 25 m on. Braking at 4 m/s^2 stops within
-// 12.5 m: the minimum-risk manoeuvre takes over and ends at rest.
+// At 10 m/s a fail-safe from 0.35 s on stops within 3.5 + 100 / 12 = 11.8 m; a car stands 12 m ahead of our
+// front, and 0.5 m are to be left: the minimum-risk manoeuvre takes over and ends at rest.
 TEST(Guard, StopsAPlanThatWouldHit) {
   StraightRoad road;
-  road.add_standing_car(27.5F);
+  road.add_standing_car(18.5F);
   const Answer answer = ask(road, straight());
   EXPECT_EQ(answer.status, Status::kNoSafePlan);
   EXPECT_EQ(answer.plan.kind, PlanKind::kMinimumRisk);

@@ -76,8 +76,14 @@ TEST(StandingRoom, MovesAsideForRoom) {
     const float aside_m = bystander.aside_m();
     EgoPath& path = bystander.scene.ego_paths[0];
     const auto room = [&] {
-      return leaves_room(bystander.scene, path, agent, path.frenet.s_m, path.frenet.s_m + 30.0F,
-                         bystander.parameters);
+      const Box other{agent.track.centre, agent.track.length_m, agent.track.width_m};
+      for (float s_m = path.frenet.s_m; s_m < path.frenet.s_m + 30.0F; s_m += 0.5F) {
+        const Pose line = path_point(bystander.map, path.path, s_m).pose;
+        const Point at = offset_point(line, 0.0F, path.aside_m);
+        const Pose rear_axle{at.x_m, at.y_m, line.heading_rad};
+        if (separation(ego_box(rear_axle, bystander.parameters), other) < kStandingRoomM) return false;
+      }
+      return true;
     };
     RC_TAG(aside_m != 0.0F);
     if (aside_m == 0.0F) return;
