@@ -5,9 +5,9 @@
 
 namespace s4tp {
 
-inline constexpr std::uint8_t kApiVersion = 1;         ///< planner.hpp and s4tp.h
+inline constexpr std::uint8_t kApiVersion = 2;         ///< planner.hpp and s4tp.h
 inline constexpr std::uint8_t kWireVersion = 2;        ///< s4tp.dbc; checked against the DBC at build time
-inline constexpr std::uint8_t kParametersVersion = 3;  ///< parameters.def
+inline constexpr std::uint8_t kParametersVersion = 4;  ///< parameters.def
 inline constexpr std::uint8_t kWeightsVersion = 0;     ///< 0: no network on board
 
 }  // namespace s4tp

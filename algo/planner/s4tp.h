@@ -50,7 +50,7 @@ const char* s4tp_status_name(s4tp_status status);
 
 /* ---- Versions --------------------------------------------------------------------------------------- */
 
-#define S4TP_API_VERSION 1  ///< of this header; compare with s4tp_get_versions().api once at start
+#define S4TP_API_VERSION 2  ///< of this header; compare with s4tp_get_versions().api once at start
 
 typedef struct s4tp_versions {
   uint8_t api;         ///< of the library linked
@@ -265,7 +265,7 @@ typedef struct s4tp_explanation {
 
 /* ---- The planner -------------------------------------------------------------------------------------- */
 
-#define S4TP_BLOCK_BYTES 69632
+#define S4TP_BLOCK_BYTES 73728
 
 /// The planner's whole memory, owned by the caller and opaque. Zeroed (as static memory is) or initialised
 /// before any other call; not moved or copied afterwards; simply given up at the end.

@@ -11,7 +11,7 @@ namespace s4tp {
 
 /// First step whose boxes are nearer than `margin_m`, or -1. A vehicle nearer than that from the first step
 /// on counts when the gap has halved, or, touching already, when it is 0.3 m deeper: standing close is not a
-/// collision (CHECK-008).
+/// collision.
 [[nodiscard]] int first_collision(const Trajectory& trajectory, const Mode& mode, const Track& track,
                                   int steps, float margin_m, const Parameters& parameters);
 

@@ -1,5 +1,6 @@
 #pragma once
-/// Distances a lane change keeps in the lane it comes to (TERM-010), bumper to bumper, at its end.
+/// Distances a lane change keeps in the lane it comes to so that the guard (guard.hpp) passes it, bumper to
+/// bumper, at its end: both bounds come from one fail-safe that brakes with 0.8 of guard.braking.
 
 #include "algo/core/parameters.hpp"
 
@@ -7,11 +8,10 @@ namespace s4tp {
 
 inline constexpr float kChangeStandingGapM = 1.0F;  ///< to either, when both stand
 
-/// Least gap [m] to a leader at `leader_mps` who brakes with rss b_max, when we brake with rss b_min: only
-/// there does the proper response (rss.hpp) ask for less. May be negative behind a faster one.
+/// Least gap [m] to a leader at `leader_mps` that brakes with law.braking_max.
 [[nodiscard]] float change_gap_to_leader_m(float own_mps, float leader_mps, const Parameters& parameters);
 
-/// Least gap [m] to a follower: a faster one reacts first, and need not brake hard then.
+/// Least gap [m] to a follower that brakes with rss b_min, rss rho after we are over the line.
 [[nodiscard]] float change_gap_to_follower_m(float own_mps, float follower_mps, const Parameters& parameters);
 
 }  // namespace s4tp

@@ -12,11 +12,11 @@ namespace s4tp {
 inline constexpr float kFollowerBrakingMps2 = 3.0F;
 
 /// Whether a corner of ours at `start` is over the line of the path's lane, or will be within half a second,
-/// even if we brake comfortably: what is given up then ends astride two lanes (TERM-017).
+/// even if we brake comfortably: what is given up then ends astride two lanes.
 [[nodiscard]] bool change_under_way(const Scene& scene, const EgoPath& path, const TrajectoryPoint& start,
                                     const Parameters& parameters);
 
-/// Whether the vehicle is coming into a lane of the path from the lane beside it (TERM-019).
+/// Whether the vehicle is coming into a lane of the path from the lane beside it.
 [[nodiscard]] bool joins(const Scene& scene, const EgoPath& path, const Agent& agent);
 
 /// Who will be ahead of and behind us in the lane of the path, those who join it counted.

@@ -110,7 +110,7 @@ RssEnvelope rss_envelope(const Scene& scene, const Trajectory& plan, const Param
     const Agent& agent = scene.agents[i];
     bool known = true;
     const OnPath seen = see_on_path(scene, path, agent, parameters, /*whole_road=*/true, known);
-    // Crossing and oncoming traffic is a matter of right of way: the terminal condition answers for it.
+    // Crossing and oncoming traffic is a matter of right of way: the guard answers for it.
     if (!known || seen.crossing || seen.along_mps < 0.0F) continue;
 
     const float centre_ahead_m = seen.centre_s_m - centre_s_m;

@@ -7,7 +7,7 @@
 /// \endcode
 /// Longitudinal: for whoever is ahead of us in our strip of the road, and only there: he who comes from
 /// behind is obliged himself (RSS-003). Who leaves that strip in time answers by steering (RSS-009).
-/// Junctions: right of way over crossing and oncoming traffic is the terminal condition's (terminal.hpp), and
+/// Junctions: right of way over crossing and oncoming traffic is the guard's (guard.hpp), and
 /// so is not changing lanes into somebody's safe distance.
 
 #include <cstdint>

@@ -3,7 +3,7 @@
 /// a world where every other vehicle stands.
 ///
 /// Speed 0 in its tracks would not say that: the predictor lets who stands in a queue or before a junction
-/// start, and the terminal condition counts on it. So the planner itself is told (Planner::others_stand),
+/// start, and the guard counts on it. So the planner itself is told (Planner::others_stand),
 /// once the scene is built: no speed, no past motion, no way to go. Then every prediction of a vehicle,
 /// conditioned or not, is its present pose, and it arrives at no conflict zone. Its present pose is that of
 /// the true track, brought forward to the scene's time.
