@@ -72,8 +72,8 @@ TEST(PlanWordsOnDrives, NamesOnlyWhoIsThere) {
   }
 }
 
-// left_turn: we give way, and to somebody who does come by: within 15 m of where we are, in 8 s, nine times
-// in ten (one may turn off, or stop).
+// left_turn: we give way, and to somebody who does come by: within 15 m of where we are, in 8 s, 17 times
+// in 20. The guard names whoever may come by law: one may turn off, or stop.
 TEST(PlanWordsOnDrives, LeftTurnGivesWayToWhoComes) {
   int named = 0;
   int came = 0;
@@ -89,7 +89,7 @@ TEST(PlanWordsOnDrives, LeftTurnGivesWayToWhoComes) {
     }
   }
   EXPECT_GT(named, 20);
-  EXPECT_GE(10 * came, 9 * named) << came << " of " << named;
+  EXPECT_GE(20 * came, 17 * named) << came << " of " << named;
   EXPECT_TRUE(says(results, "the car from the left") || says(results, "the oncoming car"));
 }
 
