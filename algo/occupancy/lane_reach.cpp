@@ -22,7 +22,7 @@ float LaneReach::to_start_m(LaneIndex lane) const {
   return kMPerCm * static_cast<float>(to_start_cm_[lane]);
 }
 
-void LaneReach::measure(const LaneMap& map, const Agent& agent) {
+void LaneReach::measure(const LaneMap& map, const Agent& agent, bool changes) {
   for (std::int16_t& way_cm : to_start_cm_) way_cm = kNoWayCm;
   LaneIndex front[kMaxLanes];  // lanes whose neighbours are still to be looked at
   int count = 0;
@@ -56,7 +56,7 @@ void LaneReach::measure(const LaneMap& map, const Agent& agent) {
       const float end_m = start_m + lane.length_m;
       if (end_m < 0.0F) continue;  // it has left the lane
       for (const LaneIndex successor : lane.successors) offer(successor, end_m);
-      if (lane.in_junction || min(lane.length_m, end_m) < kChangeWayM) continue;
+      if (!changes || lane.in_junction || min(lane.length_m, end_m) < kChangeWayM) continue;
       // Lanes side by side begin side by side.
       offer(lane.left, start_m);
       offer(lane.right, start_m);

@@ -20,7 +20,8 @@ class LaneReach {
  public:
   /// Measures from the centre of the agent's box. An agent on no lane reaches none.
   /// \note bounded work: each of the map's lanes is looked at a few times
-  void measure(const LaneMap& map, const Agent& agent);
+  /// \param changes  false: without lane changes, along the lanes it is in or changes to already
+  void measure(const LaneMap& map, const Agent& agent, bool changes = true);
 
   /// Way from the vehicle's centre to the start of the lane; negative on the lane, kNoWayM when no way leads
   /// there. \pre lane is an index of the map

@@ -168,7 +168,11 @@ void Guard::find_threats(const EgoPath& path, const occupancy::LaneReach (&reach
     ZoneOccupancy when[kMaxTracks];
     for (int i = 0; i < count; ++i) {
       const Agent& agent = scene_->agents[i];
-      when[i] = zone_occupancy(*scene_, agent, reach[i], path.zones[z], lead_s_, *parameters_);
+      // D3: whoever changes into the lane we merge into leaves us our distances.
+      occupancy::LaneReach straight_on;
+      if (path.zones[z].merging) straight_on.measure(*scene_->map, agent, false);
+      when[i] = zone_occupancy(*scene_, agent, path.zones[z].merging ? straight_on : reach[i], path.zones[z],
+                               lead_s_, *parameters_);
       const bool latched = when[i].to_entry_m > 0.0F && is_latched(agent.track.id);
       if (when[i].claim == Claim::kMayCome && latched) when[i].claim = Claim::kStands;
       const bool stays_out = when[i].claim != Claim::kMayCome && when[i].claim != Claim::kNone;
