@@ -83,9 +83,9 @@ void Guard::look(const Scene& scene, const TrajectoryPoint& start, float lead_s,
   }
 }
 
-void Guard::look_along(int index) {
-  const EgoPath& path = scene_->ego_paths[index];
-  Sight& sight = sights_[index];
+void Guard::look_along(int path_index) {
+  const EgoPath& path = scene_->ego_paths[path_index];
+  Sight& sight = sights_[path_index];
   sight = Sight{};
   sight.start_s_m = project(*scene_->map, path.path, position(start_.rear_axle), path.frenet.s_m, 15.0F).s_m;
   sight.end_s_m = dead_end_s_m(*scene_, path);
@@ -326,14 +326,15 @@ bool Guard::passes_group(const EgoPath& path, const Sight& sight, const ZoneGrou
   return true;
 }
 
-Verdict Guard::judge(int index, const Trajectory& trajectory) const {
+Verdict Guard::judge(int path_index, const Trajectory& trajectory) const {
   Verdict verdict;
-  if (scene_ == nullptr || scene_->map == nullptr || index < 0 || index >= scene_->ego_paths.size()) {
+  if (scene_ == nullptr || scene_->map == nullptr || path_index < 0 ||
+      path_index >= scene_->ego_paths.size()) {
     verdict.cause = Cause::kNoPath;
     return verdict;
   }
-  const EgoPath& path = scene_->ego_paths[index];
-  const Sight& sight = sights_[index];
+  const EgoPath& path = scene_->ego_paths[path_index];
+  const Sight& sight = sights_[path_index];
   const auto& guard = parameters_->guard;
   Own own;
   own.s_m[0] = sight.start_s_m + centre_m_;

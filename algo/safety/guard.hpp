@@ -57,9 +57,9 @@ class Guard {
   /// The scene must outlive the judging.
   void look(const Scene& scene, const TrajectoryPoint& start, float lead_s, const Parameters& parameters);
 
-  /// \param path  index of the ego path the trajectory follows \pre look() was called this cycle
+  /// \param path_index  of the ego path the trajectory follows \pre look() was called this cycle
   /// \note bounded work: steps + vehicles at the path's zones
-  [[nodiscard]] Verdict judge(int path, const Trajectory& trajectory) const;
+  [[nodiscard]] Verdict judge(int path_index, const Trajectory& trajectory) const;
 
   /// Where plans on `path` begin: of our rear axle, along it.
   [[nodiscard]] float start_s_m(int path) const { return sights_[path].start_s_m; }
@@ -103,7 +103,7 @@ class Guard {
   };
   struct Own;
 
-  void look_along(int path);
+  void look_along(int path_index);
   void find_groups(const EgoPath& path, Sight& sight) const;
   void find_threats(const EgoPath& path, const occupancy::LaneReach (&reach)[kMaxTracks], Sight& sight) const;
   [[nodiscard]] bool is_behind(const ZoneOccupancy (&when)[kMaxTracks], int index) const;

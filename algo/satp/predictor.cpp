@@ -173,7 +173,7 @@ void Predictor::hypotheses(YieldHypotheses (&result)[kMaxAgents]) const {
       }
     }
     // Whoever stands in the junction may go on standing.
-    if (!result[i].differ && agent.paths.size() > 0 && agent.track.speed_mps < kStandingMps)
+    if (!result[i].differ && !agent.paths.empty() && agent.track.speed_mps < kStandingMps)
       result[i] = {true, undisturbed_acceleration(ways_[i][0], agent.track), 0.0F};
   }
 }
