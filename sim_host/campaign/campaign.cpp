@@ -118,7 +118,7 @@ std::vector<EpisodeRow> run_campaign(const Campaign& campaign, const std::vector
       try {
         const EpisodeResult result = drive(jobs[i]);
         const CampaignCell& cell = campaign.cells[jobs[i].cell];
-        rows[i] = {cell.cell, metrics::evaluate(result.recording)};
+        rows[i] = {cell.cell, metrics::evaluate(result.recording, cell.scenario->scenario)};
         const std::lock_guard lock(report_mutex);
         if (options.on_episode) options.on_episode(cell, *rows[i], result);
       } catch (...) {

@@ -20,6 +20,7 @@ namespace {
 using nlohmann::ordered_json;
 
 constexpr const char* kKind = "s4tp campaign";
+constexpr int kVersion = 2;  // of what an episode's line holds; 1: no post-encroachment times
 
 [[noreturn]] void fail(const std::filesystem::path& file, const std::string& what) {
   throw std::runtime_error(file.string() + ": " + what);
@@ -53,11 +54,14 @@ void visit_fields(Row& row, const Visit& visit) {
   visit("hardest_braking_mps2", m.hardest_braking_mps2);
   visit("max_lateral_mps2", m.max_lateral_mps2);
   visit("min_gap_m", m.min_gap_m);
-  visit("mean_gap_m", m.mean_gap_m);
+  visit("mean_gap_m", m.encounters.mean_gap_m);
   visit("min_time_to_collision_s", m.min_time_to_collision_s);
-  visit("near_misses", m.near_misses);
-  visit("rss_violation_share", m.rss_violation_share);
-  visit("rss_violations", m.rss_violations);
+  visit("min_post_encroachment_s", m.encounters.min_post_encroachment_s);
+  visit("near_misses", m.encounters.near_misses);
+  visit("min_time_gap_s", m.encounters.min_time_gap_s);
+  visit("imposed_braking_mps2", m.encounters.imposed_braking_mps2);
+  visit("rss_violation_share", m.encounters.rss_violation_share);
+  visit("rss_violations", m.encounters.rss_violations);
   visit("comp1_success", m.comp1.success);
   visit("comp1_steps", m.comp1.steps);
   visit("comp1_goal_distance_m", m.comp1.goal_distance_m);
@@ -90,6 +94,7 @@ ordered_json header_of(const Campaign& campaign, const Shard& shard, const std::
   ordered_json guards = ordered_json::array();
   for (const bool guarded : plan.guards) guards.push_back(guarded ? "on" : "off");
   return {{"kind", kKind},
+          {"version", kVersion},
           {"planners", plan.planners},
           {"scenarios", scenarios},
           {"flavours", plan.flavours},
@@ -156,6 +161,10 @@ Part read_part(const std::filesystem::path& file) {
       ordered_json read = ordered_json::parse(line);
       if (number > 1) {
         part.rows.push_back(row_of(read));
+      } else if (read.at("kind") == kKind && read.value("version", 1) != kVersion) {
+        throw std::invalid_argument("holds version " + std::to_string(read.value("version", 1)) +
+                                    " of the metrics, this program has version " + std::to_string(kVersion) +
+                                    "; drive it again, or read it with the program that wrote it");
       } else if (read.at("kind") == kKind) {
         part.header = std::move(read);
       } else {

@@ -100,6 +100,14 @@ ordered_json run_json(const CellResult& result) {
   run["min_gap_m"] = s.min_gap_m;
   run["min_ttc_s_median"] = s.min_ttc_s_median;
   run["near_misses"] = s.near_misses;
+  run["close_encroachment_rate"] = s.close_encroachment.share;
+  run["close_encroachment_wilson"] = pair_of(s.close_encroachment.interval);
+  run["imposed_braking_mps2"] = s.imposed_braking_mps2;
+  run["imposed_over_2_rate"] = s.imposed_over_2.share;
+  run["imposed_over_2_wilson"] = pair_of(s.imposed_over_2.interval);
+  run["imposed_over_3_rate"] = s.imposed_over_3.share;
+  run["imposed_over_3_wilson"] = pair_of(s.imposed_over_3.interval);
+  run["pressed_rate"] = s.pressed.share;
   run["rss_violation_share"] = s.rss_violation_share;
   run["rss_violations"] = s.rss_violations;
   run["failures"] = failures_of(result);

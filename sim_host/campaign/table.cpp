@@ -12,7 +12,7 @@ namespace {
 using Cells = std::vector<const CellResult*>;
 
 [[gnu::format(printf, 1, 2)]] std::string text(const char* format, ...) {
-  char line[300];
+  char line[400];
   va_list arguments;
   va_start(arguments, format);
   std::vsnprintf(line, sizeof line, format, arguments);
@@ -88,18 +88,21 @@ void print_paper(std::ostream& out, const Cells& group) {
 }
 
 void print_details(std::ostream& out, const Cells& group) {
-  out << text("%-20s%-16s%9s%17s%14s%5s%5s%10s%9s%9s%9s%8s%8s\n", "planner", "scenario", "goal",
+  out << text("%-20s%-16s%9s%17s%14s%5s%5s%10s%9s%9s%9s%8s%8s%9s%7s%7s%9s\n", "planner", "scenario", "goal",
               "95 % interval", "hits (ours)", "off", "late", "to goal s", "TTC p05", "near m.", "|jerk|",
-              "brake", "RSS %");
+              "brake", "RSS %", "PET<1.5%", "imp>2%", "imp>3%", "pressed%");
   for (const CellResult* const cell : group) {
     const metrics::Summary& s = cell->summary;
     out << text(
-        "%-20.19s%-16.15s%9s%17s%14s%5d%5d%10.1f%9.2f%9.2f%9.2f%8.1f%8.1f\n", cell->cell.planner.c_str(),
-        cell->cell.scenario.c_str(), text("%d/%d", s.success.count, s.episodes).c_str(),
+        "%-20.19s%-16.15s%9s%17s%14s%5d%5d%10.1f%9.2f%9.2f%9.2f%8.1f%8.1f%9.1f%7.1f%7.1f%9.1f\n",
+        cell->cell.planner.c_str(), cell->cell.scenario.c_str(),
+        text("%d/%d", s.success.count, s.episodes).c_str(),
         text("%.1f..%.1f %%", 100.0 * s.success.interval.low, 100.0 * s.success.interval.high).c_str(),
         text("%d (%d)", s.collision.count, s.at_fault.count).c_str(), s.off_road.count,
         s.time_out.count + s.dead_ecu.count, s.seconds_to_goal, s.min_ttc_s_p05, s.near_misses,
-        s.mean_abs_jerk_mps3, s.hardest_braking_mps2, 100.0 * s.rss_violation_share);
+        s.mean_abs_jerk_mps3, s.hardest_braking_mps2, 100.0 * s.rss_violation_share,
+        100.0 * s.close_encroachment.share, 100.0 * s.imposed_over_2.share, 100.0 * s.imposed_over_3.share,
+        100.0 * s.pressed.share);
   }
 }
 

@@ -60,7 +60,7 @@ int run_one(const RunOptions& run) {
   view::draw_episode(scenario, result, picture);
   const campaign::EpisodeRow row{
       {run.planner, scenario.name, run.common.flavour, run.common.traffic, options.guarded, run.perception},
-      metrics::evaluate(result.recording)};
+      metrics::evaluate(result.recording, scenario)};
   campaign::write_json(run.common.out / "run.json", campaign::results_json(row));
 
   const fs::path replay = run.common.out / "replay.html";

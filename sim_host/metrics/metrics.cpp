@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
-#include <optional>
-#include <set>
+#include <span>
 #include <stdexcept>
 #include <vector>
 
@@ -20,34 +18,6 @@ using world::Vec2;
 
 constexpr double kNobodyM = 1e3;
 constexpr double kStandingMps = 0.1;
-
-/// `point` in the frame of `car`: x ahead, y left.
-Vec2 local(const CarState& car, Vec2 point) {
-  const double dx = point.x - car.centre.x;
-  const double dy = point.y - car.centre.y;
-  const double c = std::cos(car.heading_rad);
-  const double s = std::sin(car.heading_rad);
-  return {c * dx + s * dy, -s * dx + c * dy};
-}
-
-struct Ahead {
-  double gap_m = 0.0;
-  double speed_mps = 0.0;
-};
-
-/// The nearest vehicle in the ego's straight way that heads roughly its way.
-std::optional<Ahead> ahead_of(const Snapshot& now) {
-  std::optional<Ahead> nearest;
-  for (const CarState& other : now.others) {
-    const Vec2 there = local(now.ego, other.centre);
-    const double turn = std::remainder(other.heading_rad - now.ego.heading_rad, 2.0 * std::numbers::pi);
-    const bool beside = std::abs(there.y) > (now.ego.width_m + other.width_m) / 2;
-    if (there.x < 0 || beside || std::abs(turn) > 1.0) continue;
-    const double gap_m = there.x - (now.ego.length_m + other.length_m) / 2;
-    if (!nearest || gap_m < nearest->gap_m) nearest = Ahead{gap_m, other.speed_mps * std::cos(turn)};
-  }
-  return nearest;
-}
 
 double mean(double sum, std::size_t count) {
   return count > 0 ? sum / static_cast<double>(count) : 0.0;
@@ -109,35 +79,24 @@ void measure_motion(const world::Recording& recording, const std::vector<const S
 
 void measure_distances(const std::vector<const Snapshot*>& driven, EpisodeMetrics& result) {
   result.min_gap_m = kNobodyM;
-  double gap_sum = 0.0;
-  std::size_t leaders = 0;
-  std::size_t violating = 0;
-  bool violated = false;
-  std::set<int> near;
-  std::set<int> touched;
   for (const Snapshot* const now : driven) {
     for (const CarState& other : now->others) {
-      const double gap_m = world::distance_m(world::box_of(now->ego), world::box_of(other));
-      result.min_gap_m = std::min(result.min_gap_m, gap_m);
-      const double contact_s = time_to_collision_s(now->ego, other, kTtcHorizonS);
-      result.min_time_to_collision_s = std::min(result.min_time_to_collision_s, contact_s);
-      if (contact_s < kNearMissTtcS) near.insert(other.id);
-      if (gap_m <= 0.0) touched.insert(other.id);
+      result.min_gap_m =
+          std::min(result.min_gap_m, world::distance_m(world::box_of(now->ego), world::box_of(other)));
+      result.min_time_to_collision_s =
+          std::min(result.min_time_to_collision_s, time_to_collision_s(now->ego, other, kTtcHorizonS));
     }
-    const std::optional<Ahead> ahead = ahead_of(*now);
-    if (ahead) {
-      ++leaders;
-      gap_sum += ahead->gap_m;
-    }
-    const bool violates = ahead && ahead->gap_m < rss_distance_m(now->ego.speed_mps, ahead->speed_mps);
-    if (violates) ++violating;
-    if (violates && !violated) ++result.rss_violations;
-    violated = violates;
   }
-  result.near_misses = static_cast<int>(
-      std::count_if(near.begin(), near.end(), [&](int car) { return !touched.contains(car); }));
-  result.mean_gap_m = mean(gap_sum, leaders);
-  result.rss_violation_share = mean(static_cast<double>(violating), driven.size());
+}
+
+/// What came before take-over is evidence too: who has been ahead for how long.
+void measure_encounters(const world::Recording& recording, const world::Scenario& scenario,
+                        const std::vector<const Snapshot*>& driven, EpisodeMetrics& result) {
+  if (driven.empty()) return;
+  const world::RouteGuide guide = mission_guide(scenario);
+  const std::span<const Snapshot> upto(
+      recording.snapshots.data(), static_cast<std::size_t>(driven.back() - recording.snapshots.data()) + 1);
+  result.encounters = encounters_of({}, world::Evidence(scenario.network, upto, &guide), 0.0);
 }
 
 constexpr world::Ending kEndings[] = {world::Ending::kRunning,   world::Ending::kGoal,
@@ -146,13 +105,7 @@ constexpr world::Ending kEndings[] = {world::Ending::kRunning,   world::Ending::
 
 }  // namespace
 
-double rss_distance_m(double rear_mps, double front_mps) {
-  const double reached_mps = rear_mps + 0.5 * 2.0;
-  return std::max(0.0, rear_mps * 0.5 + 0.5 * 2.0 * 0.25 + reached_mps * reached_mps / (2.0 * 5.0) -
-                           front_mps * front_mps / (2.0 * 8.0));
-}
-
-EpisodeMetrics evaluate(const world::Recording& recording) {
+EpisodeMetrics evaluate(const world::Recording& recording, const world::Scenario& scenario) {
   const std::vector<const Snapshot*> driven = driven_part(recording);
   EpisodeMetrics result;
   result.seed = recording.seed;
@@ -163,6 +116,7 @@ EpisodeMetrics evaluate(const world::Recording& recording) {
                              driven.back()->ego.speed_mps < kStandingMps;
   measure_motion(recording, driven, result);
   measure_distances(driven, result);
+  measure_encounters(recording, scenario, driven, result);
   result.comp1 = comp1_of(recording, driven);
   return result;
 }

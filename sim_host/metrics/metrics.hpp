@@ -6,13 +6,12 @@
 #include <string>
 
 #include "sim_host/metrics/comp1.hpp"
+#include "sim_host/metrics/encounters.hpp"
 #include "sim_host/world/recording.hpp"
+#include "sim_host/world/scenario.hpp"
 
 namespace s4tp::metrics {
 
-/// Who keeps his distance comes no nearer than this in time; a car met nearer, but not touched, is a near
-/// miss. Source: Gettman and Head 2003, surrogate safety measures (the usual limit in traffic engineering).
-inline constexpr double kNearMissTtcS = 1.5;
 /// Times to collision beyond this are nobody's concern and count as this.
 inline constexpr double kTtcHorizonS = 10.0;
 
@@ -37,21 +36,15 @@ struct EpisodeMetrics {
   double hardest_braking_mps2 = 0.0;   ///< >= 0
   double max_lateral_mps2 = 0.0;       ///< |v * yaw rate|
   // Distance kept.
-  double min_gap_m = 0.0;   ///< between boxes, to anybody; 0 when they touch, 1000 when alone
-  double mean_gap_m = 0.0;  ///< to the nearest vehicle ahead in our way; 0 when there never was one
+  double min_gap_m = 0.0;  ///< between boxes, to anybody; 0 when they touch, 1000 when alone
   /// Smallest time until boxes touch when both keep speed and yaw rate, to anybody; at most kTtcHorizonS.
   double min_time_to_collision_s = kTtcHorizonS;
-  int near_misses = 0;               ///< cars met with less than kNearMissTtcS and not touched
-  double rss_violation_share = 0.0;  ///< of the time: nearer to the vehicle ahead than RSS allows
-  int rss_violations = 0;            ///< how many times that began
+  Encounters encounters;
   Comp1 comp1;
 };
 
 /// Only what happened after take-over (time >= 0) counts, and nothing after the first touch.
-[[nodiscard]] EpisodeMetrics evaluate(const world::Recording& recording);
-
-/// RSS definition 1, the least gap of a follower: rho 0.5 s, a_max 2, b_min 5, b_max 8 m/s^2.
-[[nodiscard]] double rss_distance_m(double rear_mps, double front_mps);
+[[nodiscard]] EpisodeMetrics evaluate(const world::Recording& recording, const world::Scenario& scenario);
 
 /// \return the word shown for an ending
 [[nodiscard]] const char* ending_name(world::Ending ending);

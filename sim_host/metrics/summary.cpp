@@ -73,9 +73,15 @@ Summary summarize(const std::vector<EpisodeMetrics>& episodes) {
   sum.rms_acceleration_mps2 = mean([](const auto& e) { return e.rms_acceleration_mps2; });
   sum.hardest_braking_mps2 = mean([](const auto& e) { return e.hardest_braking_mps2; });
   sum.max_lateral_mps2 = mean([](const auto& e) { return e.max_lateral_mps2; });
-  sum.near_misses = mean([](const auto& e) { return e.near_misses; });
-  sum.rss_violation_share = mean([](const auto& e) { return e.rss_violation_share; });
-  sum.rss_violations = mean([](const auto& e) { return e.rss_violations; });
+  sum.near_misses = mean([](const auto& e) { return e.encounters.near_misses; });
+  sum.close_encroachment =
+      rate([](const auto& e) { return e.encounters.min_post_encroachment_s < kCloseEncroachment_s; });
+  sum.imposed_braking_mps2 = mean([](const auto& e) { return e.encounters.imposed_braking_mps2; });
+  sum.imposed_over_2 = rate([](const auto& e) { return e.encounters.imposed_braking_mps2 > 2.0; });
+  sum.imposed_over_3 = rate([](const auto& e) { return e.encounters.imposed_braking_mps2 > 3.0; });
+  sum.pressed = rate([](const auto& e) { return e.encounters.min_time_gap_s < kPressed_s; });
+  sum.rss_violation_share = mean([](const auto& e) { return e.encounters.rss_violation_share; });
+  sum.rss_violations = mean([](const auto& e) { return e.encounters.rss_violations; });
   sum.comp1_success = mean([](const auto& e) { return e.comp1.success ? 1.0 : 0.0; });
   sum.comp1_time = mean([](const auto& e) { return e.comp1.time(); });
   sum.comp1_humanness = mean([](const auto& e) { return e.comp1.humanness(); });

@@ -48,7 +48,13 @@ struct Summary {
   double min_gap_m = 0.0;             ///< smallest of all
   double min_ttc_s_p05 = 0.0;         ///< 5th percentile of the episodes' smallest
   double min_ttc_s_median = 0.0;
-  double near_misses = 0.0;          ///< an episode
+  // Encounters (encounters.hpp).
+  double near_misses = 0.0;           ///< an episode
+  Rate close_encroachment;            ///< post-encroachment time below kCloseEncroachment_s
+  double imposed_braking_mps2 = 0.0;  ///< mean of the episodes' hardest
+  Rate imposed_over_2;
+  Rate imposed_over_3;
+  Rate pressed;                      ///< time gap below kPressed_s
   double rss_violation_share = 0.0;  ///< of the time
   double rss_violations = 0.0;       ///< an episode
   double comp1_success = 0.0;

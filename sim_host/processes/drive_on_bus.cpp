@@ -66,7 +66,7 @@ int drive_on_bus(const world::Scenario& scenario, const DriveOptions& options, s
   row.cell.planner = options.planner;
   row.cell.scenario = scenario.name;
   row.cell.traffic = world::engine_names().at(static_cast<std::size_t>(options.world.engine));
-  row.metrics = metrics::evaluate(result.recording);
+  row.metrics = metrics::evaluate(result.recording, scenario);
   print_link(out, world, result, bus->can());
   campaign::print_episode(out, row, result.recording);
   if (!options.out.empty()) {

@@ -93,16 +93,28 @@ std::string outcome_table(const std::vector<const campaign::ReportedCell*>& cell
     Words line{escaped(result.cell.scenario), escaped(result.cell.planner), guard_words(result.cell),
                format("%d of %zu", s.episodes, cell->planned)};
     if (s.episodes > 0) {
-      line.insert(
-          line.end(),
-          {"<b>" + percent(s.success.share) + "</b>",
-           percent(s.success.interval.low) + " – " + percent(s.success.interval.high),
-           with_interval(s.collision), with_interval(s.at_fault), with_interval(s.off_road),
-           with_interval(s.time_out), percent(s.dead_ecu.share),
-           s.success.count > 0 ? format("%.2f", s.seconds_to_goal) : "–", format("%.2f", s.min_ttc_s_p05),
-           format("%.2f", s.min_gap_m), format("%.2f", s.near_misses), format("%.2f", s.mean_abs_jerk_mps3),
-           format("%.2f", s.hardest_braking_mps2), percent(s.rss_violation_share), percent(s.comp1_success),
-           format("%.1f", s.comp1_time), format("%.3g", s.comp1_humanness)});
+      line.insert(line.end(), {"<b>" + percent(s.success.share) + "</b>",
+                               percent(s.success.interval.low) + " – " + percent(s.success.interval.high),
+                               with_interval(s.collision),
+                               with_interval(s.at_fault),
+                               with_interval(s.off_road),
+                               with_interval(s.time_out),
+                               percent(s.dead_ecu.share),
+                               s.success.count > 0 ? format("%.2f", s.seconds_to_goal) : "–",
+                               format("%.2f", s.min_ttc_s_p05),
+                               format("%.2f", s.min_gap_m),
+                               format("%.2f", s.near_misses),
+                               percent(s.close_encroachment.share),
+                               format("%.2f", s.imposed_braking_mps2),
+                               percent(s.imposed_over_2.share),
+                               percent(s.imposed_over_3.share),
+                               percent(s.pressed.share),
+                               format("%.2f", s.mean_abs_jerk_mps3),
+                               format("%.2f", s.hardest_braking_mps2),
+                               percent(s.rss_violation_share),
+                               percent(s.comp1_success),
+                               format("%.1f", s.comp1_time),
+                               format("%.3g", s.comp1_humanness)});
     }
     body += row(line);
   }
@@ -122,6 +134,11 @@ std::string outcome_table(const std::vector<const campaign::ReportedCell*>& cell
                 "min. TTC, p05<br>s",
                 "smallest gap<br>m",
                 "near misses<br>an episode",
+                "PET below 1.5 s<br>%",
+                "imposed braking<br>m/s²",
+                "over 2 m/s²<br>%",
+                "over 3 m/s²<br>%",
+                "pressed, below 1.5 s<br>%",
                 "mean |jerk|<br>m/s³",
                 "hardest braking<br>m/s²",
                 "nearer than RSS<br>% of time",

@@ -271,6 +271,11 @@ std::filesystem::path scenario_path(const std::filesystem::path& shipped, const 
   return std::filesystem::is_regular_file(folder / "scenario.toml") ? folder : std::filesystem::path(name);
 }
 
+RouteGuide mission_guide(const Scenario& scenario) {
+  const Mission& mission = scenario.mission;
+  return {scenario.network, mission.edges, mission.goal_lane, mission.goal_s_m};
+}
+
 Scenario load_scenario(const std::filesystem::path& path, const std::string& flavour) {
   namespace fs = std::filesystem;
   const bool is_file = path.extension() == ".toml" && !fs::is_directory(path);

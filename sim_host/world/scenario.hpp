@@ -34,6 +34,9 @@ struct Scenario {
   std::vector<std::string> notes;  ///< what was left out because it does no harm, one line each
 };
 
+/// The way of the mission. \param scenario  its network must outlive the guide
+[[nodiscard]] RouteGuide mission_guide(const Scenario& scenario);
+
 /// Reads a scenario.toml, named itself or by its folder, and the files it names.
 /// \param flavour  which [flavour.NAME] to put over the rest; empty or "smarts": the file as it is written
 /// SCN-001 \throws std::runtime_error naming file, key, what was wrong and what is accepted

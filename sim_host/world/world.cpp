@@ -66,7 +66,7 @@ World::Impl::Impl(const Scenario& with_scenario, const WorldOptions& with_option
       options(with_options),
       start_lane(mission.start_lane),
       goal_lane(mission.goal_lane),
-      guide(network, mission.edges, goal_lane, mission.goal_s_m),
+      guide(mission_guide(with_scenario)),
       origin(rounded(network.lanes[static_cast<std::size_t>(start_lane)].centre.at(mission.start_s_m).point)),
       locator(network, guide),
       vehicle(options.sensors, origin, next_seed(options.seed ^ 0x5E45)),

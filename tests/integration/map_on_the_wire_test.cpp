@@ -7,7 +7,6 @@
 namespace s4tp::world {
 namespace {
 
-using test::guide_of;
 using test::shipped;
 
 void expect_same(const wire::Map& offered, const wire::Map& arrived) {
@@ -58,7 +57,7 @@ void expect_same(const wire::Map& offered, const wire::Map& arrived) {
 TEST(MapOnTheWire, EveryShippedMapArrivesWhole) {
   for (const char* name : {"left_turn", "left_turn_t", "merge", "cruise", "overtake", "cut_in"}) {
     const Scenario scenario = shipped(name);
-    const RouteGuide guide = guide_of(scenario);
+    const RouteGuide guide = mission_guide(scenario);
     MapNode node(scenario.network, guide, {});
     const wire::Map offered = node.update({0.0, 0.0});
     wire::MapSender sender;

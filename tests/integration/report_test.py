@@ -136,6 +136,9 @@ def check_numbers(rows, runs):
         mean = run["seconds_to_goal_mean"]
         wanted += [f'{100 * run["dead_ecu_rate"]:.1f}', "–" if mean is None else f"{mean:.2f}",
                    f'{run["min_ttc_s_p05"]:.2f}', f'{run["min_gap_m"]:.2f}', f'{run["near_misses"]:.2f}',
+                   f'{100 * run["close_encroachment_rate"]:.1f}', f'{run["imposed_braking_mps2"]:.2f}',
+                   f'{100 * run["imposed_over_2_rate"]:.1f}', f'{100 * run["imposed_over_3_rate"]:.1f}',
+                   f'{100 * run["pressed_rate"]:.1f}',
                    f'{run["mean_abs_jerk_mps3"]:.2f}', f'{run["hardest_braking_mps2"]:.2f}',
                    f'{100 * run["rss_violation_share"]:.1f}', f'{100 * run["comp1"]["success"]:.1f}',
                    f'{run["comp1"]["time"]:.1f}', f'{run["comp1"]["humanness"]:.3g}']

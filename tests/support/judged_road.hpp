@@ -75,14 +75,17 @@ inline CarState northbound(int id, double y, double speed_mps) {
 /// Everybody's state at a time: first the ego's.
 using Drive = std::function<std::vector<CarState>(double)>;
 
+/// What a drive's time 0 is in its snapshots: none of them is of the pre-roll.
+inline constexpr double kStart_s = 100.0;
+
 /// Snapshots every 0.1 s from `from_s` to `until_s`, both included.
 inline std::vector<Snapshot> recorded(double from_s, double until_s, const Drive& drive) {
   std::vector<Snapshot> snapshots;
   const auto count = static_cast<int>(std::lround((until_s - from_s) / 0.1));
   for (int i = 0; i <= count; ++i) {
     Snapshot snapshot;
-    snapshot.time_s = from_s + 0.1 * i;
-    std::vector<CarState> cars = drive(snapshot.time_s);
+    snapshot.time_s = kStart_s + from_s + 0.1 * i;
+    std::vector<CarState> cars = drive(from_s + 0.1 * i);
     snapshot.ego = cars.front();
     snapshot.others.assign(cars.begin() + 1, cars.end());
     snapshots.push_back(snapshot);

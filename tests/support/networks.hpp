@@ -45,12 +45,6 @@ inline Scenario shipped(const std::string& name) {
   return load_scenario(std::filesystem::path(S4TP_SOURCE_DIR) / "sim_host/scenarios" / name);
 }
 
-/// Along the shipped scenario's mission.
-inline RouteGuide guide_of(const Scenario& scenario) {
-  const Mission& mission = scenario.mission;
-  return RouteGuide(scenario.network, mission.edges, mission.goal_lane, mission.goal_s_m);
-}
-
 inline const NetworkLane& lane(const Network& network, const std::string& name) {
   return network.lanes.at(static_cast<std::size_t>(network.find(name)));
 }

@@ -75,7 +75,7 @@ std::optional<Rule> rule_between(const Network& network, const Turn& first, cons
 }
 
 bool stops_before(const Scenario& scenario, const std::string& name) {
-  return yields_at_end(scenario.network, test::guide_of(scenario), scenario.network.find(name));
+  return yields_at_end(scenario.network, mission_guide(scenario), scenario.network.find(name));
 }
 
 /// A T as seen from its foot: arms to the right and left, and the foot.
@@ -184,9 +184,9 @@ TEST(ForeignNetworks, PlaceAndTurnDoNotMatter) {
 TEST(ForeignNetworks, LateChangesAreKnown) {
   const Scenario scenario = foreign("late_changes");
   const LaneId entered = scenario.network.find("w_in_2");
-  EXPECT_EQ(test::guide_of(scenario).advice(entered).changes_needed, -2);
+  EXPECT_EQ(mission_guide(scenario).advice(entered).changes_needed, -2);
   EXPECT_LT(lane(scenario.network, "w_in_2").centre.length_m(), 50.0);
-  EXPECT_EQ(test::guide_of(foreign("late_changes", "left")).advice(entered).changes_needed, 0);
+  EXPECT_EQ(mission_guide(foreign("late_changes", "left")).advice(entered).changes_needed, 0);
 }
 
 // SCN-002 A shoulder that cars may not use is no lane: SUMO's lane 1 is the rightmost one; the mission keeps
@@ -196,7 +196,7 @@ TEST(ForeignNetworks, AShoulderIsNoLane) {
   EXPECT_EQ(scenario.network.find("bend_0"), kNoLane);
   EXPECT_EQ(scenario.mission.start_lane, scenario.network.lane_of("bend", 1));
   EXPECT_EQ(lane(scenario.network, "bend_1").right, kNoLane);
-  EXPECT_EQ(test::guide_of(scenario).advice(scenario.mission.start_lane).changes_needed, 1);
+  EXPECT_EQ(mission_guide(scenario).advice(scenario.mission.start_lane).changes_needed, 1);
 }
 
 // A right turn as netconvert draws it, with five points, turns over 40 degrees in its middle two metres; a
@@ -213,7 +213,7 @@ TEST(ForeignNetworks, RightTurnsAreArcs) {
 // Four lanes, the turn only from the rightmost: from the third one two changes to the right.
 TEST(ForeignNetworks, FourLanesToTheRightTurn) {
   const Scenario scenario = foreign("four_lanes", "right");
-  EXPECT_EQ(test::guide_of(scenario).advice(scenario.network.find("w_in_2")).changes_needed, -2);
+  EXPECT_EQ(mission_guide(scenario).advice(scenario.network.find("w_in_2")).changes_needed, -2);
 }
 
 class ForeignMaps : public testing::TestWithParam<std::string> {};
@@ -225,7 +225,7 @@ TEST_P(ForeignMaps, AreShownRight) {
   const Polyline& start =
       scenario.network.lanes[static_cast<std::size_t>(scenario.mission.start_lane)].centre;
   const Vec2 origin = start.at(scenario.mission.start_s_m).point;
-  const RouteGuide guide = test::guide_of(scenario);
+  const RouteGuide guide = mission_guide(scenario);
   MapNode node(scenario.network, guide, origin);
   const wire::Map& map = node.update(origin);
   EXPECT_EQ(map.lanes_left_out, 0);

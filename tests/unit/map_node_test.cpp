@@ -13,7 +13,6 @@
 namespace s4tp::world {
 namespace {
 
-using test::guide_of;
 using test::lane;
 using test::network_of;
 using test::shipped;
@@ -61,7 +60,7 @@ std::string winding_road(int lanes, int length_m) {
 /// The map of a shipped scenario around a point; what it refers to lives as long as it.
 struct Shown {
   explicit Shown(const char* name, Vec2 origin = {})
-      : scenario(shipped(name)), guide(guide_of(scenario)), node(scenario.network, guide, origin) {}
+      : scenario(shipped(name)), guide(mission_guide(scenario)), node(scenario.network, guide, origin) {}
   Scenario scenario;
   RouteGuide guide;
   MapNode node;

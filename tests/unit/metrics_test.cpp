@@ -17,10 +17,29 @@ using world::Ending;
 using world::Recording;
 using world::Snapshot;
 
+/// One lane of 2 km along y = 0, on which all of these drives go.
+const world::Scenario& straight() {
+  static const world::Scenario scenario = [] {
+    world::Scenario road;
+    road.network.lanes.resize(1);
+    road.network.lanes[0].edge = "road";
+    road.network.lanes[0].centre = world::Polyline({{-1000.0, 0.0}, {1000.0, 0.0}});
+    road.mission.edges = {"road"};
+    road.mission.goal_s_m = 2000.0;
+    return road;
+  }();
+  return scenario;
+}
+
+EpisodeMetrics evaluate(const Recording& recording) {
+  return metrics::evaluate(recording, straight());
+}
+
 CarState car_at(double x, double speed_mps) {
   CarState car;
   car.centre = {x, 0.0};
   car.speed_mps = speed_mps;
+  car.lane = 0;
   return car;
 }
 
@@ -115,12 +134,14 @@ TEST(Comp1, ObstacleTermLooksAheadAtTheEnd) {
 TEST(Metrics, GapTimeToCollisionAndRss) {
   Recording recording = cruise(1, 10.0);
   recording.snapshots[0].others = {car_at(25.0, 5.0)};
+  recording.snapshots[0].others[0].id = 1;
   const EpisodeMetrics far = evaluate(recording);
   EXPECT_NEAR(far.min_gap_m, 20.0, 1e-9);
   EXPECT_NEAR(far.min_time_to_collision_s, 4.0, 1e-9);
-  EXPECT_EQ(far.rss_violation_share, 0.0);
-  recording.snapshots[0].others = {car_at(18.0, 5.0)};
-  EXPECT_EQ(evaluate(recording).rss_violation_share, 1.0);
+  EXPECT_NEAR(far.encounters.mean_gap_m, 20.0, 1e-9);
+  EXPECT_EQ(far.encounters.rss_violation_share, 0.0);
+  recording.snapshots[0].others[0].centre.x = 18.0;
+  EXPECT_EQ(evaluate(recording).encounters.rss_violation_share, 1.0);
 }
 
 // Diagonally 3 m and 4 m between the corners of cars of 5 x 1.8 m: 5 m, not the 4 m of the larger axis; a car
@@ -197,7 +218,6 @@ TEST(Metrics, TimeToCollisionFollowsTurns) {
   EXPECT_LT(evaluate(recording).min_time_to_collision_s, 1.0);
   recording.snapshots[0].others[0].yaw_rate_radps = 1.0;
   EXPECT_EQ(evaluate(recording).min_time_to_collision_s, kTtcHorizonS);
-  EXPECT_EQ(evaluate(recording).near_misses, 0);
 }
 
 // Two cars 20 m apart on one circle of radius 50 m, both at 10 m/s: they never meet, though both are headed
@@ -217,29 +237,15 @@ TEST(Metrics, TimeToCollisionAlongABend) {
   EXPECT_NEAR(evaluate(recording).min_time_to_collision_s, 1.5, 0.1);
 }
 
-// Gap 10 m, closing at 10 m/s: 1 s is a near miss; closing at 5 m/s, 2 s is none; a touch is no near miss.
-// Three states of the same car count once.
-TEST(Metrics, NearMisses) {
-  Recording recording = cruise(3, 10.0);
-  const auto with = [&](double ahead_m, double speed_mps) {
-    for (Snapshot& snapshot : recording.snapshots) {
-      snapshot.others = {car_at(snapshot.ego.centre.x + ahead_m, speed_mps)};
-    }
-    return evaluate(recording).near_misses;
-  };
-  EXPECT_EQ(with(15.0, 0.0), 1);
-  EXPECT_EQ(with(15.0, 5.0), 0);
-  EXPECT_EQ(with(4.0, 0.0), 0);
-}
-
 // Unsafe, safe, unsafe: violated twice, two thirds of the time.
 TEST(Metrics, RssViolationsAreCountedWhenTheyBegin) {
   Recording recording = cruise(3, 10.0);
   for (std::size_t i : {0U, 2U}) {
     recording.snapshots[i].others = {car_at(recording.snapshots[i].ego.centre.x + 18.0, 5.0)};
+    recording.snapshots[i].others[0].id = 1;
   }
-  EXPECT_EQ(evaluate(recording).rss_violations, 2);
-  EXPECT_NEAR(evaluate(recording).rss_violation_share, 2.0 / 3.0, 1e-12);
+  EXPECT_EQ(evaluate(recording).encounters.rss_violations, 2);
+  EXPECT_NEAR(evaluate(recording).encounters.rss_violation_share, 2.0 / 3.0, 1e-12);
 }
 
 // The world goes on for a second after a touch: a touch at 0.2 s ends what is measured there, so the braking
@@ -317,7 +323,8 @@ TEST(Summary, WilsonInterval) {
   EXPECT_EQ(wilson(0, 0).high, 1.0);
 }
 
-// Two goals after 4 and 6 s and one collision of ours: 5 s on average, one of three lost.
+// Two goals after 4 and 6 s and one collision of ours: 5 s on average, one of three lost. Encounters: shares
+// count what lies beyond the limit, 1.5 s is not below 1.5 s.
 TEST(Summary, CountsAndAverages) {
   std::vector<EpisodeMetrics> episodes(3);
   episodes[0].ending = episodes[1].ending = Ending::kGoal;
@@ -326,6 +333,11 @@ TEST(Summary, CountsAndAverages) {
   episodes[2].ending = Ending::kCollision;
   episodes[2].collisions_at_fault = 1;
   episodes[2].cause = "ran into";
+  episodes[0].encounters.near_misses = 3;
+  episodes[0].encounters.min_post_encroachment_s = 1.4;
+  episodes[0].encounters.imposed_braking_mps2 = 2.5;
+  episodes[1].encounters.imposed_braking_mps2 = 3.5;
+  episodes[1].encounters.min_time_gap_s = 1.5;
   const Summary sum = summarize(episodes);
   EXPECT_EQ(sum.success.count, 2);
   EXPECT_DOUBLE_EQ(sum.seconds_to_goal, 5.0);
@@ -333,6 +345,12 @@ TEST(Summary, CountsAndAverages) {
   EXPECT_EQ(sum.at_fault.count, 1);
   EXPECT_NEAR(sum.at_fault.share, 1.0 / 3.0, 1e-12);
   EXPECT_EQ(sum.causes, (std::map<std::string, int>{{"ran into", 1}}));
+  EXPECT_DOUBLE_EQ(sum.near_misses, 1.0);
+  EXPECT_EQ(sum.close_encroachment.count, 1);
+  EXPECT_DOUBLE_EQ(sum.imposed_braking_mps2, 2.0);
+  EXPECT_EQ(sum.imposed_over_2.count, 2);
+  EXPECT_EQ(sum.imposed_over_3.count, 1);
+  EXPECT_EQ(sum.pressed.count, 0);
 }
 
 }  // namespace

@@ -29,7 +29,7 @@ Drive drive(const std::string& planner, bool guarded, std::uint64_t seed) {
   options.trace = true;
   one.result = campaign::run_episode(one.scenario, options);
   one.row = {{planner, "overtake", "smarts", "builtin", guarded, "ideal"},
-             metrics::evaluate(one.result.recording)};
+             metrics::evaluate(one.result.recording, one.scenario)};
   return one;
 }
 

@@ -29,6 +29,7 @@ EpisodeRow row(const std::string& planner, std::uint64_t seed, bool fails) {
 
 nlohmann::ordered_json header(int episodes) {
   return {{"kind", "s4tp campaign"},
+          {"version", 2},
           {"planners", {"a", "b"}},
           {"scenarios", {{{"name", "merge"}, {"argument", "merge"}, {"digest", "0"}}}},
           {"flavours", {"smarts"}},
@@ -60,6 +61,19 @@ TEST(EpisodeRecord, RowsComeBackToTheBit) {
   EXPECT_EQ(after.metrics.comp1.jerk_linear, before.metrics.comp1.jerk_linear);
   EXPECT_EQ(after.metrics.ending, world::Ending::kTimeOut);
   EXPECT_EQ(to_json(after), to_json(before));
+}
+
+// A record of the program before has other metrics: it is refused, with both versions and what to do.
+TEST(EpisodeRecord, OlderRecordsAreRefused) {
+  const std::filesystem::path file = scratch("older");
+  std::ofstream(file) << R"({"kind": "s4tp campaign", "planners": ["a"]})" << '\n';
+  try {
+    (void)read_part(file);
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("version 1"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("drive it again"), std::string::npos) << error.what();
+  }
 }
 
 // Half a line at the end is dropped, what was whole is found again; a broken line before the end is named.

@@ -7,7 +7,6 @@
 namespace s4tp::world {
 namespace {
 
-using test::guide_of;
 using test::lane;
 using test::shipped;
 
@@ -19,7 +18,7 @@ const RouteGuide::Advice& advice(const Scenario& scenario, const RouteGuide& gui
 // exit; there one to the right, due by its end.
 TEST(RouteGuide, TheLeftTurnNeedsOneChangeAtTheEnd) {
   const Scenario scenario = shipped("left_turn");
-  const RouteGuide guide = guide_of(scenario);
+  const RouteGuide guide = mission_guide(scenario);
   const RouteGuide::Advice& arm = advice(scenario, guide, "south_in_0");
   EXPECT_TRUE(arm.on_route);
   EXPECT_EQ(arm.changes_needed, 0);
@@ -38,7 +37,7 @@ TEST(RouteGuide, TheLeftTurnNeedsOneChangeAtTheEnd) {
 // within 71 m. One lane to the left it is 2, due within 71 + 1 + 70 m.
 TEST(RouteGuide, TheMergeNeedsThreeChanges) {
   const Scenario scenario = shipped("merge");
-  const RouteGuide guide = guide_of(scenario);
+  const RouteGuide guide = mission_guide(scenario);
   EXPECT_EQ(advice(scenario, guide, "merge_0").changes_needed, 3);
   EXPECT_NEAR(advice(scenario, guide, "merge_0").remaining_m, 71.0, 0.01);
   EXPECT_EQ(advice(scenario, guide, "merge_0").next, kNoLane);

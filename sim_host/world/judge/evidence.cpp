@@ -44,7 +44,7 @@ LaneId lane_under(const Network& network, const CarState& car) {
 Evidence::Evidence(const Network& network, std::span<const Snapshot> snapshots, const RouteGuide* ego_guide)
     : road_(network), snapshots_(snapshots.begin(), snapshots.end()) {
   for (Snapshot& snapshot : snapshots_) {
-    snapshot.ego.lane = lane_under(network, snapshot.ego);
+    snapshot.ego.lane = snapshot.time_s < 0.0 ? kNoLane : lane_under(network, snapshot.ego);
     for (CarState& car : snapshot.others) {
       car.lane = lane_under(network, car);
     }

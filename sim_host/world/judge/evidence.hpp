@@ -16,7 +16,8 @@ namespace s4tp::world {
 class Evidence {
  public:
   /// \param network  must outlive it  \param snapshots  every 0.1 s
-  /// \param ego_guide  the ego's route; null: the ego is no party
+  /// \param ego_guide  the ego's route; null: the ego is no party, as it is in the pre-roll, which the
+  /// traffic does not see it in
   Evidence(const Network& network, std::span<const Snapshot> snapshots, const RouteGuide* ego_guide);
 
   [[nodiscard]] const RoadIndex& road() const { return road_; }
