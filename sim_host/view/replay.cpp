@@ -282,8 +282,9 @@ ordered_json replay_data(const Replayed& episode) {
   data["cycles"] = std::move(cycles);
   ordered_json& contacts = data["contacts"] = ordered_json::array();
   for (const world::Collision& collision : recording.collisions) {
-    contacts.push_back(
-        {{"t", thousandths(collision.time_s)}, {"car", collision.other}, {"cause", collision.cause}});
+    contacts.push_back({{"t", thousandths(collision.time_s)},
+                        {"car", collision.other},
+                        {"cause", world::cause_words(collision.fault, collision.cause)}});
   }
   return data;
 }

@@ -114,7 +114,7 @@
     const frame = data.frames[now.index];
     const mode = (data.ecu_modes || []).filter(([t]) => t <= time).pop();
     const contact = data.contacts.find((one) => one.t <= time);
-    element('words').textContent = contact ? `Collision: ${contact.cause} car ${contact.car}.`
+    element('words').textContent = contact ? `Collision: ${contact.cause}, car ${contact.car}.`
       : (cycle && cycle.words) || (cycle && cycle.kind === 2 ? 'Stopping at the least risk: the guard let no plan pass.'
         : 'This driver gives no reasons.');
     element('words').className = contact ? 'bad' : '';
