@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "algo/sadrf/presets.hpp"
+#include "sim_host/world/toml_table.hpp"
 
 namespace s4tp::campaign {
 namespace {
@@ -47,12 +48,7 @@ bool names_preset(const std::string& group, const std::string& field) {
 
 Parameters load_parameters(const std::filesystem::path& file) {
   Parameters parameters;
-  toml::value root;
-  try {
-    root = toml::parse(file.string());
-  } catch (const std::exception& error) {
-    refuse(file, error.what());
-  }
+  const toml::value root = world::parse_toml(file);
   for (const auto& [group, fields] : root.as_table()) {
     if (!fields.is_table()) refuse(file, "'" + group + "' is not a group; accepted: [group] field = value");
     if (group == "risk") choose_preset(file, fields.as_table(), parameters);
