@@ -30,6 +30,12 @@ constexpr float kBuildUpS = 0.1F;  // at speed, until braking has built up
 constexpr float kAtOnceM = 0.1F;
 constexpr float kCurvesMps2 = 3.0F;
 constexpr int kCapSamples = 4;
+constexpr float kUsualHalfLengthM = 2.5F;  // of the boxes the map node takes for its zones
+
+/// What a zone's ends lie further apart for this vehicle, each.
+float longer_m(const Agent& agent) {
+  return 0.5F * agent.track.length_m - kUsualHalfLengthM;
+}
 
 }  // namespace
 
@@ -268,9 +274,9 @@ bool Guard::passes_threat(const EgoPath& path, const Sight& sight, const Threat&
   if (!zone.merging && when.from_s > out_s) return true;
   const Agent& agent = scene_->agents[threat.agent];
   if (zone.merging) {
-    // Along the common lane: our way and its way to where the zone ends.
+    // Along the common lane: our centre's way and its centre's way to where the zone ends.
     const float half_m = 0.5F * (parameters_->vehicle.length_m + agent.track.length_m);
-    const float its_to_exit_m = when.to_exit_m - 0.5F * agent.track.length_m;
+    const float its_to_exit_m = when.to_exit_m - longer_m(agent);
     const bool ahead = when.to_entry_m <= 0.0F && zone.exit_s_m - own.s_m[0] > its_to_exit_m;
     if (ahead) {
       const float stop_m =
