@@ -350,9 +350,9 @@ Verdict Guard::judge(int path_index, const Trajectory& trajectory) const {
     own.s_m[i] = own.s_m[i - 1] + 0.5F * (own.speed_mps[i - 1] + own.speed_mps[i]) * kStepS;
   }
   const int branch = to_int(guard.takeover_s / kStepS - 0.5F, 0, kHorizonSteps - 1);
-  own.branch_mps = own.speed_mps[branch + 1];
-  own.branch_s_m =
-      own.s_m[branch] + (guard.takeover_s - static_cast<float>(branch) * kStepS) * own.speed_mps[branch + 1];
+  const float on_s = guard.takeover_s - static_cast<float>(branch) * kStepS;
+  own.branch_mps = lerp(own.speed_mps[branch], own.speed_mps[branch + 1], on_s / kStepS);
+  own.branch_s_m = own.s_m[branch] + 0.5F * on_s * (own.speed_mps[branch] + own.branch_mps);
   const float stop_s_m = own.stop_s_m(guard.braking_mps2);
 
   const float front_m = front_m_ - centre_m_;
