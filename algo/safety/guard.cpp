@@ -179,10 +179,11 @@ void Guard::find_threats(const EgoPath& path, const occupancy::LaneReach (&reach
       if (path.zones[z].merging) straight_on.measure(*scene_->map, agent, false);
       when[i] = zone_occupancy(*scene_, agent, path.zones[z].merging ? straight_on : reach[i], path.zones[z],
                                lead_s_, *parameters_);
-      const bool latched = when[i].to_entry_m > 0.0F && is_latched(agent.track.id);
+      const bool latched =
+          when[i].to_entry_m > 0.0F && is_latched(agent.track.id, path.zones[z].other_lane);
       if (when[i].claim == Claim::kMayCome && latched) when[i].claim = Claim::kStands;
       const bool stays_out = when[i].claim != Claim::kMayCome && when[i].claim != Claim::kNone;
-      if (stays_out) sight.staying_out |= static_cast<std::uint16_t>(1U << i);
+      if (stays_out) sight.staying_out[z] |= static_cast<std::uint16_t>(1U << i);
     }
     for (int i = 0; i < count; ++i) {
       if (when[i].claim != Claim::kMayCome || is_behind(when, i)) continue;
@@ -204,9 +205,9 @@ bool Guard::is_behind(const ZoneOccupancy (&when)[kMaxTracks], int index) const 
   return false;
 }
 
-bool Guard::is_latched(std::uint8_t track) const {
-  for (const std::uint8_t latched : latched_) {
-    if (latched == track) return true;
+bool Guard::is_latched(std::uint8_t track, LaneIndex lane) const {
+  for (const Latch& latch : latched_) {
+    if (latch.track == track && latch.lane == lane) return true;
   }
   return false;
 }
@@ -214,9 +215,14 @@ bool Guard::is_latched(std::uint8_t track) const {
 void Guard::commit(int path, const Verdict& verdict) {
   if (!verdict.clears) latched_.clear();
   if (!verdict.clears || path < 0 || path >= scene_->ego_paths.size()) return;
-  for (int i = 0; i < scene_->agents.size(); ++i) {
-    const std::uint8_t track = scene_->agents[i].track.id;
-    if ((sights_[path].staying_out >> i & 1U) != 0 && !is_latched(track)) (void)latched_.push(track);
+  // Groups further on are not entered yet: what holds there now need not hold then.
+  const EgoPath& way = scene_->ego_paths[path];
+  for (int z = 0; z < way.zones.size() && z < verdict.cleared_end; ++z) {
+    for (int i = 0; i < scene_->agents.size(); ++i) {
+      const Latch latch{scene_->agents[i].track.id, way.zones[z].other_lane};
+      if ((sights_[path].staying_out[z] >> i & 1U) != 0 && !is_latched(latch.track, latch.lane))
+        (void)latched_.push(latch);
+    }
   }
 }
 
@@ -385,6 +391,7 @@ Verdict Guard::judge(int path_index, const Trajectory& trajectory) const {
       break;
     }
     verdict.clears = true;
+    verdict.cleared_end = group.end;
     if (!passes_group(path, sight, group, own, verdict)) return verdict;
   }
   if (sight.changes && !sight.half_over) {

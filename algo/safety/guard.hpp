@@ -36,6 +36,7 @@ struct Verdict {
   float from_s = 0.0F;       ///< kZone: how soon it can be there
   float needed_s = 0.0F;     ///< kZone: until when we are there
   bool clears = false;       ///< the fail-safe is to go through a group of zones; else it stops
+  std::uint8_t cleared_end = 0;  ///< those groups' zones are among [0, this) of the path
   bool hard = false;  ///< safe only because the fail-safe brakes hard before a group nobody leaves to us yet
   [[nodiscard]] bool safe() const { return cause == Cause::kNone; }
 };
@@ -98,8 +99,13 @@ class Guard {
     BoundedVector<InLane, 4> behind;  ///< only where `changes`
     BoundedVector<ZoneGroup, kMaxPathZones> groups;
     BoundedVector<Threat, kMostThreats> threats;
-    std::uint16_t staying_out = 0;  ///< bit i: agent i leaves a zone to us
+    std::uint16_t staying_out[kMaxPathZones] = {};  ///< of each zone; bit i: agent i leaves it to us
     bool too_many = false;
+  };
+  /// A track that stays out of the ground we share with a lane, while we pass it.
+  struct Latch {
+    std::uint8_t track = 0;
+    LaneIndex lane = kNoLaneIndex;
   };
   struct Own;
 
@@ -107,7 +113,7 @@ class Guard {
   void find_groups(const EgoPath& path, Sight& sight) const;
   void find_threats(const EgoPath& path, const occupancy::LaneReach (&reach)[kMaxTracks], Sight& sight) const;
   [[nodiscard]] bool is_behind(const ZoneOccupancy (&when)[kMaxTracks], int index) const;
-  [[nodiscard]] bool is_latched(std::uint8_t track) const;
+  [[nodiscard]] bool is_latched(std::uint8_t track, LaneIndex lane) const;
   [[nodiscard]] bool passes_group(const EgoPath& path, const Sight& sight, const ZoneGroup& group,
                                   const Own& own, Verdict& verdict) const;
   [[nodiscard]] bool passes_threat(const EgoPath& path, const Sight& sight, const Threat& threat,
@@ -122,7 +128,7 @@ class Guard {
   float centre_m_ = 0.0F;  ///< from our rear axle
   float front_m_ = 0.0F;
   Sight sights_[kPaths];
-  BoundedVector<std::uint8_t, kMaxTracks> latched_;  ///< tracks that stay out of the group we pass
+  BoundedVector<Latch, 2 * kMaxTracks> latched_;
 };
 
 }  // namespace s4tp::safety
