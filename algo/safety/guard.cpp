@@ -294,12 +294,18 @@ bool Guard::passes_threat(const EgoPath& path, const Sight& sight, const Threat&
       const float respond_s = max(in_s, 0.0F) + parameters_->law.duty_response_s;
       const Pace fastest = fastest_legal(*scene_, agent, zone, *parameters_);
       const float its_mps = occupancy::speed_after_mps(fastest, respond_s + lead_s_);
-      const float its_left_m = its_to_exit_m - occupancy::way_after_m(fastest, respond_s + lead_s_);
-      const float own_left_m = zone.exit_s_m - own.place_at_m(respond_s, cap_mps);
+      const auto gap_m = [&](float time_s) {
+        return its_to_exit_m - occupancy::way_after_m(fastest, time_s + lead_s_) -
+               (zone.exit_s_m - own.place_at_m(time_s, cap_mps));
+      };
       const float slower_mps = max(0.0F, its_mps - own.speed_at_mps(respond_s, cap_mps));
-      const float needed_m = half_m + parameters_->guard.margin_m +
-                             occupancy::stopping_way_m(slower_mps, parameters_->law.duty_braking_mps2);
-      if (its_left_m - own_left_m >= needed_m) return true;
+      const float needed_m =
+          half_m + parameters_->guard.margin_m +
+          occupancy::stopping_way_m(slower_mps, parameters_->law.duty_braking_mps2);
+      // Nor may it come in beside us or before us.
+      const float both_in_s = max(in_s, max(when.from_s, 0.0F));
+      if (gap_m(respond_s) >= needed_m && gap_m(both_in_s) >= half_m + parameters_->guard.margin_m)
+        return true;
     }
   }
   verdict = {Cause::kZone, threat.agent, when.from_s, out_s};
