@@ -45,6 +45,7 @@ struct Guard::Own {
   float speed_mps[kTrajectoryPoints];
   float branch_s_m;  ///< of the box centre, where the fail-safe begins to brake
   float branch_mps;
+  bool blocked;  ///< somebody ahead makes us brake
 
   [[nodiscard]] float end_s_m() const { return s_m[kHorizonSteps]; }
   [[nodiscard]] float stop_s_m(float braking_mps2) const {
@@ -213,6 +214,9 @@ bool Guard::is_latched(std::uint8_t track, LaneIndex lane) const {
 }
 
 void Guard::commit(int path, const Verdict& verdict) {
+  goes_through_ = verdict.clears;
+  clear_by_ms_ =
+      scene_->time_ms + static_cast<std::uint32_t>(to_int(1e3F * (lead_s_ + verdict.clear_s), 0, 1'000'000));
   if (!verdict.clears) latched_.clear();
   if (!verdict.clears || path < 0 || path >= scene_->ego_paths.size()) return;
   // Groups further on are not entered yet: what holds there now need not hold then.
@@ -312,6 +316,18 @@ bool Guard::passes_threat(const EgoPath& path, const Sight& sight, const Threat&
   return false;
 }
 
+bool Guard::leaves_in_time(const ZoneGroup& group, const Own& own) const {
+  if (goes_through_) {
+    const float left_s =
+        1e-3F * static_cast<float>(static_cast<std::int32_t>(clear_by_ms_ - scene_->time_ms)) - lead_s_;
+    if (own.time_at_s(group.exit_s_m, group.cap_mps) <= left_s + 0.5F * kStepS) return true;
+  }
+  for (int i = 1; i < kTrajectoryPoints && own.s_m[i - 1] < group.exit_s_m; ++i) {
+    if (own.speed_mps[i] < own.speed_mps[0]) return false;
+  }
+  return !goes_through_;
+}
+
 bool Guard::passes_group(const EgoPath& path, const Sight& sight, const ZoneGroup& group, const Own& own,
                          Verdict& verdict) const {
   const bool inside = own.s_m[0] > group.entry_s_m;
@@ -335,11 +351,16 @@ bool Guard::passes_group(const EgoPath& path, const Sight& sight, const ZoneGrou
   const float hard_mps2 = parameters_->vehicle.braking_max_mps2;
   for (const Threat& threat : sight.threats) {
     if (threat.zone < group.first || threat.zone >= group.end) continue;
-    // What cannot be avoided any more is no reason to do something else.
     const ConflictZone& zone = path.zones[threat.zone];
     if (own.s_m[0] > zone.exit_s_m) continue;
-    if (own.s_m[0] + occupancy::stopping_way_m(own.speed_mps[0], hard_mps2) > zone.entry_s_m) continue;
-    if (!passes_threat(path, sight, threat, own, verdict)) return false;
+    Verdict refused = verdict;
+    if (passes_threat(path, sight, threat, own, refused)) continue;
+    // Who cannot stay out any more leaves it as soon as it was to.
+    const bool bound = own.s_m[0] + occupancy::stopping_way_m(own.speed_mps[0], hard_mps2) > zone.entry_s_m;
+    const bool behind_it = zone.merging && threat.when.to_entry_m <= 0.0F;
+    if (bound && (behind_it || own.blocked || leaves_in_time(group, own))) continue;
+    verdict = refused;
+    return false;
   }
   return true;
 }
@@ -378,6 +399,9 @@ Verdict Guard::judge(int path_index, const Trajectory& trajectory) const {
                             occupancy::stopping_way_m(own.speed_mps[0], guard.braking_mps2) + kAtOnceM;
   const float least_s_m = sight.leader_moves ? at_once_s_m : own.s_m[0] + kAtOnceM;
   const float free_s_m = max(sight.leader_stop_s_m - front_m - guard.margin_m, least_s_m);
+  own.blocked = own.s_m[0] + own.speed_mps[0] * guard.takeover_s +
+                    occupancy::stopping_way_m(own.speed_mps[0], guard.braking_mps2) >
+                free_s_m;
   if (stop_s_m > free_s_m) {
     verdict = {Cause::kLeader, sight.leader};
     return verdict;
@@ -396,6 +420,7 @@ Verdict Guard::judge(int path_index, const Trajectory& trajectory) const {
       }
       break;
     }
+    if (!verdict.clears) verdict.clear_s = own.time_at_s(group.exit_s_m, group.cap_mps);
     verdict.clears = true;
     verdict.cleared_end = group.end;
     if (!passes_group(path, sight, group, own, verdict)) return verdict;

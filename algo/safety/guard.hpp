@@ -37,6 +37,7 @@ struct Verdict {
   float needed_s = 0.0F;     ///< kZone: until when we are there
   bool clears = false;       ///< the fail-safe is to go through a group of zones; else it stops
   std::uint8_t cleared_end = 0;  ///< those groups' zones are among [0, this) of the path
+  float clear_s = 0.0F;          ///< when it has left the first of them
   bool hard = false;  ///< safe only because the fail-safe brakes hard before a group nobody leaves to us yet
   [[nodiscard]] bool safe() const { return cause == Cause::kNone; }
 };
@@ -69,7 +70,10 @@ class Guard {
   /// when we entered still is: a licence used is not withdrawn half way.
   void commit(int path, const Verdict& verdict);
   /// Forgets what is in force.
-  void reset() { latched_.clear(); }
+  void reset() {
+    latched_.clear();
+    goes_through_ = false;
+  }
 
  private:
   static constexpr int kMostThreats = 32;  ///< of one path; more: the zone counts as taken
@@ -118,6 +122,8 @@ class Guard {
                                   const Own& own, Verdict& verdict) const;
   [[nodiscard]] bool passes_threat(const EgoPath& path, const Sight& sight, const Threat& threat,
                                    const Own& own, Verdict& verdict) const;
+  /// Whether a plan that cannot stay out of the group any more is out of it no later than it was to be.
+  [[nodiscard]] bool leaves_in_time(const ZoneGroup& group, const Own& own) const;
   [[nodiscard]] bool followers_can_brake(const Sight& sight, const Own& own, float brakes_from_s,
                                          float braking_mps2, Verdict& verdict) const;
 
@@ -129,6 +135,8 @@ class Guard {
   float front_m_ = 0.0F;
   Sight sights_[kPaths];
   BoundedVector<Latch, 2 * kMaxTracks> latched_;
+  bool goes_through_ = false;      ///< the plan in force, a group of zones
+  std::uint32_t clear_by_ms_ = 0;  ///< when it has left it
 };
 
 }  // namespace s4tp::safety
