@@ -200,7 +200,9 @@ bool Guard::is_behind(const ZoneOccupancy (&when)[kMaxTracks], int index) const 
   if (lane == kNoLaneIndex || when[index].to_entry_m <= 0.0F) return false;
   for (int i = 0; i < scene_->agents.size(); ++i) {
     const bool stays_out = when[i].claim != Claim::kMayCome && when[i].claim != Claim::kNone;
-    if (stays_out && scene_->agents[i].lane == lane && when[i].to_entry_m < when[index].to_entry_m)
+    const bool before_zone = when[i].to_entry_m > 0.0F;  // further on it leaves room for the next one
+    if (stays_out && before_zone && scene_->agents[i].lane == lane &&
+        when[i].to_entry_m < when[index].to_entry_m)
       return true;
   }
   return false;
