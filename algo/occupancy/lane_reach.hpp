@@ -1,6 +1,7 @@
 #pragma once
 /// How far a vehicle is from every lane, by the shortest legal way (METHOD 4.9): successors and lane changes,
-/// whatever way is likely.
+/// whatever way is likely. OCC-003 Each lane that successors and lane changes lead to is reached, by the
+/// shortest way there is.
 ///
 /// \code
 ///   ====[car]======> lane 3 ------> lane 7 (junction) ---->     to lane 7: what is left of lane 3

@@ -1,5 +1,7 @@
 #pragma once
 /// Motion along a line in closed form: the one answer to "when is it there" and "how far does it come".
+/// OCC-001 Way, speed and time belong to each other: a vehicle gains speed up to a top speed and keeps it.
+/// OCC-002 Who brakes as hard as it can is the latest to cover a way, or never covers it.
 
 namespace s4tp::occupancy {
 

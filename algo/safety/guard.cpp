@@ -180,8 +180,7 @@ void Guard::find_threats(const EgoPath& path, const occupancy::LaneReach (&reach
       if (path.zones[z].merging) straight_on.measure(*scene_->map, agent, false);
       when[i] = zone_occupancy(*scene_, agent, path.zones[z].merging ? straight_on : reach[i], path.zones[z],
                                lead_s_, *parameters_);
-      const bool latched =
-          when[i].to_entry_m > 0.0F && is_latched(agent.track.id, path.zones[z].other_lane);
+      const bool latched = when[i].to_entry_m > 0.0F && is_latched(agent.track.id, path.zones[z].other_lane);
       if (when[i].claim == Claim::kMayCome && latched) when[i].claim = Claim::kStands;
       const bool stays_out = when[i].claim != Claim::kMayCome && when[i].claim != Claim::kNone;
       if (stays_out) sight.staying_out[z] |= static_cast<std::uint16_t>(1U << i);
@@ -305,9 +304,8 @@ bool Guard::passes_threat(const EgoPath& path, const Sight& sight, const Threat&
                (zone.exit_s_m - own.place_at_m(time_s, cap_mps));
       };
       const float slower_mps = max(0.0F, its_mps - own.speed_at_mps(respond_s, cap_mps));
-      const float needed_m =
-          half_m + parameters_->guard.margin_m +
-          occupancy::stopping_way_m(slower_mps, parameters_->law.duty_braking_mps2);
+      const float needed_m = half_m + parameters_->guard.margin_m +
+                             occupancy::stopping_way_m(slower_mps, parameters_->law.duty_braking_mps2);
       // Nor may it come in beside us or before us.
       const float both_in_s = max(in_s, max(when.from_s, 0.0F));
       if (gap_m(respond_s) >= needed_m && gap_m(both_in_s) >= half_m + parameters_->guard.margin_m)

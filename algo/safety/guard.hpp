@@ -1,6 +1,15 @@
 #pragma once
 /// The guard (METHOD 4.9): a plan is taken only when a fail-safe from its first part meets nobody who keeps
 /// to the law. Knows tracks, map and plan; never predictions, beliefs or manoeuvres.
+/// GUARD-001 A plan passes that can still be stopped before a group of zones and before the road ends;
+/// without map or path nothing does. GUARD-002 Else it goes through when all others are gone, come later, or
+/// leave it to us. GUARD-003 Nobody stops in a group where it gives way, nor enters one without room beyond.
+/// GUARD-004 It can be stopped behind a leader who brakes as hard as can be; behind a cut-in it only must not
+/// get worse. GUARD-005 What is safe only by hard braking says so. GUARD-006 A licence used holds, for the
+/// ground it was given for. GUARD-007 Who cannot stay out of a zone any more leaves it no later than it was
+/// to. GUARD-008 Merging leaves room, in both orders. GUARD-009 A lane change leaves who is behind room to
+/// brake. GUARD-010 Whoever drives only what passes, and else the last fail-safe, touches nobody who keeps to
+/// the law.
 ///
 /// \code
 ///   plan    ----+------------------------>
@@ -32,10 +41,10 @@ enum class Cause : std::uint8_t {
 
 struct Verdict {
   Cause cause = Cause::kNone;
-  std::uint8_t agent = 255;  ///< who is in the way; 255: nobody
-  float from_s = 0.0F;       ///< kZone: how soon it can be there
-  float needed_s = 0.0F;     ///< kZone: until when we are there
-  bool clears = false;       ///< the fail-safe is to go through a group of zones; else it stops
+  std::uint8_t agent = 255;      ///< who is in the way; 255: nobody
+  float from_s = 0.0F;           ///< kZone: how soon it can be there
+  float needed_s = 0.0F;         ///< kZone: until when we are there
+  bool clears = false;           ///< the fail-safe is to go through a group of zones; else it stops
   std::uint8_t cleared_end = 0;  ///< those groups' zones are among [0, this) of the path
   float clear_s = 0.0F;          ///< when it has left the first of them
   bool hard = false;  ///< safe only because the fail-safe brakes hard before a group nobody leaves to us yet

@@ -1,0 +1,97 @@
+// The shortest legal way to every lane, on small maps.
+
+#include "algo/occupancy/lane_reach.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "tests/support/driving_scenes.hpp"
+
+namespace s4tp::occupancy {
+namespace {
+
+using namespace test;  // NOLINT: the map builders are the language of these tests
+
+/// A vehicle at `s_m` of the first lane of a way.
+Agent vehicle_on(const LaneMap& map, const LanePath& way, float s_m) {
+  Scene scene;
+  return add_vehicle(scene, map, way, s_m, 5.0F);
+}
+
+LaneReach reach_of(const LaneMap& map, const Agent& agent) {
+  LaneReach reach;
+  reach.measure(map, agent);
+  return reach;
+}
+
+// OCC-003 30 m into a lane of 52 m it is 22 m from each of the three turns behind it, though its own paths
+// name only one; 30 m past its own lane's start. Lanes it cannot come to have no way.
+TEST(LaneReach, EveryTurnCountsWhateverIsLikely) {
+  const CrossJunction cross = cross_junction();
+  const LaneIndex in = cross.in[CrossJunction::kEast];
+  const LaneIndex ahead = cross.connection[CrossJunction::kEast][CrossJunction::kStraight];
+  const LaneReach reach = reach_of(cross.map, vehicle_on(cross.map, path_of(cross.map, {in, ahead}), 30.0F));
+  EXPECT_NEAR(reach.to_start_m(in), -30.0F, 0.01F);
+  for (const LaneIndex turn : cross.connection[CrossJunction::kEast])
+    EXPECT_NEAR(reach.to_start_m(turn), 22.0F, 0.01F) << int{turn};
+  const LaneIndex right = cross.connection[CrossJunction::kEast][CrossJunction::kRight];
+  EXPECT_NEAR(reach.to_start_m(cross.out[CrossJunction::kSouth]), 22.0F + cross.map.lanes[right].length_m,
+              0.02F);
+  EXPECT_EQ(reach.to_start_m(cross.in[CrossJunction::kNorth]), kNoWayM);
+  EXPECT_EQ(reach.to_start_m(cross.connection[CrossJunction::kWest][CrossJunction::kLeft]), kNoWayM);
+}
+
+// OCC-003 100 m of two lanes, and a third behind the left one: from the right lane at 40 m it is 60 m, by a
+// change on the way; not from 95 m, where 5 m are too little for a change.
+TEST(LaneReach, ALaneChangeIsAWay) {
+  LaneMap map = straight_road(2, 100.0F);
+  const LaneIndex exit = add_lane(map, {{100.0F, kLaneWidthM}, {200.0F, 40.0F}});
+  link(map, 1, exit);
+  EXPECT_NEAR(reach_of(map, vehicle_on(map, path_of(map, {0}), 40.0F)).to_start_m(exit), 60.0F, 0.01F);
+  EXPECT_NEAR(reach_of(map, vehicle_on(map, path_of(map, {0}), 40.0F)).to_start_m(1), -40.0F, 0.01F);
+  EXPECT_EQ(reach_of(map, vehicle_on(map, path_of(map, {0}), 95.0F)).to_start_m(exit), kNoWayM);
+}
+
+// OCC-003 Two ways lead to a lane, one of 30 m, one of 80 m: the shorter one counts, whichever is looked at
+// first.
+TEST(LaneReach, TheShorterWayCounts) {
+  for (const bool long_first : {false, true}) {
+    LaneMap map = straight_road(1, 50.0F);
+    const LaneIndex near = add_lane(map, {{50.0F, 0.0F}, {70.0F, 0.0F}});
+    const LaneIndex detour = add_lane(map, {{50.0F, 0.0F}, {60.0F, 33.5410197F}, {70.0F, 0.0F}});
+    const LaneIndex goal = add_lane(map, {{70.0F, 0.0F}, {90.0F, 0.0F}});
+    for (const LaneIndex middle : {long_first ? detour : near, long_first ? near : detour}) {
+      link(map, 0, middle);
+      link(map, middle, goal);
+    }
+    EXPECT_NEAR(reach_of(map, vehicle_on(map, path_of(map, {0}), 40.0F)).to_start_m(goal), 30.0F, 0.01F);
+  }
+}
+
+// OCC-003 A ring of two lanes ends, and 170 m are further than anybody can see.
+TEST(LaneReach, RingsAndFarLanes) {
+  LaneMap ring = straight_road(1, 20.0F);
+  const LaneIndex back = add_lane(ring, {{20.0F, 0.0F}, {20.0F, 5.0F}, {0.0F, 5.0F}, {0.0F, 0.0F}});
+  link(ring, 0, back);
+  link(ring, back, 0);
+  const LaneReach reach = reach_of(ring, vehicle_on(ring, path_of(ring, {0}), 5.0F));
+  EXPECT_NEAR(reach.to_start_m(0), -5.0F, 0.01F);
+  EXPECT_NEAR(reach.to_start_m(back), 15.0F, 0.01F);
+  LaneMap road = straight_road(1, 180.0F);
+  const LaneIndex far = add_lane(road, {{180.0F, 0.0F}, {200.0F, 0.0F}});
+  link(road, 0, far);
+  EXPECT_EQ(reach_of(road, vehicle_on(road, path_of(road, {0}), 10.0F)).to_start_m(far), kNoWayM);
+}
+
+// OCC-003 Who is on no lane, or whose place is not a number, reaches none.
+TEST(LaneReach, WhoIsNowhereReachesNothing) {
+  const LaneMap map = straight_road(2, 100.0F);
+  EXPECT_EQ(reach_of(map, Agent{}).to_start_m(0), kNoWayM);
+  Agent lost = vehicle_on(map, path_of(map, {0}), 40.0F);
+  lost.frenet[0].s_m = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_EQ(reach_of(map, lost).to_start_m(0), kNoWayM);
+}
+
+}  // namespace
+}  // namespace s4tp::occupancy

@@ -1,0 +1,166 @@
+// When a vehicle that keeps to the law can be in a zone.
+
+#include "algo/safety/legal_occupancy.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/shared_ground.hpp"
+
+namespace s4tp::safety {
+namespace {
+
+using namespace test;  // NOLINT: the map builders are the language of these tests
+
+/// The crossing's other vehicle, `to_entry_m` before the zone of 8 m, as the law sees it. It has been in
+/// sight for long.
+struct Approach : SharedGround {
+  explicit Approach(Priority priority, float to_entry_m, float speed_mps) : SharedGround(priority) {
+    other(96.0F - to_entry_m, speed_mps);
+    agent().known_ms = 5000;
+  }
+  Agent& agent() { return scene.agents[0]; }
+  [[nodiscard]] ZoneOccupancy when(float lead_s = 0.0F) const {
+    occupancy::LaneReach reach;
+    reach.measure(map, scene.agents[0]);
+    return zone_occupancy(scene, scene.agents[0], reach, scene.ego_paths[0].zones[0], lead_s, parameters);
+  }
+  [[nodiscard]] Claim claim() const { return when().claim; }
+};
+
+// LEGAL-001 40 m before the zone at 9.28 m/s it gains 2 m/s^2 for 3 s to 1.1 * 13.89 = 15.28 m/s: 36.84 m,
+// and the last 3.16 m take 0.21 s. Braking with 8 m/s^2 it stands after 5.4 m: it need not ever leave.
+TEST(LegalOccupancy, FromTheFastestToTheSlowest) {
+  const Approach approach(Priority::kFirstYields, 40.0F, 9.279F);
+  const ZoneOccupancy when = approach.when();
+  EXPECT_EQ(when.claim, Claim::kMayCome);
+  EXPECT_NEAR(when.from_s, 3.207F, 0.005F);
+  EXPECT_EQ(when.until_s, occupancy::kNeverS);
+  EXPECT_NEAR(when.to_entry_m, 40.0F, 0.01F);
+  EXPECT_NEAR(when.to_exit_m, 48.0F, 0.01F);
+}
+
+// LEGAL-001 2 m before its exit at 12 m/s it stops in no less than 9 m: it is out after at most (12 -
+// sqrt(144 - 32)) / 8 = 0.177 s. Plans that begin 0.1 s later count from there.
+TEST(LegalOccupancy, WhoCannotStopLeavesTheZone) {
+  const Approach inside(Priority::kFirstYields, -6.0F, 12.0F);
+  EXPECT_EQ(inside.claim(), Claim::kMayCome);
+  EXPECT_NEAR(inside.when().until_s, 0.177F, 0.002F);
+  EXPECT_EQ(inside.when().from_s, 0.0F);
+  EXPECT_NEAR(inside.when(0.1F).until_s, 0.077F, 0.002F);
+  EXPECT_NEAR(inside.when(0.1F).from_s, -0.1F, 1e-6F);
+}
+
+// LEGAL-001 Past the zone, or with no way into its lane, nobody is expected.
+TEST(LegalOccupancy, WhoIsGoneOrElsewhereHasNoClaim) {
+  EXPECT_EQ(Approach(Priority::kFirstYields, -8.1F, 5.0F).claim(), Claim::kNone);
+  EXPECT_NE(Approach(Priority::kFirstYields, -7.9F, 5.0F).claim(), Claim::kNone);
+  Approach elsewhere(Priority::kFirstYields, 20.0F, 5.0F);
+  elsewhere.scene.agents.clear();
+  add_vehicle(elsewhere.scene, elsewhere.map, elsewhere.ours, 150.0F, 5.0F);
+  EXPECT_EQ(elsewhere.claim(), Claim::kNone);
+}
+
+// LEGAL-001 Zones are made for cars of 5 m: one of 12 m is in it 3.5 m sooner and leaves 3.5 m later.
+TEST(LegalOccupancy, LongerVehiclesComeSoonerAndLeaveLater) {
+  Approach lorry(Priority::kFirstYields, 20.0F, 5.0F);
+  lorry.agent().track.length_m = 12.0F;
+  EXPECT_NEAR(lorry.when().to_entry_m, 16.5F, 0.01F);
+  EXPECT_NEAR(lorry.when().to_exit_m, 31.5F, 0.01F);
+  Approach leaving(Priority::kFirstYields, -11.0F, 5.0F);
+  leaving.agent().track.length_m = 12.0F;
+  EXPECT_EQ(leaving.claim(), Claim::kMayCome);
+}
+
+// LEGAL-002 D1: it owes us the way and stops from 8 m/s with 4 m/s^2 within 8 m. New in sight it goes on for
+// 1 s first, 16 m in all; after 0.5 s of being seen 12 m; after 1 s or more 8 m: the response runs once.
+TEST(LegalOccupancy, WhoOwesUsTheWayStopsAfterOneResponse) {
+  const struct {
+    std::uint16_t known_ms;
+    float enough_m;
+  } cases[] = {{0, 16.1F}, {500, 12.1F}, {1000, 8.1F}, {60000, 8.1F}};
+  for (const auto& seen : cases) {
+    Approach can(Priority::kFirstHasPriority, seen.enough_m, 8.0F);
+    can.agent().known_ms = seen.known_ms;
+    EXPECT_EQ(can.claim(), Claim::kOwes) << seen.known_ms;
+    Approach cannot(Priority::kFirstHasPriority, seen.enough_m - 0.2F, 8.0F);
+    cannot.agent().known_ms = seen.known_ms;
+    EXPECT_EQ(cannot.claim(), Claim::kMayCome) << seen.known_ms;
+  }
+}
+
+// LEGAL-002 What is owed before the zone is not owed any more by one inside it.
+TEST(LegalOccupancy, InsideNobodyGivesWay) {
+  EXPECT_EQ(Approach(Priority::kFirstHasPriority, -1.0F, 2.0F).claim(), Claim::kMayCome);
+}
+
+// LEGAL-003 L1: at the top speed of 15.28 m/s 1.5 s are 22.9 m, braking with 2 m/s^2 takes 58.4 m, and it
+// stops 0.5 m before: 81.8 m. From 6 m/s gaining to 9 m/s 11.25 + 20.25 + 0.5 = 32 m. First come is asked the
+// same.
+TEST(LegalOccupancy, WhoCanStopGentlyMayBeAsked) {
+  for (const Priority priority : {Priority::kFirstYields, Priority::kFirstCome}) {
+    EXPECT_EQ(Approach(priority, 82.0F, 15.279F).claim(), Claim::kCanStop);
+    EXPECT_EQ(Approach(priority, 81.5F, 15.279F).claim(), Claim::kMayCome);
+    EXPECT_EQ(Approach(priority, 32.1F, 6.0F).claim(), Claim::kCanStop);
+    EXPECT_EQ(Approach(priority, 31.9F, 6.0F).claim(), Claim::kMayCome);
+  }
+}
+
+// LEGAL-003 No licence asks who is in the zone to stop.
+TEST(LegalOccupancy, InsideNobodyIsAskedToStop) {
+  EXPECT_EQ(Approach(Priority::kFirstYields, -0.1F, 0.5F).claim(), Claim::kMayCome);
+}
+
+// LEGAL-004 L2: 3 m before the zone it has stood for 0.7 s and we have stood as long: it may be passed in
+// front of. Not a moment sooner, not when it rolls, and not when it sets off.
+TEST(LegalOccupancy, WhoStandsInSightMayBePassed) {
+  const auto standing = [](std::uint16_t stood_ms, float waited_s, float speed_mps, float acceleration_mps2) {
+    Approach approach(Priority::kFirstYields, 3.0F, speed_mps);
+    approach.agent().stood_ms = stood_ms;
+    approach.agent().track.acceleration_mps2 = acceleration_mps2;
+    approach.scene.waited_s = waited_s;
+    return approach.claim();
+  };
+  EXPECT_EQ(standing(700, 0.7F, 0.0F, 0.0F), Claim::kStands);
+  EXPECT_EQ(standing(600, 0.7F, 0.0F, 0.0F), Claim::kMayCome);
+  EXPECT_EQ(standing(700, 0.6F, 0.0F, 0.0F), Claim::kMayCome);
+  EXPECT_EQ(standing(700, 0.7F, 0.5F, 0.0F), Claim::kMayCome);
+  EXPECT_EQ(standing(700, 0.7F, 0.1F, 1.0F), Claim::kMayCome);
+}
+
+// LEGAL-004 One that stands in the zone itself is an obstacle where it stands, and leaves the rest to us.
+TEST(LegalOccupancy, WhoStandsInTheZoneIsAnObstacle) {
+  Approach approach(Priority::kFirstYields, -1.0F, 0.0F);
+  approach.agent().stood_ms = 2000;
+  approach.scene.waited_s = 2.0F;
+  EXPECT_EQ(approach.claim(), Claim::kStands);
+  approach.agent().track.acceleration_mps2 = 1.0F;
+  EXPECT_EQ(approach.claim(), Claim::kMayCome);
+}
+
+// LEGAL-001 A quarter turn of 15.1 m in 11 chords turns by 10 / 11 of it from the first to the last: 10.6 m
+// of radius, driven with at most sqrt(7 * 10.6) = 8.6 m/s. At 13 m/s 10 m before the bend, the zone 8 m into
+// it: without the bend there after 1.27 s, with it after 10 m (0.73 s) and 8 m at 8.6 m/s (0.93 s).
+TEST(LegalOccupancy, BendsAreDrivenAsFastAsTheyAllow) {
+  for (const bool bend : {false, true}) {
+    LaneMap map;
+    const LaneIndex before = add_lane(map, {{-50.0F, 0.0F}, {0.0F, 0.0F}});
+    const LaneIndex turn = bend ? add_lane(map, arc({0.0F, 0.0F, 0.0F}, 9.6F, 1.5707963F, kMaxLanePoints))
+                                : add_lane(map, {{0.0F, 0.0F}, {7.5F, 0.0F}, {15.08F, 0.0F}});
+    link(map, before, turn);
+    Scene scene;
+    scene.map = &map;
+    const Agent& agent = add_vehicle(scene, map, path_of(map, {before, turn}), 40.0F, 13.0F);
+    ConflictZone zone;
+    zone.other_lane = turn;
+    zone.other_entry_m = 8.0F;
+    zone.other_exit_m = 14.0F;
+    zone.priority = Priority::kFirstYields;
+    occupancy::LaneReach reach;
+    reach.measure(map, agent);
+    const ZoneOccupancy when = zone_occupancy(scene, agent, reach, zone, 0.0F, Parameters{});
+    EXPECT_NEAR(when.from_s, bend ? 1.66F : 1.27F, 0.02F);
+  }
+}
+
+}  // namespace
+}  // namespace s4tp::safety
