@@ -26,8 +26,7 @@ struct Settling {
   float share;
 };
 constexpr Settling kSettlings[] = {{2.0F, 1.0F}, {0.0F, 1.0F}, {0.0F, 0.6F}, {0.0F, 0.35F}};
-constexpr float kBuildUpS = 0.1F;  // at speed, until braking has built up
-constexpr float kAtOnceM = 0.1F;
+constexpr float kEasesOff = 0.25F;  // share of the fail-safe's braking that is not asked for behind a cut-in
 constexpr float kCurvesMps2 = 3.0F;
 constexpr int kCapSamples = 4;
 constexpr float kUsualHalfLengthM = 2.5F;  // of the boxes the map node takes for its zones
@@ -117,7 +116,7 @@ void Guard::look_along(int path_index) {
       if (stop_s_m >= sight.leader_stop_s_m) continue;
       sight.leader_stop_s_m = stop_s_m;
       sight.leader = static_cast<std::uint8_t>(i);
-      sight.leader_moves = along_mps > kStandingMps;
+      sight.leader_mps = along_mps;
     } else if (sight.changes && seen.along_mps >= 0.0F) {
       InLane behind;
       behind.agent = static_cast<std::uint8_t>(i);
@@ -393,15 +392,16 @@ Verdict Guard::judge(int path_index, const Trajectory& trajectory) const {
     verdict.cause = Cause::kRoadEnd;
     return verdict;
   }
-  // Behind a leader. Nearer than that another has broken the law: then the plan brakes as hard as it takes,
-  // or as hard as it can.
-  const float at_once_s_m = own.s_m[0] + own.speed_mps[0] * kBuildUpS +
-                            occupancy::stopping_way_m(own.speed_mps[0], guard.braking_mps2) + kAtOnceM;
-  const float least_s_m = sight.leader_moves ? at_once_s_m : own.s_m[0] + kAtOnceM;
-  const float free_s_m = max(sight.leader_stop_s_m - front_m - guard.margin_m, least_s_m);
-  own.blocked = own.s_m[0] + own.speed_mps[0] * guard.takeover_s +
-                    occupancy::stopping_way_m(own.speed_mps[0], guard.braking_mps2) >
-                free_s_m;
+  // Behind a leader. The fail-safe in force stops behind whoever keeps to the law; a moving one nearer than
+  // that has broken it: then it only must not get worse, and behind a slower one that takes braking.
+  const float at_once_s_m = own.s_m[0] + occupancy::stopping_way_m(own.speed_mps[0], guard.braking_mps2);
+  const float coasting_s_m = at_once_s_m + own.speed_mps[0] * guard.takeover_s;
+  float free_s_m = sight.leader_stop_s_m - front_m - guard.margin_m;
+  if (at_once_s_m > free_s_m) {
+    const bool slower = sight.leader_mps < own.speed_mps[0];
+    free_s_m = max(free_s_m, (slower ? lerp(at_once_s_m, coasting_s_m, kEasesOff) : coasting_s_m) + 0.01F);
+  }
+  own.blocked = coasting_s_m > free_s_m;
   if (stop_s_m > free_s_m) {
     verdict = {Cause::kLeader, sight.leader};
     return verdict;

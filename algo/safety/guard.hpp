@@ -106,7 +106,7 @@ class Guard {
     float end_s_m = 0.0F;          ///< of the road
     float leader_stop_s_m = 0.0F;  ///< foremost place for our front bumper if who is ahead brakes hard
     std::uint8_t leader = 255;
-    bool leader_moves = false;
+    float leader_mps = 0.0F;
     bool changes = false;             ///< our box is, or comes, from another lane
     bool half_over = false;           ///< most of us is in the lane already
     BoundedVector<InLane, 4> behind;  ///< only where `changes`
