@@ -1,0 +1,290 @@
+#include "algo/satp/input_builder.hpp"
+
+#include "algo/core/inline.hpp"
+#include "algo/scene/agent_paths.hpp"
+
+namespace s4tp::satp {
+namespace {
+
+constexpr float kLongestStandS = 20.0F;
+constexpr float kFarthestM = 100.0F;  // of gaps and ways to zones
+constexpr float kOverlapM = -20.0F;
+constexpr float kLongestHoldS = 10.0F;
+
+float& at(float (&row)[kPairFeatures], PairFeature feature) {
+  return row[static_cast<int>(feature)];
+}
+
+float within_reach(float way_m) {
+  return clamp(way_m, kOverlapM, kFarthestM);
+}
+
+// Box centre ahead of the rear axle.
+float centre_ahead_m(const Parameters& parameters) {
+  return 0.5F * parameters.vehicle.length_m - parameters.vehicle.rear_overhang_m;
+}
+
+void fill_history(const History& history, float centre_m, const Pose& anchor,
+                  float (&rows)[kHistorySamples][kHistoryFeatures]) {
+  for (int j = 0; j < kHistorySamples; ++j) {
+    float(&row)[kHistoryFeatures] = rows[j];
+    if ((history.valid >> j & 1) == 0) {
+      for (float& value : row) value = 0.0F;
+      continue;
+    }
+    const History::Sample& sample = history.samples[j];
+    const Pose local = to_anchor(anchor, shift_ahead(sample.pose, centre_m));
+    const SinCos turn = sin_cos(local.heading_rad);
+    row[0] = local.x_m;
+    row[1] = local.y_m;
+    row[2] = local.heading_rad;
+    row[3] = sample.speed_mps * turn.cos;
+    row[4] = sample.speed_mps * turn.sin;
+  }
+}
+
+void fill_place(const Pose& frame, const Pose& pose, float speed_mps, float length_m, float width_m,
+                float (&row)[kPlaceFeatures]) {
+  const Pose local = to_anchor(frame, pose);
+  const SinCos turn = sin_cos(local.heading_rad);
+  row[0] = local.x_m;
+  row[1] = local.y_m;
+  row[2] = turn.sin;
+  row[3] = turn.cos;
+  row[4] = speed_mps * turn.cos;
+  row[5] = speed_mps * turn.sin;
+  row[6] = length_m;
+  row[7] = width_m;
+}
+
+// Whether a stop line lies in [from, from + spacing).
+bool stop_line_next(const LaneMap& map, const LanePath& path, float from_s_m) {
+  for (const PathLane& part : path.lanes) {
+    const float line_m = map.lanes[part.lane].stop_line_m;
+    const float line_s_m = part.start_s_m + line_m;
+    if (line_m >= 0.0F && line_s_m >= from_s_m && line_s_m < from_s_m + kLaneSpacingM) return true;
+  }
+  return false;
+}
+
+int fill_lane(const LaneMap& map, const LanePath& path, const Way& way, const Pose& anchor,
+              float (&rows)[kLanePoints][kLaneFeatures]) {
+  PathCursor cursor(map, path);
+  int count = 0;
+  for (int p = 0; p < kLanePoints; ++p) {
+    const float s_m = way.start_s_m + kLaneSpacingM * static_cast<float>(p);
+    if (p > 0 && s_m > path.length_m) break;
+    const PathPoint point = cursor.at(s_m);
+    const Pose local = to_anchor(anchor, point.pose);
+    float(&row)[kLaneFeatures] = rows[p];
+    row[0] = local.x_m;
+    row[1] = local.y_m;
+    row[2] = local.heading_rad;
+    row[3] = point.speed_limit_mps;
+    for (const Crossing& crossing : way.crossings) {
+      // A zone shorter than the spacing still marks the point before it.
+      if (s_m + kLaneSpacingM <= crossing.entry_s_m || s_m > crossing.exit_s_m) continue;
+      row[4 + static_cast<int>(crossing.priority)] = 1.0F;
+    }
+    row[7] = stop_line_next(map, path, s_m) ? 1.0F : 0.0F;
+    count = p + 1;
+  }
+  return count;
+}
+
+// Where `lane` begins on one of our paths, counted from our anchor's centre.
+bool on_our_path(const Scene& scene, LaneIndex lane, float centre_m, float& way_m) {
+  for (const EgoPath& ego_path : scene.ego_paths) {
+    for (const PathLane& part : ego_path.path.lanes) {
+      if (part.lane != lane) continue;
+      way_m = part.start_s_m - ego_path.frenet.s_m - centre_m;
+      return true;
+    }
+  }
+  return false;
+}
+
+bool goes_on_in(const LaneMap& map, LaneIndex lane, const LanePath& path) {
+  for (const LaneIndex successor : map.lanes[lane].successors) {
+    for (const PathLane& part : path.lanes) {
+      if (successor != kNoLaneIndex && part.lane == successor) return true;
+    }
+  }
+  return false;
+}
+
+// The first zone on the likeliest way that has one ahead of both of us.
+void fill_zone(const Scene& scene, const Agent& agent, const Way (&ways)[kPathsPerAgent], float centre_m,
+               float (&row)[kPairFeatures]) {
+  for (int k = 0; k < agent.paths.size(); ++k) {
+    for (const Crossing& crossing : ways[k].crossings) {
+      float lane_start_m = 0.0F;
+      if (!on_our_path(scene, crossing.our_lane, centre_m, lane_start_m)) continue;
+      const float our_exit_m = lane_start_m + crossing.our_exit_m;
+      if (our_exit_m < 0.0F) continue;
+      at(row, PairFeature::kZone) = 1.0F;
+      at(row, PairFeature::kEntryM) = within_reach(crossing.entry_s_m - ways[k].start_s_m);
+      at(row, PairFeature::kExitM) = within_reach(crossing.exit_s_m - ways[k].start_s_m);
+      at(row, PairFeature::kOurEntryM) = within_reach(lane_start_m + crossing.our_entry_m);
+      at(row, PairFeature::kOurExitM) = within_reach(our_exit_m);
+      at(row, PairFeature::kYields) = crossing.priority == Priority::kFirstYields ? 1.0F : 0.0F;
+      at(row, PairFeature::kFirstCome) = crossing.priority == Priority::kFirstCome ? 1.0F : 0.0F;
+      at(row, PairFeature::kHasPriority) = crossing.priority == Priority::kFirstHasPriority ? 1.0F : 0.0F;
+      at(row, PairFeature::kMerging) =
+          goes_on_in(*scene.map, crossing.our_lane, agent.paths[k]) ? 1.0F : 0.0F;
+      return;
+    }
+  }
+}
+
+// Who of the two is ahead on the other's way, bumper to bumper.
+void fill_same_way(const Scene& scene, const Parameters& parameters, const Agent& agent,
+                   const Way (&ways)[kPathsPerAgent], float lead_s, float (&row)[kPairFeatures]) {
+  if (scene.ego_paths.empty()) return;
+  const float half_lengths_m = 0.5F * (agent.track.length_m + parameters.vehicle.length_m);
+  const float centre_m = centre_ahead_m(parameters) + scene.ego.speed_mps * lead_s;
+  const LaneIndex our_lane = scene.ego_paths[0].path.lanes[0].lane;
+  for (int k = 0; k < agent.paths.size(); ++k) {
+    for (const PathLane& part : agent.paths[k].lanes) {
+      if (part.lane != our_lane) continue;
+      const float gap_m = part.start_s_m + scene.ego_paths[0].frenet.s_m + centre_m - ways[k].start_s_m;
+      if (gap_m < 0.0F || at(row, PairFeature::kWeAhead) > 0.0F) continue;
+      at(row, PairFeature::kWeAhead) = 1.0F;
+      at(row, PairFeature::kAheadGapM) = within_reach(gap_m - half_lengths_m);
+    }
+  }
+  for (const EgoPath& ego_path : scene.ego_paths) {
+    float s_m = 0.0F;
+    if (!arc_length_on(ego_path.path, agent, s_m)) continue;
+    const float gap_m = s_m + agent.track.speed_mps * lead_s - ego_path.frenet.s_m - centre_m;
+    if (gap_m < 0.0F) continue;
+    at(row, PairFeature::kWeBehind) = 1.0F;
+    at(row, PairFeature::kBehindGapM) = within_reach(gap_m - half_lengths_m);
+    return;
+  }
+}
+
+void fill_pair(const Scene& scene, const Parameters& parameters, const Agent& agent,
+               const Way (&ways)[kPathsPerAgent], float lead_s, const Pose& anchor, const Pose& ego_anchor,
+               float (&row)[kPairFeatures]) {
+  const float centre_m = centre_ahead_m(parameters) + scene.ego.speed_mps * lead_s;
+  fill_zone(scene, agent, ways, centre_m, row);
+  fill_same_way(scene, parameters, agent, ways, lead_s, row);
+  at(row, PairFeature::kStoodS) = min(0.001F * static_cast<float>(agent.stood_ms), kLongestStandS);
+  at(row, PairFeature::kWeStoodS) = min(scene.waited_s, kLongestStandS);
+  at(row, PairFeature::kLengthM) = agent.track.length_m;
+  at(row, PairFeature::kWidthM) = agent.track.width_m;
+  if (!agent.paths.empty()) {
+    const Way& way = ways[0];
+    if (way.follows) {
+      const float gap_m = way.leader_rear_s_m - way.start_s_m - 0.5F * agent.track.length_m;
+      at(row, PairFeature::kLeader) = 1.0F;
+      at(row, PairFeature::kLeaderGapM) = within_reach(gap_m);
+      at(row, PairFeature::kLeaderMps) = way.leader_mps;
+    }
+    at(row, PairFeature::kLikeliest) = agent.path_probability[0];
+    if (agent.paths.size() > 1) at(row, PairFeature::kSecond) = agent.path_probability[1];
+    at(row, PairFeature::kHoldS) = clamp(way.hold_until_s, 0.0F, kLongestHoldS);
+  }
+  at(row, PairFeature::kSpeedMps) = agent.track.speed_mps;
+  at(row, PairFeature::kOurSpeedMps) = scene.ego.speed_mps;
+  at(row, PairFeature::kAcceleration) = agent.track.acceleration_mps2;
+  at(row, PairFeature::kOurAcceleration) = scene.ego.acceleration_mps2;
+  at(row, PairFeature::kYawRateRadps) = agent.track.yaw_rate_radps;
+  const Pose ours = to_anchor(anchor, ego_anchor);
+  const SinCos turn = sin_cos(ours.heading_rad);
+  at(row, PairFeature::kOurXM) = ours.x_m;
+  at(row, PairFeature::kOurYM) = ours.y_m;
+  at(row, PairFeature::kOurSin) = turn.sin;
+  at(row, PairFeature::kOurCos) = turn.cos;
+}
+
+}  // namespace
+
+Pose to_anchor(const Pose& anchor, const Pose& pose) {
+  const Point local = to_local(anchor, position(pose));
+  return {local.x_m, local.y_m, wrap_angle(pose.heading_rad - anchor.heading_rad)};
+}
+
+Pose from_anchor(const Pose& anchor, const Pose& pose) {
+  const Point point = offset_point(anchor, pose.x_m, pose.y_m);
+  return {point.x_m, point.y_m, wrap_angle(pose.heading_rad + anchor.heading_rad)};
+}
+
+void read_ways(const Scene& scene, float lead_s, Ways& ways) {
+  for (int i = 0; i < scene.watched; ++i) {
+    for (int k = 0; k < scene.agents[i].paths.size(); ++k) ways[i][k] = read_way(scene, i, k, lead_s);
+  }
+}
+
+void build_network_input(const Scene& scene, const Parameters& parameters, float lead_s, const Ways& ways,
+                         NetworkInput& input) {
+  input = NetworkInput{};
+  input.hdvs = scene.watched;
+  const float centre_m = centre_ahead_m(parameters);
+  input.ego_anchor = shift_ahead(scene.ego.rear_axle, centre_m + scene.ego.speed_mps * lead_s);
+  input.ego_history_valid = scene.ego_history.valid;
+  fill_history(scene.ego_history, centre_m, input.ego_anchor, input.ego_history);
+  fill_place(input.ego_anchor, input.ego_anchor, scene.ego.speed_mps, parameters.vehicle.length_m,
+             parameters.vehicle.width_m, input.place[0]);
+  for (int i = 0; i < scene.watched; ++i) {
+    const Agent& agent = scene.agents[i];
+    const Track& track = agent.track;
+    input.anchor[i] = shift_ahead(track.centre, track.speed_mps * lead_s);
+    input.speed_mps[i] = track.speed_mps;
+    input.history_valid[i] = agent.history.valid;
+    fill_history(agent.history, 0.0F, input.anchor[i], input.history[i]);
+    fill_place(input.ego_anchor, input.anchor[i], track.speed_mps, track.length_m, track.width_m,
+               input.place[1 + i]);
+    for (int k = 0; k < agent.paths.size(); ++k) {
+      input.lane_points[i][k] = static_cast<std::uint8_t>(
+          fill_lane(*scene.map, agent.paths[k], ways[i][k], input.anchor[i], input.lane[i][k]));
+    }
+    fill_pair(scene, parameters, agent, ways[i], lead_s, input.anchor[i], input.ego_anchor, input.pair[i]);
+  }
+}
+
+void build_network_input(const Scene& scene, const Parameters& parameters, float lead_s,
+                         NetworkInput& input) {
+  Ways ways;
+  read_ways(scene, lead_s, ways);
+  build_network_input(scene, parameters, lead_s, ways, input);
+}
+
+void build_plan_input(const Trajectory& plan, const Parameters& parameters, const NetworkInput& input,
+                      PlanInput& plan_input) {
+  plan_input = PlanInput{};
+  const float centre_m = centre_ahead_m(parameters);
+  Pose knot[kDecoderSteps + 1];
+  float driven_m[kDecoderSteps + 1] = {};
+  for (int s = 0; s <= kDecoderSteps; ++s) {
+    knot[s] = shift_ahead(plan.points[s * kStepsPerDecode].rear_axle, centre_m);
+    if (s == 0) continue;
+    driven_m[s] = driven_m[s - 1];
+    for (int i = (s - 1) * kStepsPerDecode; i < s * kStepsPerDecode; ++i) {
+      driven_m[s] += distance(position(plan.points[i].rear_axle), position(plan.points[i + 1].rear_axle));
+    }
+  }
+  for (int i = 0; i < input.hdvs; ++i) {
+    const float* pair = input.pair[i];
+    const bool zone = pair[static_cast<int>(PairFeature::kZone)] > 0.0F;
+    const float entry_m = pair[static_cast<int>(PairFeature::kOurEntryM)];
+    const float exit_m = pair[static_cast<int>(PairFeature::kOurExitM)];
+    for (int s = 0; s < kDecoderSteps; ++s) {
+      const Pose begin = to_anchor(input.anchor[i], knot[s]);
+      const Pose end = to_anchor(input.anchor[i], knot[s + 1]);
+      float(&row)[kPlanValues] = plan_input.step[i][s];
+      row[0] = begin.x_m;
+      row[1] = begin.y_m;
+      row[2] = begin.heading_rad;
+      row[3] = end.x_m;
+      row[4] = end.y_m;
+      row[5] = end.heading_rad;
+      row[6] = plan.points[(s + 1) * kStepsPerDecode].speed_mps;
+      row[7] = zone ? entry_m - driven_m[s + 1] : 0.0F;
+      row[8] = zone ? exit_m - driven_m[s + 1] : 0.0F;
+    }
+  }
+}
+
+}  // namespace s4tp::satp
