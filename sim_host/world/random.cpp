@@ -12,6 +12,10 @@ std::uint64_t next_seed(std::uint64_t seed) {
   return z ^ (z >> 31);
 }
 
+double hash_uniform(std::uint64_t key) {
+  return static_cast<double>(next_seed(key) >> 11) * 0x1.0p-53;
+}
+
 Random::Random(std::uint64_t seed) : engine_(next_seed(seed)) {}
 
 double Random::uniform() {

@@ -22,4 +22,7 @@ class Random {
 /// Next seed of a chain (SplitMix64): neighbouring seeds give unrelated streams.
 [[nodiscard]] std::uint64_t next_seed(std::uint64_t seed);
 
+/// [0, 1), a function of `key`: a draw without a stream.
+[[nodiscard]] double hash_uniform(std::uint64_t key);
+
 }  // namespace s4tp::world

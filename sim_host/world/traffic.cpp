@@ -27,18 +27,24 @@ double TrafficCar::offset_m() const {
 }
 
 Traffic::Traffic(const Network& network, const std::vector<FlowGroup>& groups, std::uint64_t seed)
-    : road_(network),
-      random_(seed),
-      plan_(draw_flows(network, groups, kDrawnUntil_s, random_)),
-      waiting_(network.lanes.size()) {}
+    : road_(std::make_shared<const RoadIndex>(network)), seed_(seed), waiting_(network.lanes.size()) {
+  Random random(seed);
+  plan_ = std::make_shared<const FlowPlan>(draw_flows(network, groups, kDrawnUntil_s, random));
+}
 
 Traffic::Traffic(const Scenario& scenario, std::uint64_t episode, std::uint64_t seed)
     : Traffic(scenario.network, scenario.flows, seed) {
   if (!scenario.demands.empty()) {
     const Mission& mission = scenario.mission;
-    plan_ = draw_demand(scenario.network, scenario.demands[episode % scenario.demands.size()],
-                        std::max(kDrawnUntil_s, mission.entry_time_s + mission.time_limit_s), random_);
+    Random random(seed);
+    plan_ = std::make_shared<const FlowPlan>(
+        draw_demand(scenario.network, scenario.demands[episode % scenario.demands.size()],
+                    std::max(kDrawnUntil_s, mission.entry_time_s + mission.time_limit_s), random));
   }
+}
+
+std::unique_ptr<TrafficEngine> Traffic::clone() const {
+  return std::make_unique<Traffic>(*this);
 }
 
 void Traffic::step(const EgoSeen* ego) {
@@ -53,7 +59,7 @@ void Traffic::step(const EgoSeen* ego) {
 }
 
 void Traffic::decide(const Actor* ego) {
-  const TrafficView view(road_, actors(ego));
+  const TrafficView view(*road_, actors(ego));
   const std::size_t first = ego != nullptr ? 1 : 0;
   for (std::size_t i = 0; i < cars_.size(); ++i) {
     const Actor& self = view.actors()[first + i];
@@ -102,7 +108,7 @@ Actor Traffic::actor_of(const TrafficCar& car) const {
   actor.s_m = car.s_m;
   actor.speed_mps = car.speed_mps;
   actor.length_m = car.length_m;
-  actor.guide = &plan_.ways[car.way].guide;
+  actor.guide = &plan_->ways[car.way].guide;
   actor.committed = car.committed;
   actor.waited_s = car.waited_s;
   actor.queues = car.queues;
@@ -167,7 +173,7 @@ double Traffic::acceleration(TrafficCar& car, const Actor& self, const TrafficVi
   }
   const WayPart& last = self.way.back();
   const bool leads_on =
-      lane(last.lane).edge == plan_.ways[car.way].last_edge || self.guide->advice(last.lane).next != kNoLane;
+      lane(last.lane).edge == plan_->ways[car.way].last_edge || self.guide->advice(last.lane).next != kNoLane;
   if (!leads_on) {
     const double to_end_m = last.start_m + lane(last.lane).centre.length_m() - 0.5 * car.length_m - 1.0;
     result = std::min(result, stopping_acceleration_mps2(car.driver, car.speed_mps, wanted, to_end_m));
@@ -202,11 +208,8 @@ double Traffic::acceleration(TrafficCar& car, const Actor& self, const TrafficVi
   if (car.hazard >= 0 && time_s() - car.hazard_since_s >= car.driver.reaction_s) {
     result = std::min(result, stopping_acceleration_mps2(car.driver, car.speed_mps, wanted, choice.hazard_m));
   }
-  if (time_s() >= car.next_distraction_s) {
-    car.distraction = random_.uniform();
-    car.next_distraction_s = time_s() + 1.0;
-  }
-  result -= kDistractionShare * car.driver.imperfection * car.driver.acceleration_mps2 * car.distraction;
+  result -= kDistractionShare * car.driver.imperfection * car.driver.acceleration_mps2 *
+            distraction(seed_, car.id, time_s());
   return std::clamp(result, -car.driver.emergency_mps2, car.driver.acceleration_mps2);
 }
 
@@ -223,12 +226,12 @@ void Traffic::move(TrafficCar& car) {
   if (car.s_m < length_m) {
     return;
   }
-  const LaneId next = plan_.ways[car.way].guide.advice(car.lane).next;
+  const LaneId next = plan_->ways[car.way].guide.advice(car.lane).next;
   if (next != kNoLane) {
     car.s_m -= length_m;
     car.lane = next;
     car.leaving = kNoLane;
-  } else if (lane(car.lane).edge == plan_.ways[car.way].last_edge) {
+  } else if (lane(car.lane).edge == plan_->ways[car.way].last_edge) {
     car.lane = kNoLane;
     ++finished_;
   } else {

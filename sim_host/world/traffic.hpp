@@ -24,7 +24,7 @@ namespace s4tp::world {
 struct TrafficCar {
   static constexpr int kLooking = -2;  ///< attentive just now: whoever is there is no surprise
 
-  int id = 0;
+  int id = 0;  ///< 1 + the index of its departure: no draw, and nobody's delay, changes it
   std::size_t way = 0;
   Driver driver;
   LaneId lane = kNoLane;
@@ -45,8 +45,6 @@ struct TrafficCar {
   int lets_go = kNoCar;
   bool queues = false;  ///< this and the next: JunctionChoice's
   std::vector<int> waits_for;
-  double distraction = 0.0;  ///< 0 .. 1, redrawn every second: imperfection at work
-  double next_distraction_s = 0.0;
   int known_leader = kNoCar;  ///< whom he follows
   double known_gap_m = 0.0;
   int surprise = kNoCar;  ///< who appeared unexpectedly, and since when
@@ -59,12 +57,14 @@ struct TrafficCar {
 
 class Traffic final : public TrafficEngine {
  public:
-  /// WORLD-021 The same network, groups and seed give the same traffic to the bit.
+  /// WORLD-021 The same network, groups and seed give the same traffic to the bit. WORLD-022 Whoever enters
+  /// late shifts nobody else's id, order or draws: who does not meet him drives on to the bit.
   Traffic(const Network& network, const std::vector<FlowGroup>& groups, std::uint64_t seed);
   /// \param episode  chooses among the scenario's route files
   Traffic(const Scenario& scenario, std::uint64_t episode, std::uint64_t seed);
 
   void step(const EgoSeen* ego) override;
+  [[nodiscard]] std::unique_ptr<TrafficEngine> clone() const override;
   [[nodiscard]] double time_s() const override { return static_cast<double>(ticks_) * 0.01; }
   [[nodiscard]] std::vector<CarState> cars() const override;
   [[nodiscard]] std::vector<CarFlags> flags() const override;
@@ -93,15 +93,14 @@ class Traffic final : public TrafficEngine {
   [[nodiscard]] bool somebody_comes(const TrafficView& view, const TrafficCar& car) const;
   void insert_waiting(const Actor* ego);
   void move(TrafficCar& car);
-  [[nodiscard]] const NetworkLane& lane(LaneId id) const { return road_.lane(id); }
+  [[nodiscard]] const NetworkLane& lane(LaneId id) const { return road_->lane(id); }
 
-  RoadIndex road_;
-  Random random_;
-  FlowPlan plan_;
-  std::vector<TrafficCar> cars_;
-  std::vector<std::deque<Departure>> waiting_;  ///< by lane
+  std::shared_ptr<const RoadIndex> road_;  ///< what never changes is shared with the copies
+  std::shared_ptr<const FlowPlan> plan_;
+  std::uint64_t seed_;
+  std::vector<TrafficCar> cars_;                  ///< by id
+  std::vector<std::deque<std::size_t>> waiting_;  ///< departures, by lane
   std::size_t next_departure_ = 0;
-  int next_id_ = 1;
   int finished_ = 0;
   std::int64_t ticks_ = 0;
   double ego_waited_s_ = 0.0;

@@ -36,6 +36,12 @@ Driver draw_driver(const DriverModel& model, Random& random) {
   return driver;
 }
 
+double distraction(std::uint64_t seed, int car, double time_s) {
+  const std::uint64_t own = next_seed(next_seed(seed ^ 0xD157) + static_cast<std::uint64_t>(car));
+  const auto second = static_cast<std::uint64_t>(std::floor(time_s + hash_uniform(own)));
+  return hash_uniform(next_seed(own) + second);
+}
+
 double free_acceleration_mps2(const Driver& driver, double speed_mps, double wanted_mps) {
   const double wanted = std::max(wanted_mps, 0.1);
   if (speed_mps <= wanted) {

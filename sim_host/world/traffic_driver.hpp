@@ -1,6 +1,8 @@
 #pragma once
 /// One driver as data, and the laws he drives by: car following, imperfection, gap acceptance.
 
+#include <cstdint>
+
 #include "sim_host/world/random.hpp"
 #include "sim_host/world/traffic_demand.hpp"
 
@@ -28,6 +30,12 @@ struct Driver {
 };
 
 [[nodiscard]] Driver draw_driver(const DriverModel& model, Random& random);
+
+/// Imperfection at work: how much of a driver's mind is elsewhere, 0 .. 1, another value each second, each
+/// driver's seconds beginning at an instant of their own. A function of its arguments and of nothing else:
+/// no stream that drivers share, so in a branch of a world everybody is as distracted as in the other one.
+/// \param car  the driver's id
+[[nodiscard]] double distraction(std::uint64_t seed, int car, double time_s);
 
 /// Free-road part: towards the wanted speed; above it, ordinary braking growing with the excess.
 [[nodiscard]] double free_acceleration_mps2(const Driver& driver, double speed_mps, double wanted_mps);

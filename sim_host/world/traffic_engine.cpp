@@ -25,7 +25,7 @@ std::unique_ptr<TrafficEngine> make_engine(const Scenario& scenario, const Engin
   if (options.engine == Engine::kSumo) {
     return std::make_unique<SumoTraffic>(scenario, options);
   }
-  if (options.ego == EgoDriver::kEngine) {
+  if (options.ego == DrivenBy::kEngine) {
     throw std::invalid_argument("the built-in traffic drives no ego; SUMO does (--traffic sumo)");
   }
   return std::make_unique<Traffic>(scenario, options.episode, options.seed);

@@ -42,6 +42,9 @@ class TrafficEngine {
   /// Advances 10 ms. \param ego  as it is before the step, or null: not there
   /// \throws std::runtime_error when an engine outside this process has failed
   virtual void step(const EgoSeen* ego) = 0;
+  /// WORLD-023 A copy that goes on by itself: the same egos give it the same cars as the original, to the
+  /// bit. \return null where the engine cannot be copied (SUMO: run the same seed again)
+  [[nodiscard]] virtual std::unique_ptr<TrafficEngine> clone() const { return nullptr; }
   [[nodiscard]] virtual double time_s() const = 0;
   [[nodiscard]] virtual std::vector<CarState> cars() const = 0;  ///< the ego is not among them
   [[nodiscard]] virtual std::vector<CarFlags> flags() const = 0;
@@ -53,13 +56,13 @@ class TrafficEngine {
 };
 
 /// Who drives the ego from the mission's entry on.
-enum class EgoDriver { kNobody, kUs, kEngine };
+enum class DrivenBy { kNobody, kUs, kEngine };
 
 struct EngineOptions {
   Engine engine = Engine::kBuiltin;
   std::uint64_t seed = 0;
-  std::uint64_t episode = 0;       ///< chooses among a scenario's own route files
-  EgoDriver ego = EgoDriver::kUs;  ///< kEngine: SUMO only
+  std::uint64_t episode = 0;     ///< chooses among a scenario's own route files
+  DrivenBy ego = DrivenBy::kUs;  ///< kEngine: SUMO only
 };
 
 /// \param scenario  must outlive the engine  \throws std::runtime_error when the engine cannot be started

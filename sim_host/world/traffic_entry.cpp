@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "sim_host/world/traffic.hpp"
 
@@ -22,20 +23,23 @@ bool Traffic::somebody_comes(const TrafficView& view, const TrafficCar& car) con
 }
 
 void Traffic::insert_waiting(const Actor* ego) {
-  while (next_departure_ < plan_.departures.size() && plan_.departures[next_departure_].time_s <= time_s()) {
-    const Departure& departure = plan_.departures[next_departure_++];
-    waiting_[static_cast<std::size_t>(departure.lane)].push_back(departure);
+  while (next_departure_ < plan_->departures.size() &&
+         plan_->departures[next_departure_].time_s <= time_s()) {
+    const Departure& departure = plan_->departures[next_departure_];
+    waiting_[static_cast<std::size_t>(departure.lane)].push_back(next_departure_++);
   }
   if (std::all_of(waiting_.begin(), waiting_.end(), [](const auto& lane) { return lane.empty(); })) {
     return;
   }
-  const TrafficView view(road_, actors(ego));  // who has just committed himself must not be surprised
+  const TrafficView view(*road_, actors(ego));  // who has just committed himself must not be surprised
   for (std::size_t id = 0; id < waiting_.size(); ++id) {
     if (waiting_[id].empty()) {
       continue;
     }
-    const Departure& departure = waiting_[id].front();
+    const std::size_t index = waiting_[id].front();
+    const Departure& departure = plan_->departures[index];
     TrafficCar car;
+    car.id = static_cast<int>(index) + 1;
     car.way = departure.way;
     car.driver = departure.driver;
     car.lane = static_cast<LaneId>(id);
@@ -46,7 +50,7 @@ void Traffic::insert_waiting(const Actor* ego) {
     if (!at_start && somebody_comes(view, car)) {
       continue;
     }
-    const std::vector<WayPart> way = view.way_from(car.lane, car.s_m, &plan_.ways[car.way].guide);
+    const std::vector<WayPart> way = view.way_from(car.lane, car.s_m, &plan_->ways[car.way].guide);
     double wanted = wanted_speed_mps(car, way);
     for (const WayPart& part : way) {  // slow enough to stop at a junction's line
       if (lane(part.lane).in_junction) {
@@ -69,10 +73,11 @@ void Traffic::insert_waiting(const Actor* ego) {
         continue;
       }
     }
-    car.id = next_id_++;
     car.known_leader = car.hazard = TrafficCar::kLooking;  // nothing there at the start is a surprise
     car.next_change_s = time_s() + 1.0;
-    cars_.push_back(car);
+    const auto place =
+        std::find_if(cars_.begin(), cars_.end(), [&](const TrafficCar& other) { return other.id > car.id; });
+    cars_.insert(place, std::move(car));
     waiting_[id].pop_front();
   }
 }

@@ -39,7 +39,7 @@ const Driver& Traffic::driver_of(int id) const {
 bool Traffic::safe_beside(const TrafficCar& car, const WayPart& beside, const TrafficView& view,
                           bool urgent) const {
   const double safe = urgent ? car.driver.asked_braking_mps2 + kUrgent_mps2 : car.driver.asked_braking_mps2;
-  const RouteGuide& guide = plan_.ways[car.way].guide;
+  const RouteGuide& guide = plan_->ways[car.way].guide;
   const std::vector<WayPart> way = view.way_from(beside.lane, -beside.start_m, &guide);
   const Leader ahead = view.leader(way, car.id, car.length_m);
   if (ahead.actor != nullptr && ahead.gap_m < 0.5 * car.driver.min_gap_m) {
@@ -61,7 +61,7 @@ bool Traffic::safe_beside(const TrafficCar& car, const WayPart& beside, const Tr
 /// MOBIL's incentive: own gain, and by politeness that of the new follower and of the old one.
 double Traffic::lane_change_gain(const TrafficCar& car, const TrafficView& view,
                                  const WayPart& beside) const {
-  const RouteGuide& guide = plan_.ways[car.way].guide;
+  const RouteGuide& guide = plan_->ways[car.way].guide;
   const std::vector<WayPart> way_now = view.way_from(car.lane, car.s_m, &guide);
   const std::vector<WayPart> way_then = view.way_from(beside.lane, -beside.start_m, &guide);
   const Leader leader_now = view.leader(way_now, car.id, car.length_m);
@@ -102,7 +102,7 @@ void Traffic::consider_lane_change(TrafficCar& car, const Actor& self, const Tra
     return;
   }
   car.next_change_s = time_s() + kLookAgain_s;
-  const RouteGuide& guide = plan_.ways[car.way].guide;
+  const RouteGuide& guide = plan_->ways[car.way].guide;
   const int needed = guide.advice(car.lane).changes_needed;
   LaneId target = kNoLane;
   if (needed != 0) {

@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <stdexcept>
 #include <utility>
 
 #include "sim_host/world/box.hpp"
+#include "sim_host/world/ego_road.hpp"
 #include "sim_host/world/judge/attribution.hpp"
-#include "sim_host/world/locator.hpp"
 #include "sim_host/world/traffic_engine.hpp"
 #include "sim_host/world/vehicle_node.hpp"
 #include "sim_host/world/world_entry.hpp"
@@ -29,7 +30,6 @@ Vec2 rounded(Vec2 point) {  // as MapOrigin can say it
 struct World::Impl {
   Impl(const Scenario& with_scenario, const WorldOptions& with_options);
 
-  [[nodiscard]] CarState ego_state() const;
   void move_ego();
   void watch();
   void watch_collisions();
@@ -44,9 +44,10 @@ struct World::Impl {
   WorldOptions options;
   LaneId start_lane;
   LaneId goal_lane;
-  RouteGuide guide;
+  std::shared_ptr<const EgoRoad> road;
+  const RouteGuide& guide;
+  const Locator& locator;
   Vec2 origin;
-  Locator locator;
   std::unique_ptr<TrafficEngine> traffic;       ///< at entry or later
   std::vector<std::vector<CarState>> pre_roll;  ///< who is shown in each of its ticks
   VehicleNode vehicle;
@@ -66,9 +67,10 @@ World::Impl::Impl(const Scenario& with_scenario, const WorldOptions& with_option
       options(with_options),
       start_lane(mission.start_lane),
       goal_lane(mission.goal_lane),
-      guide(mission_guide(with_scenario)),
+      road(std::make_shared<const EgoRoad>(with_scenario)),
+      guide(road->guide),
+      locator(road->locator),
       origin(rounded(network.lanes[static_cast<std::size_t>(start_lane)].centre.at(mission.start_s_m).point)),
-      locator(network, guide),
       vehicle(options.sensors, origin, next_seed(options.seed ^ 0x5E45)),
       nodes(network, guide, origin, options.perception, next_seed(options.seed ^ 0x9E8C)),
       entry_tick(static_cast<int>(std::lround(options.pre_roll_s / kTick_s))) {
@@ -78,20 +80,6 @@ World::Impl::Impl(const Scenario& with_scenario, const WorldOptions& with_option
   recording.redrawn = entered.redrawn;
   traffic = std::move(entered.traffic);
   pre_roll = std::move(entered.pre_roll);
-}
-
-CarState World::Impl::ego_state() const {
-  const Vehicle& car = vehicle.vehicle();
-  CarState state;
-  state.centre = car.box_centre();
-  state.heading_rad = car.heading_rad();
-  state.speed_mps = car.speed_mps();
-  state.acceleration_mps2 = car.acceleration_mps2();
-  state.yaw_rate_radps = car.yaw_rate_radps();
-  state.length_m = car.parameters().length_m;
-  state.width_m = car.parameters().width_m;
-  state.lane = place.inside ? place.lane : kNoLane;
-  return state;
 }
 
 void World::Impl::move_ego() {
@@ -112,7 +100,7 @@ void World::Impl::move_ego() {
     vehicle.drive();
     place = locator.locate(vehicle.vehicle().box_centre(), vehicle.vehicle().heading_rad(), place.lane);
   }
-  ego = ego_state();
+  ego = ego_state(vehicle.vehicle(), place);
 }
 
 Snapshot World::Impl::snapshot() const {
@@ -230,6 +218,15 @@ double World::time_s() const {
 
 Vec2 World::origin() const {
   return impl_->origin;
+}
+
+std::unique_ptr<Branch> World::fork(EgoDriver& driver) const {
+  if (impl_->tick_number < impl_->entry_tick) throw std::logic_error("fork: the ECU has not taken over yet");
+  std::unique_ptr<TrafficEngine> traffic = impl_->traffic->clone();
+  if (!traffic) throw std::logic_error("fork: this traffic cannot be copied");
+  return std::make_unique<Branch>(
+      Branch::Start{impl_->road, std::move(traffic), impl_->vehicle.vehicle(), impl_->place, time_s()},
+      driver);
 }
 
 const Recording& World::recording() const {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "firmware/wire/frame.hpp"
+#include "sim_host/world/branch.hpp"
 #include "sim_host/world/perception.hpp"
 #include "sim_host/world/recording.hpp"
 #include "sim_host/world/scenario.hpp"
@@ -50,6 +51,12 @@ class World {
   [[nodiscard]] double time_s() const;  ///< since the ECU took over
   [[nodiscard]] Vec2 origin() const;    ///< of the odometry frame, network coordinates
   [[nodiscard]] const Recording& recording() const;
+
+  /// WORLD-050 A branch that begins as the world is now: the same commands make of it what they make of the
+  /// world, to the bit. The world itself does not notice.
+  /// \param driver  must outlive the branch; so must the scenario, but not the world
+  /// \throws std::logic_error before the ECU has taken over, or where the traffic cannot be copied (SUMO)
+  [[nodiscard]] std::unique_ptr<Branch> fork(EgoDriver& driver) const;
 
  private:
   struct Impl;

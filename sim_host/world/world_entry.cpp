@@ -16,10 +16,9 @@ constexpr double kUndisturbed_s = 1.0;  // after entry: a touch within it is the
 constexpr int kRedrawsMax = 100;
 
 std::unique_ptr<TrafficEngine> traffic_until(const Scenario& scenario, const WorldOptions& options,
-                                             std::uint64_t seed, double traffic_time_s,
-                                             EgoDriver ego_driver) {
+                                             std::uint64_t seed, double traffic_time_s, DrivenBy driven_by) {
   std::unique_ptr<TrafficEngine> fresh =
-      make_engine(scenario, {options.engine, seed, options.seed, ego_driver});
+      make_engine(scenario, {options.engine, seed, options.seed, driven_by});
   const long ticks = std::lround(traffic_time_s / kTick_s);
   for (long i = 0; i < ticks; ++i) {
     fresh->step(nullptr);
@@ -64,7 +63,7 @@ std::vector<std::vector<CarState>> run_pre_roll(const Scenario& scenario, double
 bool touched_at_entry(const Scenario& scenario, const WorldOptions& options, const Locator& locator,
                       std::uint64_t seed) {
   const std::unique_ptr<TrafficEngine> trial =
-      traffic_until(scenario, options, seed, scenario.mission.entry_time_s, EgoDriver::kUs);
+      traffic_until(scenario, options, seed, scenario.mission.entry_time_s, DrivenBy::kUs);
   free_start_zone(scenario, *trial);
   const int ticks = static_cast<int>(std::lround(kUndisturbed_s / kTick_s));
   LaneId before = scenario.mission.start_lane;
@@ -109,7 +108,7 @@ EnteredTraffic draw_entry(const Scenario& scenario, const WorldOptions& options,
     ++entered.redrawn;
   }
   entered.traffic = traffic_until(scenario, options, seed, scenario.mission.entry_time_s - options.pre_roll_s,
-                                  options.ego_by_traffic ? EgoDriver::kEngine : EgoDriver::kUs);
+                                  options.ego_by_traffic ? DrivenBy::kEngine : DrivenBy::kUs);
   entered.pre_roll = run_pre_roll(scenario, options.pre_roll_s, *entered.traffic);
   return entered;
 }

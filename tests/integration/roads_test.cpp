@@ -230,7 +230,7 @@ TEST(Roads, AreDrivenOnInSumo) {
     const WrittenRoad written = write_road(number, kMix, out.path());
     for (const std::string flavour : {"smarts", "social"}) {
       const Scenario road = world::load_scenario(written.folder, flavour);
-      const auto traffic = world::make_engine(road, {world::Engine::kSumo, 1, 1, world::EgoDriver::kUs});
+      const auto traffic = world::make_engine(road, {world::Engine::kSumo, 1, 1, world::DrivenBy::kUs});
       std::size_t most = 0;
       for (int tick = 0; tick < 3000; ++tick) {
         traffic->step(nullptr);

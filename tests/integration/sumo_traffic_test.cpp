@@ -35,7 +35,7 @@ EngineOptions without_ego(std::uint64_t seed) {
   EngineOptions options;
   options.engine = Engine::kSumo;
   options.seed = options.episode = seed;
-  options.ego = EgoDriver::kNobody;
+  options.ego = DrivenBy::kNobody;
   return options;
 }
 
@@ -183,7 +183,7 @@ TEST(SumoTraffic, MovesSmoothlyBetweenSteps) {
 TEST(SumoTraffic, StopsBehindAStandingEgo) {
   const Scenario scenario = shipped("overtake");
   EngineOptions options = without_ego(4);
-  options.ego = EgoDriver::kUs;
+  options.ego = DrivenBy::kUs;
   SumoTraffic traffic(scenario, options, {.early = false});
   const EgoSeen ego = standing_at(scenario, scenario.mission.start_lane, 120.0);
   bool stood = false;
@@ -199,7 +199,7 @@ TEST(SumoTraffic, StopsBehindAStandingEgo) {
 TEST(SumoTraffic, PlacesTheEgoAtTheStepsEnd) {
   const Scenario scenario = shipped("cruise");
   EngineOptions options = without_ego(4);
-  options.ego = EgoDriver::kUs;
+  options.ego = DrivenBy::kUs;
   SumoTraffic traffic(scenario, options, {.early = false});
   EgoSeen ego = standing_at(scenario, scenario.mission.start_lane, 20.0);
   ego.car.speed_mps = 13.0;
@@ -221,7 +221,7 @@ TEST(SumoTraffic, KeepsTheEgoOnItsRoute) {
   ASSERT_FALSE(way.empty());
   for (const bool on_route : {true, false}) {
     EngineOptions options = without_ego(4);
-    options.ego = EgoDriver::kUs;
+    options.ego = DrivenBy::kUs;
     SumoTraffic traffic(scenario, options, {.early = false, .on_route = on_route});
     int elsewhere = 0;
     for (const LaneId id : way) {
@@ -248,7 +248,7 @@ TEST(SumoTraffic, StopsBehindAnEgoOffItsRoute) {
   const Scenario scenario = shipped("left_turn");
   const LaneId oncoming = scenario.network.find("north_in_0");
   EngineOptions options = without_ego(4);
-  options.ego = EgoDriver::kUs;
+  options.ego = DrivenBy::kUs;
   SumoTraffic traffic(scenario, options, {.early = false});
   const EgoSeen ego = standing_at(scenario, oncoming, 60.0);
   bool stood = false;
@@ -499,7 +499,7 @@ TEST(SumoDriver, IsAPlannerOfTheCampaign) {
 // The built-in traffic drives no ego, and says so.
 TEST(TrafficEngine, OnlySumoDrivesTheEgo) {
   EngineOptions options;
-  options.ego = EgoDriver::kEngine;
+  options.ego = DrivenBy::kEngine;
   EXPECT_THROW((void)make_engine(shipped("cruise"), options), std::invalid_argument);
   EXPECT_EQ(engine_of("sumo"), Engine::kSumo);
   EXPECT_THROW((void)engine_of("vissim"), std::invalid_argument);

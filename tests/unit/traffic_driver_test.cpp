@@ -150,6 +150,104 @@ TEST(Traffic, IsNotSuperhuman) {
   EXPECT_GT(traffic.cars().front().centre.x, seen.actor.s_m - 5.0);
 }
 
+// Distraction is uniform (mean 1/2, variance 1/12), changes once a second at each driver's own instant, and
+// asking in another order changes nothing.
+TEST(TrafficDriver, IsDistractedByHash) {
+  double sum = 0.0;
+  double squares = 0.0;
+  int changes_on_the_whole_second = 0;
+  for (int car = 1; car <= 200; ++car) {
+    double before = distraction(9, car, 0.0);
+    int changes = 0;
+    for (int tick = 1; tick <= 200; ++tick) {
+      const double now = distraction(9, car, tick * 0.1);
+      changes_on_the_whole_second += now != before && tick % 10 == 0 ? 1 : 0;
+      changes += now != before ? 1 : 0;
+      before = now;
+      sum += now;
+      squares += now * now;
+    }
+    EXPECT_EQ(changes, 20);
+  }
+  const double mean = sum / 40000.0;  // of 4000 independent draws: deviation 0.0046
+  EXPECT_NEAR(mean, 0.5, 0.02);
+  EXPECT_NEAR(squares / 40000.0 - mean * mean, 1.0 / 12.0, 0.01);
+  EXPECT_LT(changes_on_the_whole_second, 1000);  // of 4000: a tenth of all, were instants drawn evenly
+  EXPECT_NE(distraction(9, 1, 0.0), distraction(10, 1, 0.0));
+}
+
+/// Two roads of 300 m that have nothing to do with each other.
+Network two_roads() {
+  Network network = straight_road();
+  NetworkLane other = network.lanes.front();
+  other.name = "other_0";
+  other.edge = "other";
+  other.centre = Polyline({{0.0, 500.0}, {300.0, 500.0}});
+  network.lanes.push_back(other);
+  return network;
+}
+
+// WORLD-022 Somebody stands at the start of one road for 20 s, so that its cars enter late: those of the
+// other road have the same ids, order and motion to the bit.
+TEST(Traffic, ALateEntryElsewhereChangesNobody) {
+  const Network network = two_roads();
+  FlowGroup elsewhere = flow(10.0, true);
+  elsewhere.routes = {{{"other"}, 0, 0}};
+  Traffic free(network, {flow(20.0, false), elsewhere}, 5);
+  Traffic blocked(network, {flow(20.0, false), elsewhere}, 5);
+  const EgoSeen seen{{}, ego_at(5.0, 0.0)};
+  bool differed = false;
+  int compared = 0;
+  for (int i = 0; i < 6000; ++i) {
+    free.step(nullptr);
+    blocked.step(i < 2000 ? &seen : nullptr);
+    std::vector<CarState> others[2];
+    for (const CarState& car : free.cars()) {
+      if (car.lane == 1) others[0].push_back(car);
+    }
+    for (const CarState& car : blocked.cars()) {
+      if (car.lane == 1) others[1].push_back(car);
+    }
+    differed = differed || free.cars().size() != blocked.cars().size();
+    ASSERT_EQ(others[0].size(), others[1].size());
+    for (std::size_t k = 0; k < others[0].size(); ++k) {
+      ASSERT_EQ(others[0][k].id, others[1][k].id);
+      ASSERT_EQ(others[0][k].centre.x, others[1][k].centre.x);
+      ASSERT_EQ(others[0][k].speed_mps, others[1][k].speed_mps);
+      ++compared;
+    }
+  }
+  EXPECT_TRUE(differed);
+  EXPECT_GT(compared, 1000);
+}
+
+// WORLD-023 A copy in the middle of it goes on as the original; another ego makes it another, and the
+// original does not notice.
+TEST(Traffic, IsCopied) {
+  const Network network = straight_road();
+  Traffic original(network, {flow(20.0, true)}, 5);
+  while (original.time_s() < 20.0) {
+    original.step(nullptr);
+  }
+  const std::unique_ptr<TrafficEngine> same = original.clone();
+  const std::unique_ptr<TrafficEngine> other = original.clone();
+  const EgoSeen seen{{}, ego_at(200.0, 0.0)};
+  bool differed = false;
+  for (int i = 0; i < 2000; ++i) {
+    other->step(&seen);
+    same->step(nullptr);
+    original.step(nullptr);
+    ASSERT_EQ(original.cars().size(), same->cars().size());
+    for (std::size_t k = 0; k < original.cars().size(); ++k) {
+      ASSERT_EQ(original.cars()[k].id, same->cars()[k].id);
+      ASSERT_EQ(original.cars()[k].centre.x, same->cars()[k].centre.x);
+      ASSERT_EQ(original.cars()[k].acceleration_mps2, same->cars()[k].acceleration_mps2);
+    }
+    differed = differed || other->cars().size() != original.cars().size();
+  }
+  EXPECT_TRUE(differed);
+}
+
 // Emptying a stretch takes those whose box reaches into it and nobody else.
 TEST(Traffic, ClearsAStretch) {
   const Network network = straight_road();

@@ -37,7 +37,7 @@ SumoDrive sumo_drive(const Scenario& scenario, std::uint64_t seed, const std::st
   EngineOptions options;
   options.engine = Engine::kSumo;
   options.seed = options.episode = seed;
-  options.ego = EgoDriver::kEngine;
+  options.ego = DrivenBy::kEngine;
   EgoCoupling as;
   as.driver = driver;
   SumoTraffic traffic(scenario, options, as);

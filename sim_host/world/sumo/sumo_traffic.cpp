@@ -126,7 +126,7 @@ SumoTraffic::SumoTraffic(const Scenario& scenario, const EngineOptions& options,
     lane_of_[scenario.network.lanes[i].name] = static_cast<LaneId>(i);
   }
   const std::int64_t entry = std::llround(scenario.mission.entry_time_s / kTick_s);
-  if (options.ego == EgoDriver::kEngine && (entry <= 0 || entry % kTicksPerStep != 0)) {
+  if (options.ego == DrivenBy::kEngine && (entry <= 0 || entry % kTicksPerStep != 0)) {
     throw std::runtime_error("SUMO's driver enters at a multiple of 0.1 s, at least 0.1 s; entry_time_s is " +
                              std::to_string(scenario.mission.entry_time_s));
   }
@@ -166,12 +166,12 @@ void SumoTraffic::add_ego() {
   Writer value;  // route, type, depart, lane, position, speed; arrival lane, position, speed; the rest unused
   value.compound(14).typed_text(kEgoName).typed_text(kEgoName).typed_text("now");
   value.typed_text("first").typed_text("base").typed_text("0");
-  value.typed_text(coupling_.wishes || options_.ego == EgoDriver::kEngine ? std::to_string(goal_lane.index)
-                                                                          : "current");
+  value.typed_text(coupling_.wishes || options_.ego == DrivenBy::kEngine ? std::to_string(goal_lane.index)
+                                                                         : "current");
   value.typed_text("max").typed_text("current");
   value.typed_text("").typed_text("").typed_text("").typed_integer(0).typed_integer(0);
   sumo_.client->set(Domain::kVehicle, traci::kAddFull, kEgoName, value);
-  if (options_.ego != EgoDriver::kEngine) {
+  if (options_.ego != DrivenBy::kEngine) {
     sumo_.client->set(Domain::kVehicle, traci::kSpeedMode, kEgoName,
                       Writer().typed_integer(coupling_.speed_mode));
     sumo_.client->set(Domain::kVehicle, traci::kLaneChangeMode, kEgoName,
@@ -220,17 +220,17 @@ void SumoTraffic::sumo_step(const EgoSeen* ego) {
     car.known_before = true;
     if (!car.arrived) {
       ++entry;
-    } else if (entry->first == kEgoName && options_.ego == EgoDriver::kEngine) {
+    } else if (entry->first == kEgoName && options_.ego == DrivenBy::kEngine) {
       car.after = rolled_on(car.before);
       ++entry;
     } else {
       entry = cars_.erase(entry);
     }
   }
-  if (options_.ego == EgoDriver::kEngine || (options_.ego == EgoDriver::kUs && coupling_.early)) {
+  if (options_.ego == DrivenBy::kEngine || (options_.ego == DrivenBy::kUs && coupling_.early)) {
     enter_ego();
   }
-  if (options_.ego == EgoDriver::kUs && ego != nullptr) {
+  if (options_.ego == DrivenBy::kUs && ego != nullptr) {
     if (!ego_there_) {
       add_ego();
     }
@@ -341,7 +341,7 @@ std::optional<CarState> SumoTraffic::ego_seen() const {
 }
 
 std::optional<CarState> SumoTraffic::driven_ego() const {
-  return options_.ego == EgoDriver::kEngine ? ego_seen() : std::nullopt;
+  return options_.ego == DrivenBy::kEngine ? ego_seen() : std::nullopt;
 }
 
 void SumoTraffic::clear(LaneId lane, double from_m, double to_m) {
