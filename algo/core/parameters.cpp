@@ -5,6 +5,7 @@
 #include <type_traits>
 
 #include "algo/core/check.hpp"
+#include "algo/core/crc32.hpp"
 #include "algo/core/inline.hpp"
 #include "algo/core/versions.hpp"
 
@@ -29,12 +30,6 @@ static_assert(std::is_standard_layout_v<Parameters> && std::is_trivially_copyabl
 std::size_t offset_of(int index) {
   S4TP_ASSERT(index >= 0 && index < kParameterCount);
   return static_cast<std::size_t>(index) * sizeof(float);
-}
-
-std::uint32_t crc32_byte(std::uint32_t crc, std::uint32_t byte) {
-  crc ^= byte & 0xFFU;
-  for (int bit = 0; bit < 8; ++bit) crc = (crc >> 1) ^ ((crc & 1U) != 0U ? 0xEDB88320U : 0U);
-  return crc;
 }
 
 }  // namespace
@@ -73,7 +68,7 @@ Status validate(const Parameters& parameters, int& first_bad) {
 }
 
 std::uint32_t parameters_crc(const Parameters& parameters) {
-  std::uint32_t crc = crc32_byte(0xFFFFFFFFU, kParametersVersion);
+  std::uint32_t crc = crc32_byte(kCrc32Start, kParametersVersion);
   for (int i = 0; i < kParameterCount; ++i) {
     const float value = get_parameter(parameters, i);
     std::uint32_t bits = 0;

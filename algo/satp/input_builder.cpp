@@ -1,5 +1,7 @@
 #include "algo/satp/input_builder.hpp"
 
+#include <new>
+
 #include "algo/core/inline.hpp"
 #include "algo/scene/agent_paths.hpp"
 
@@ -219,7 +221,7 @@ void read_ways(const Scene& scene, float lead_s, Ways& ways) {
 
 void build_network_input(const Scene& scene, const Parameters& parameters, float lead_s, const Ways& ways,
                          NetworkInput& input) {
-  input = NetworkInput{};
+  new (&input) NetworkInput;  // assigned, it would be made on the stack first
   input.hdvs = scene.watched;
   const float centre_m = centre_ahead_m(parameters);
   input.ego_anchor = shift_ahead(scene.ego.rear_axle, centre_m + scene.ego.speed_mps * lead_s);
@@ -253,7 +255,7 @@ void build_network_input(const Scene& scene, const Parameters& parameters, float
 
 void build_plan_input(const Trajectory& plan, const Parameters& parameters, const NetworkInput& input,
                       PlanInput& plan_input) {
-  plan_input = PlanInput{};
+  new (&plan_input) PlanInput;
   const float centre_m = centre_ahead_m(parameters);
   Pose knot[kDecoderSteps + 1];
   float driven_m[kDecoderSteps + 1] = {};

@@ -34,10 +34,10 @@ inline constexpr NetworkShape kFullShape = {3, 128, 8, 512, 128, 128, kMaxModes,
 enum class LayerKind : std::uint8_t {
   kLinear,     ///< bias int32 [bias_rows][rows], multiplier int32 or scale float [rows], weights int8
                ///< [rows][stride]
-  kLayerNorm,  ///< bias int32 [rows], gain int16 [rows]
+  kLayerNorm,  ///< bias int32 [rows], gain int32 [rows]
   kAdd,        ///< multiplier int32 of each addend that needs one [rows]
   kScores,     ///< multiplier int32 [1] from a product of query and key to the softmax's argument
-  kVector,     ///< int16 [rows]
+  kVector,     ///< int32 [rows]
 };
 
 /// How values stand between layers.
@@ -101,8 +101,9 @@ enum Layer : std::uint8_t {
   kOwnEmbed,
   kPlanEmbed,
   kNullPlan,
+  kGruMix,
   kGruGates,
-  kGruInput,
+  kGruFromInput,
   kGruState,
   kIncrements,
   kHeadScore,
@@ -123,9 +124,8 @@ enum Layer : std::uint8_t {
     case LayerKind::kLinear:
       return 4 * info.rows * (info.bias_rows + 1) + info.rows * row_stride(info);
     case LayerKind::kLayerNorm:
-      return 4 * info.rows + (2 * info.rows + 3) / 4 * 4;
+      return 8 * info.rows;
     case LayerKind::kVector:
-      return (2 * info.rows + 3) / 4 * 4;
     case LayerKind::kAdd:
     case LayerKind::kScores:
       break;
@@ -262,6 +262,7 @@ inline constexpr Row kRows[] = {
     S4TP_LINEAR("own.embed", kEmbed, kOwn, kQ13, kInt16Relu),
     S4TP_LINEAR("plan.embed", kEmbed, kPlan, kQ13, kInt16Relu),
     S4TP_OTHER("null_plan", kVector, kEmbed, kInt16Relu),
+    S4TP_OTHER("gru.mix", kAdd, kOne, kInt8Relu),
     S4TP_LINEAR("gru.gates", kTwoHidden, kGateInput, kInt8, kQ12),
     S4TP_LINEAR("gru.input", kHidden, kEmbed, kInt8Relu, kQ12),
     S4TP_LINEAR("gru.state", kHidden, kHidden, kInt8, kQ12),

@@ -33,6 +33,12 @@ case $case in
     run
     expect 0 '^optimizer bits'
     ;;
+  network_check) # SATP-020, SATP-030: network_check.cpp judges
+    timeout 500 "${runner[@]}" --count "$target" "$image" </dev/null >"$scratch/out"
+    code=$?
+    cat "$scratch/out"
+    expect 0 '^network bits'
+    ;;
   changed_frame) # one hexadecimal digit of one Command frame
     first_ticks | awk '/ 008#/ && ++n == 40 { d = substr($0, length($0)); sub(/.$/, d == "7" ? "6" : "7") } { print }' \
       >"$scratch/changed.log"

@@ -1,0 +1,118 @@
+#include "algo/satp/decoder.hpp"
+
+#include <cstring>
+
+#include "algo/core/inline.hpp"
+#include "algo/satp/embedding.hpp"
+#include "algo/satp/gru_cell.hpp"
+#include "algo/satp/kernels.hpp"
+#include "algo/satp/linear.hpp"
+#include "algo/satp/requantize.hpp"
+#include "algo/satp/step_features.hpp"
+
+namespace s4tp::satp {
+namespace {
+
+constexpr int kModes = kMcuShape.modes;
+constexpr int kIncrementRows = 3 * kStepsPerDecode;
+constexpr float kStepOfDecodeS = kStepS * static_cast<float>(kStepsPerDecode);
+constexpr float kFarthestM = 250.0F;  // no vehicle comes this far in 3 s
+static_assert(kModes <= kMaxBatch, "the modes of a vehicle go through the kernels together");
+
+// GRU input of every mode: where it has come to, and our plan as far as the gate lets it in.
+void mix_inputs(const Weights& weights, const Encoded& encoded, int hdv, const float (*plan)[kPlanValues],
+                int step, const StepState (&states)[kModes], std::int8_t (*inputs)[kGruInput]) {
+  constexpr int kOwnColumns = padded(kOwnFeatures);
+  constexpr int kPlanColumns = padded(kPlanFeatures);
+  alignas(4) std::int16_t own_rows[kModes][kOwnColumns];
+  alignas(4) std::int16_t plan_rows[kModes][kPlanColumns];
+  std::int16_t own[kModes][kEmbed];
+  std::int16_t ours[kModes][kEmbed];
+  for (int k = 0; k < kModes; ++k) {
+    float features[kOwnFeatures];
+    own_features(states[k], encoded.speed_mps[hdv], step, features);
+    embed_features(features, kOwnUnit, own_rows[k]);
+    if (plan == nullptr) continue;
+    float seen[kPlanFeatures];
+    plan_features(states[k], plan[step], encoded.pair[hdv], seen);
+    embed_features(seen, kPlanUnit, plan_rows[k]);
+  }
+  linear_relu(weights.linear(kOwnEmbed), {own_rows[0], kOwnColumns}, kModes,
+              Rows<std::int16_t>{own[0], kEmbed});
+  if (plan != nullptr) {
+    linear_relu(weights.linear(kPlanEmbed), {plan_rows[0], kPlanColumns}, kModes,
+                Rows<std::int16_t>{ours[0], kEmbed});
+  } else {
+    const std::int32_t* null_plan = weights.words(kNullPlan);
+    for (std::int16_t(&row)[kEmbed] : ours) {
+      for (int c = 0; c < kEmbed; ++c) row[c] = static_cast<std::int16_t>(null_plan[c]);
+    }
+  }
+  const std::int32_t multiplier = weights.words(kGruMix)[0];
+  const std::int32_t gate = encoded.gate[hdv];
+  for (int k = 0; k < kModes; ++k) {
+    for (int c = 0; c < kEmbed; ++c) {
+      const std::int32_t sum = own[k][c] + ((gate * ours[k][c] + (1 << 14)) >> 15);
+      const std::int32_t q = requantize(sum, multiplier);
+      inputs[k][c] = static_cast<std::int8_t>((q > 254 ? 254 : q) - 127);
+    }
+  }
+}
+
+// Increments are what the vehicle does beyond keeping its speed.
+void advance(const float* increments, float speed_mps, StepState& state, Pose* poses) {
+  const Pose before = state.last;
+  for (int i = 0; i < kStepsPerDecode; ++i) {
+    const float* increment = increments + 3 * i;
+    state.last.x_m = clamp(state.last.x_m + (speed_mps * kStepS + increment[0]), -kFarthestM, kFarthestM);
+    state.last.y_m = clamp(state.last.y_m + increment[1], -kFarthestM, kFarthestM);
+    state.last.heading_rad = wrap_angle(state.last.heading_rad + clamp(increment[2], -1.0F, 1.0F));
+    poses[i] = state.last;
+  }
+  state.velocity_x_mps = (state.last.x_m - before.x_m) / kStepOfDecodeS;
+  state.velocity_y_mps = (state.last.y_m - before.y_m) / kStepOfDecodeS;
+}
+
+// Softmax over the modes' scores.
+void weigh(const float (&scores)[kModes], float temperature, float (&probability)[kModes]) {
+  float largest = scores[0];
+  for (const float score : scores) largest = max(largest, score);
+  float sum = 0.0F;
+  for (int k = 0; k < kModes; ++k) {
+    probability[k] = exp((scores[k] - largest) / temperature);
+    sum += probability[k];
+  }
+  for (float& value : probability) value = value / sum;
+}
+
+}  // namespace
+
+void decode(const Weights& weights, const Encoded& encoded, int hdv, const float (*plan)[kPlanValues],
+            Futures& futures) {
+  const GruCell cell = gru_at(weights);
+  const Linear head = weights.linear(kIncrements);
+  std::int16_t states[kModes][kHidden];
+  alignas(4) std::int8_t inputs[kModes][kGruInput];
+  float increments[kModes][kIncrementRows];
+  StepState steps[kModes];
+  std::memcpy(states, encoded.start[hdv], sizeof states);
+  for (StepState& step : steps) step.velocity_x_mps = encoded.speed_mps[hdv];
+  for (int s = 0; s < kDecoderSteps; ++s) {
+    mix_inputs(weights, encoded, hdv, plan, s, steps, inputs);
+    gru_step(cell, inputs, kModes, states);
+    linear(head, {states[0], kHidden}, kModes, Rows<float>{increments[0], kIncrementRows});
+    for (int k = 0; k < kModes; ++k)
+      advance(increments[k], encoded.speed_mps[hdv], steps[k], &futures.poses[k][s * kStepsPerDecode]);
+  }
+
+  alignas(4) std::int16_t ends[kModes][2 * kHidden];
+  float scores[kModes];
+  for (int k = 0; k < kModes; ++k) {
+    std::memcpy(ends[k], encoded.start[hdv][k], sizeof states[k]);
+    std::memcpy(ends[k] + kHidden, states[k], sizeof states[k]);
+  }
+  linear(weights.linear(kHeadScore), {ends[0], 2 * kHidden}, kModes, Rows<float>{scores, 1});
+  weigh(scores, weights.header().temperature, futures.probability);
+}
+
+}  // namespace s4tp::satp

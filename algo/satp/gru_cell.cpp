@@ -1,0 +1,45 @@
+#include "algo/satp/gru_cell.hpp"
+
+#include "algo/satp/activation.hpp"
+#include "algo/satp/kernels.hpp"
+#include "algo/satp/linear.hpp"
+#include "algo/satp/requantize.hpp"
+
+namespace s4tp::satp {
+namespace {
+
+// Product of a value and a share in 2^-15.
+std::int32_t share_of(std::int32_t share_q15, std::int32_t value) {
+  return (share_q15 * value + (1 << 14)) >> 15;
+}
+
+}  // namespace
+
+GruCell gru_at(const Weights& weights) {
+  return {weights.linear(kGruGates), weights.linear(kGruFromInput), weights.linear(kGruState)};
+}
+
+void gru_step(const GruCell& cell, std::int8_t (*inputs)[kGruInput], int count,
+              std::int16_t (*states)[kHidden]) {
+  std::int16_t gates[kMaxBatch][2 * kHidden];
+  std::int16_t from_input[kMaxBatch][kHidden];
+  std::int16_t from_state[kMaxBatch][kHidden];
+  for (int b = 0; b < count; ++b) {
+    for (int c = 0; c < kHidden; ++c)
+      inputs[b][kEmbed + c] = static_cast<std::int8_t>(saturate((states[b][c] + 128) >> 8, 127));
+  }
+  linear(cell.gates, {inputs[0], kGruInput}, count, Rows<std::int16_t>{gates[0], 2 * kHidden});
+  linear(cell.input, {inputs[0], kGruInput}, count, Rows<std::int16_t>{from_input[0], kHidden});
+  linear(cell.state, {inputs[0] + kEmbed, kGruInput}, count, Rows<std::int16_t>{from_state[0], kHidden});
+  for (int b = 0; b < count; ++b) {
+    for (int c = 0; c < kHidden; ++c) {
+      const std::int32_t reset = sigmoid_q15(gates[b][c]);
+      const std::int32_t keep = sigmoid_q15(gates[b][kHidden + c]);
+      const std::int32_t argument = from_input[b][c] + share_of(reset, from_state[b][c]);
+      const std::int32_t candidate = tanh_q15(static_cast<std::int16_t>(saturate(argument, 32767)));
+      states[b][c] = static_cast<std::int16_t>(candidate + share_of(keep, states[b][c] - candidate));
+    }
+  }
+}
+
+}  // namespace s4tp::satp

@@ -1,0 +1,37 @@
+#pragma once
+/// Linear layers with what follows them: y = requantize(bias + W x), saturated, ReLU where the name says so.
+/// SATP-021 Whatever the input, outputs stay in -127 .. 127 or -32767 .. 32767; never -128: a kernel may rely
+/// on it. Internal: for algo/satp's own sources.
+///
+/// Inputs and outputs are rows of `stride` elements, 4-byte aligned; `count` of them, any number. `bias` is
+/// the layer's, or one of its rows.
+
+#include <cstdint>
+
+#include "algo/satp/weight_image.hpp"
+
+namespace s4tp::satp {
+
+template <typename T>
+struct Rows {
+  T* data;
+  int stride;
+
+  [[nodiscard]] T* operator[](int index) const { return data + index * stride; }
+};
+
+void linear(const Linear& layer, Rows<const std::int8_t> inputs, int count, Rows<std::int8_t> outputs);
+void linear_relu(const Linear& layer, Rows<const std::int8_t> inputs, int count, Rows<std::int8_t> outputs);
+void linear_relu(const Linear& layer, Rows<const std::int16_t> inputs, int count, Rows<std::int8_t> outputs);
+/// int16 outputs, of int8 or int16 inputs.
+void linear(const Linear& layer, Rows<const std::int8_t> inputs, int count, Rows<std::int16_t> outputs);
+void linear(const Linear& layer, Rows<const std::int16_t> inputs, int count, Rows<std::int16_t> outputs);
+void linear_relu(const Linear& layer, Rows<const std::int16_t> inputs, int count, Rows<std::int16_t> outputs);
+/// Each row with a bias of its own: row i of the table is that of input i.
+void linear_by_row(const Linear& layer, Rows<const std::int8_t> inputs, int count, Rows<std::int8_t> outputs);
+/// One input, every row of the bias table: `outputs` has as many rows.
+void linear_by_bias(const Linear& layer, const std::int8_t* input, int bias_rows, Rows<std::int16_t> outputs);
+/// Real numbers: sums times the layer's scales.
+void linear(const Linear& layer, Rows<const std::int16_t> inputs, int count, Rows<float> outputs);
+
+}  // namespace s4tp::satp
