@@ -10,6 +10,7 @@
 #include "algo/safety/rss.hpp"
 #include "algo/trajectory/along_path.hpp"
 #include "algo/trajectory/bicycle.hpp"
+#include "algo/trajectory/standing_room.hpp"
 
 namespace s4tp {
 namespace {
@@ -94,6 +95,7 @@ Status Planner::plan(const PlannerInput& input, Plan& plan, Explanation& explana
                                     parameters_, scene_);
       if (others_stand) let_others_stand(scene_);
       build_drivable(input.map, drivable_);
+      keep_aside(parameters_, scene_);
       count(explanation, Stage::kScene, scene_.agents.size());
     }
     start_ = plan_start(input.ego, input.now_ms, running_, start_ms_, parameters_);

@@ -3,7 +3,6 @@
 #include "algo/planner/planner.hpp"
 #include "algo/planner/scoring.hpp"
 #include "algo/planner/stage_scope.hpp"
-#include "algo/trajectory/standing_room.hpp"
 
 namespace s4tp {
 namespace {
@@ -94,7 +93,6 @@ void Planner::rank(bool careful, Explanation& explanation) {
   keeps_plan_ = false;
   {
     const StageScope scope(probe, Stage::kCandidates);
-    keep_aside(parameters_, scene_);
     int left_out = 0;
     Ranking ranking(*this, careful, explanation);
     generate_candidates(scene_, start_, running_, start_ms_, parameters_, allowance.candidates, lines_,

@@ -10,6 +10,8 @@ constexpr float kStripM = 0.2F;          // room on both sides of our width that
 constexpr float kInOwnLaneM = 0.6F;      // nearer to its own lane's centre it is not in ours
 constexpr float kCrossingCos = 0.7071F;  // 45 degrees
 constexpr float kMovingMps = 1.5F;
+constexpr float kSweepM = 0.75F;
+constexpr int kMostSweeps = 44;  // the longest vehicle and ours
 constexpr float kFarM = 200.0F;
 constexpr float kAtGoalM = 2.0F;  // a goal at the very end of a road counts as on it
 
@@ -30,6 +32,24 @@ bool clear_of(const Scene& scene, const EgoPath& path, const Agent& agent) {
   float start_s_m = 0.0F;
   return !lane_start(path.path, agent.lane, start_s_m) && abs(agent.frenet[0].d_m) < kInOwnLaneM &&
          agent.track.length_m < 10.0F;
+}
+
+/// Whether our box, driven along the path, comes within kStripM of a vehicle that stands across or against it.
+bool sweeps(const Scene& scene, const EgoPath& path, const Agent& agent, const OnPath& seen,
+            const Parameters& parameters) {
+  const Box other{agent.track.centre, agent.track.length_m, agent.track.width_m};
+  const float from_s_m = seen.centre_s_m - seen.half_length_m - rear_axle_to_front_m(parameters);
+  const float to_s_m = seen.centre_s_m + seen.half_length_m + parameters.vehicle.rear_overhang_m;
+  PathCursor cursor(*scene.map, path.path);
+  for (int i = 0; i < kMostSweeps; ++i) {
+    const float s_m = from_s_m + static_cast<float>(i) * kSweepM;
+    if (s_m > to_s_m) break;
+    const Pose centre_line = cursor.at(s_m).pose;
+    const Point there = offset_point(centre_line, 0.0F, path.aside_m);
+    const Box ours = ego_box({there.x_m, there.y_m, centre_line.heading_rad}, parameters);
+    if (separation(ours, other) < kStripM) return true;
+  }
+  return false;
 }
 
 /// Whether the vehicle is still before the path's first lane, on a way that leads into it: seen along its own
@@ -74,6 +94,9 @@ OnPath see_on_path(const Scene& scene, const EgoPath& path, const Agent& agent, 
   seen.left_mps = agent.track.speed_mps * signed_sine;
   seen.crossing = cosine < kCrossingCos && agent.track.speed_mps > kMovingMps;
   seen.overlaps = abs(seen.centre_d_m) < 0.5F * parameters.vehicle.width_m + seen.half_width_m + kStripM;
+  // Along the path its strip tells; across or against it boxes do: in a bend they pass where strips overlap.
+  if (seen.overlaps && cosine < kCrossingCos && !seen.crossing)
+    seen.overlaps = sweeps(scene, path, agent, seen, parameters);
   return seen;
 }
 

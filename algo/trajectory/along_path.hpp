@@ -9,7 +9,8 @@ namespace s4tp {
 
 /// A vehicle seen along one of our paths.
 struct OnPath {
-  bool overlaps = false;    ///< its box reaches into the strip a car of our width needs
+  bool overlaps = false;    ///< its box reaches into the strip a car of our width needs; standing across
+                            ///< or against us: our box would come within 0.2 m of it
   float centre_s_m = 0.0F;  ///< of its box centre
   float centre_d_m = 0.0F;
   float half_length_m = 0.0F;  ///< of its box along the path, whatever its heading

@@ -10,6 +10,7 @@ constexpr float kStandsMps = 0.3F;  // all that a standing car's measured speed 
 constexpr float kStepM = 0.5F;
 constexpr int kStepsAhead = 60;
 constexpr float kWideM = 100.0F;       // wider than any lane
+constexpr float kRoundingM = 0.01F;
 constexpr float kAcrossCos = 0.7071F;  // 45 degrees
 
 constexpr float kAsidesM[] = {0.0F, -0.35F, 0.35F, -0.7F, 0.7F};
@@ -50,7 +51,7 @@ unsigned passed_from(const Pose& centre_line, const Box& other, unsigned from, c
 unsigned within_lane(float width_m, const Parameters& parameters) {
   unsigned within = 1U;
   for (int k = 1; k < kAsides; ++k) {
-    if (2.0F * abs(kAsidesM[k]) + parameters.vehicle.width_m <= width_m) within |= 1U << k;
+    if (2.0F * abs(kAsidesM[k]) + parameters.vehicle.width_m <= width_m + kRoundingM) within |= 1U << k;
   }
   return within;
 }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include "algo/trajectory/along_path.hpp"
 #include "tests/support/crossing.hpp"
 
 namespace s4tp {
@@ -46,6 +47,23 @@ TEST(StandingRoom, NotBeyondTheLane) {
     narrow.map.lanes[0].width_m = 2.6F;
     EXPECT_FLOAT_EQ(narrow.aside_m(), front_m < -1.0F ? 0.35F : 0.0F);
   }
+}
+
+// CAND-018 To the last centimetre: 0.7 m aside, a car of 1.8 m fills a lane of 3.2 m.
+TEST(StandingRoom, AllOfTheLane) {
+  Bystander narrow(-0.8F);
+  narrow.map.lanes[0].width_m = 3.2F;
+  EXPECT_FLOAT_EQ(narrow.aside_m(), 0.7F);
+}
+
+// CAND-018 Whom we pass aside does not lead us: its front, 0.8 m right of the line, is in the strip we need on
+// the line (0.9 + 0.2 m), and 0.6 m from our side when we drive 0.7 m to the left.
+TEST(StandingRoom, WhomWePassDoesNotLeadUs) {
+  Bystander passed(-0.8F);
+  const EgoPath& path = passed.scene.ego_paths[0];
+  EXPECT_EQ(find_leader(passed.scene, path, path.frenet.s_m, passed.parameters).agent, 0);
+  EXPECT_FLOAT_EQ(passed.aside_m(), 0.7F);
+  EXPECT_EQ(find_leader(passed.scene, path, path.frenet.s_m, passed.parameters).agent, -1);
 }
 
 // CAND-018 At 0.5 m/s it does not stand; along our way it is who leads us; and from 35 m away it is not
