@@ -57,9 +57,10 @@ TEST(StandingRoom, AllOfTheLane) {
 }
 
 // CAND-018 Whom we pass aside does not lead us: its front, 0.8 m right of the line, is in the strip we need on
-// the line (0.9 + 0.2 m), and 0.6 m from our side when we drive 0.7 m to the left.
+// the line (0.9 + 0.2 m), and 0.6 m from our side when we drive 0.7 m to the left. (It is in no lane of its own.)
 TEST(StandingRoom, WhomWePassDoesNotLeadUs) {
   Bystander passed(-0.8F);
+  passed.scene.agents[0].lane = kNoLaneIndex;
   const EgoPath& path = passed.scene.ego_paths[0];
   EXPECT_EQ(find_leader(passed.scene, path, path.frenet.s_m, passed.parameters).agent, 0);
   EXPECT_FLOAT_EQ(passed.aside_m(), 0.7F);
