@@ -18,6 +18,8 @@ const char* status_name(Status status) {
       return "kNoLane";
     case Status::kNoSafePlan:
       return "kNoSafePlan";
+    case Status::kStaleTracks:
+      return "kStaleTracks";
   }
   return "unknown";
 }

@@ -13,6 +13,7 @@ enum class Status : std::uint8_t {
   kInvalidInput = 4,  ///< CORE-005 an input is not finite or outside its documented range
   kNoLane = 5,        ///< CORE-006 no lane under the car: only the minimum-risk manoeuvre is possible
   kNoSafePlan = 6,    ///< CORE-007 every candidate was rejected; the plan is the minimum-risk manoeuvre
+  kStaleTracks = 7,   ///< CORE-008 the list of tracks cannot be used; the plan is the minimum-risk manoeuvre
 };
 
 /// \return the enumerator's name, for logs

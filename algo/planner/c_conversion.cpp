@@ -25,7 +25,8 @@ constexpr bool same(Enum core, std::uint32_t c) {
 static_assert(same(Status::kOk, S4TP_OK) && same(Status::kNotInitialized, S4TP_NOT_INITIALIZED) &&
               same(Status::kInvalidParameter, S4TP_INVALID_PARAMETER) &&
               same(Status::kArithmetic, S4TP_ARITHMETIC) && same(Status::kInvalidInput, S4TP_INVALID_INPUT) &&
-              same(Status::kNoLane, S4TP_NO_LANE) && same(Status::kNoSafePlan, S4TP_NO_SAFE_PLAN));
+              same(Status::kNoLane, S4TP_NO_LANE) && same(Status::kNoSafePlan, S4TP_NO_SAFE_PLAN) &&
+              same(Status::kStaleTracks, S4TP_STALE_TRACKS));
 static_assert(same(LaneKind::kOurs, S4TP_LANE_OURS) && same(LaneKind::kOpposite, S4TP_LANE_OPPOSITE) &&
               same(LaneKind::kShoulder, S4TP_LANE_SHOULDER));
 static_assert(same(Priority::kFirstYields, S4TP_FIRST_YIELDS) &&

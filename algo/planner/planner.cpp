@@ -99,6 +99,7 @@ Status Planner::plan(const PlannerInput& input, Plan& plan, Explanation& explana
       count(explanation, Stage::kScene, scene_.agents.size());
     }
     start_ = plan_start(input.ego, input.now_ms, running_, start_ms_, parameters_);
+    if (status == Status::kOk && scene_.list_refused) status = Status::kStaleTracks;
     if (status == Status::kOk) {
       guard_.look(scene_, start_, 0.001F * static_cast<float>(start_ms_ - scene_.time_ms), parameters_);
       predict(explanation);

@@ -51,8 +51,9 @@ class Planner {
   [[nodiscard]] Status init(const Parameters& parameters);
 
   /// Plans from the state predicted for input.start_ms. Always writes a plan that can be driven: on kNoLane
-  /// and kNoSafePlan the minimum-risk manoeuvre. \return kOk, kNoLane, kNoSafePlan, kInvalidInput (plan =
-  /// minimum-risk), kNotInitialized (plan untouched)
+  /// and kNoSafePlan the minimum-risk manoeuvre; on kStaleTracks too, whatever the scene still knows of the
+  /// others. \return kOk, kNoLane, kNoSafePlan, kStaleTracks, kInvalidInput (plan = minimum-risk),
+  /// kNotInitialized (plan untouched)
   [[nodiscard]] Status plan(const PlannerInput& input, Plan& plan, Explanation& explanation);
 
   /// What the optimizer was asked in the last cycle, for benchmarks; null when it was not asked.

@@ -34,23 +34,24 @@ extern "C" {
 
 /* ---- Answers ---------------------------------------------------------------------------------------- */
 
-/// What a call answers. Only S4TP_OK is success; those up to S4TP_NO_SAFE_PLAN are the core's own.
+/// What a call answers. Only S4TP_OK is success; those up to S4TP_STALE_TRACKS are the core's own.
 typedef int32_t s4tp_status;
 #define S4TP_OK 0
 #define S4TP_NOT_INITIALIZED 1    ///< no successful s4tp_init() on this block, or the block was moved since
 #define S4TP_INVALID_PARAMETER 2  ///< a parameter is not finite or outside its range
 #define S4TP_ARITHMETIC 3         ///< this processor or build rounds, fuses or flushes where it must not
-#define S4TP_INVALID_INPUT 4      ///< an input is not finite or outside its range; the plan is minimum-risk
+#define S4TP_INVALID_INPUT 4      ///< an input is not finite or outside its range; the plan is a stop, or none
 #define S4TP_NO_LANE 5            ///< no lane under or before the car; the plan is minimum-risk
 #define S4TP_NO_SAFE_PLAN 6       ///< every candidate was rejected; the plan is minimum-risk
-#define S4TP_INVALID_ARGUMENT 7   ///< a null or misaligned pointer, an unknown name; nothing was written
+#define S4TP_STALE_TRACKS 7       ///< the list is thrown away for its time; the plan is minimum-risk
+#define S4TP_INVALID_ARGUMENT 8   ///< a null or misaligned pointer, an unknown name; nothing was written
 
 /// API-001 The constant's name ("S4TP_OK"), or "unknown status".
 const char* s4tp_status_name(s4tp_status status);
 
 /* ---- Versions --------------------------------------------------------------------------------------- */
 
-#define S4TP_API_VERSION 2  ///< of this header; compare with s4tp_get_versions().api once at start
+#define S4TP_API_VERSION 3  ///< of this header; compare with s4tp_get_versions().api once at start
 
 typedef struct s4tp_versions {
   uint8_t api;         ///< of the library linked
@@ -136,7 +137,7 @@ typedef struct s4tp_track {
 
 /// All vehicles around us at one instant. A vehicle missing from a list is coasted for 0.5 s, then dropped.
 typedef struct s4tp_tracks {
-  uint32_t time_ms;  ///< vehicle time of the list
+  uint32_t time_ms;  ///< vehicle time of the list: at most 500 ms from now_ms, not before the last one's
   int32_t count;     ///< 0 .. S4TP_MAX_TRACKS
   s4tp_track items[S4TP_MAX_TRACKS];
 } s4tp_tracks;
@@ -295,9 +296,12 @@ typedef struct s4tp_input {
 /// One planning cycle.
 /// \param explanation  null, or receives why
 /// \return S4TP_OK                API-011 the same bits as the C++ planner's, on every processor
-///         S4TP_INVALID_INPUT, S4TP_NO_LANE, S4TP_NO_SAFE_PLAN
-///                                API-012 the plan is a minimum-risk manoeuvre that can be driven; a map,
-///                                list or running plan that is not as documented counts as none
+///         S4TP_NO_LANE, S4TP_NO_SAFE_PLAN, S4TP_STALE_TRACKS
+///                                API-012 the plan is a minimum-risk manoeuvre that can be driven
+///         S4TP_INVALID_INPUT     API-012 the same, and a map, list or running plan that is not as
+///                                documented counts as none. API-016 It begins at the ego's own state; where
+///                                that is not as documented, at the running plan's, else at the last valid
+///                                one; where none ever was, the plan is S4TP_PLAN_NONE, all zeros
 ///         S4TP_NOT_INITIALIZED, S4TP_INVALID_ARGUMENT
 ///                                API-013 nothing is written
 s4tp_status s4tp_make_plan(s4tp_block* block, const s4tp_input* input, s4tp_plan* plan,

@@ -108,6 +108,8 @@ const char* s4tp_status_name(s4tp_status status) {
       return "S4TP_NO_LANE";
     case S4TP_NO_SAFE_PLAN:
       return "S4TP_NO_SAFE_PLAN";
+    case S4TP_STALE_TRACKS:
+      return "S4TP_STALE_TRACKS";
     case S4TP_INVALID_ARGUMENT:
       return "S4TP_INVALID_ARGUMENT";
     default:

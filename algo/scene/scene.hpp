@@ -70,6 +70,7 @@ struct Scene {
   int watched = 0;                          ///< <= kMaxAgents, predicted with interaction
   const LaneMap* map = nullptr;             ///< valid during the cycle only
   float waited_s = 0.0F;  ///< how long we have stood at the junction we are at or in (CORE-033)
+  bool list_refused = false;  ///< CORE-008 the list lies over 500 ms from the scene, or before the last one
 };
 
 /// Which vehicles SATP watches (METHOD 4.0).

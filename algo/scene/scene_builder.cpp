@@ -218,6 +218,7 @@ Status SceneBuilder::build(std::uint32_t time_ms, const EgoState& ego, const Tra
   scene.map = map;
   scene.ego = EgoState{};
   scene.waited_s = 0.0F;
+  scene.list_refused = false;
   if (!sound(ego)) {
     reset();
     scene.ego_history = History{};
@@ -226,9 +227,12 @@ Status SceneBuilder::build(std::uint32_t time_ms, const EgoState& ego, const Tra
   scene.ego = ego;
   const std::int32_t step_ms = started_ ? elapsed_ms(last_ms_, time_ms) : 0;
   advance_time(time_ms);
-  const bool newer = past_.empty() || !started_ || elapsed_ms(last_list_ms_, list_time_ms) > 0;
+  const bool first = past_.empty() || !started_;
+  const std::int32_t since_last_ms = elapsed_ms(last_list_ms_, list_time_ms);
   const std::int32_t list_age_ms = elapsed_ms(list_time_ms, time_ms);
-  if (newer && list_age_ms <= kCoastMs && list_age_ms >= -kCoastMs) take_list(tracks, list_time_ms);
+  const bool in_time = list_age_ms <= kCoastMs && list_age_ms >= -kCoastMs;
+  scene.list_refused = !in_time || (!first && since_last_ms < 0);
+  if (in_time && (first || since_last_ms > 0)) take_list(tracks, list_time_ms);
   started_ = true;
 
   const LaneTable table(map);

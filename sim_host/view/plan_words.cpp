@@ -198,6 +198,8 @@ std::string because_words(const campaign::CycleTrace& cycle, const Reason& reaso
       return "no way on is safe enough";
     case Because::kBadInput:
       return "what the sensors say cannot be right";
+    case Because::kNobodySeen:
+      return "the sensors have not said for too long who is around";
   }
   return "";
 }
@@ -253,6 +255,8 @@ Reason reason_of(const campaign::CycleTrace& cycle) {
       return about(doing, Because::kNoLane);
     case Status::kNoSafePlan:
       return about(doing, Because::kNoSafeWay, cycle.record.explanation.held_up.track);
+    case Status::kStaleTracks:
+      return about(doing, Because::kNobodySeen);
     default:
       return about(doing, Because::kBadInput);
   }

@@ -32,6 +32,7 @@ enum class Because {
   kNoLane,
   kNoSafeWay,
   kBadInput,
+  kNobodySeen,
 };
 
 /// Why, without its numbers: plans with the same reason are one passage.

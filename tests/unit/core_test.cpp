@@ -65,15 +65,15 @@ TEST(Plan, SampleHoldsTheEnds) {
   EXPECT_EQ(sample(plan, 0xFFFFFF00U + 9000U).speed_mps, 30.0F);
 }
 
-// CORE-001 CORE-002 CORE-003 CORE-004 CORE-005 CORE-006 CORE-007: every status has a name of its own.
+// CORE-001 CORE-002 CORE-003 CORE-004 CORE-005 CORE-006 CORE-007 CORE-008: every status has a name of its own.
 TEST(Status, NamesAreDistinct) {
   std::set<std::string> names;
   for (const Status status :
        {Status::kOk, Status::kNotInitialized, Status::kInvalidParameter, Status::kArithmetic,
-        Status::kInvalidInput, Status::kNoLane, Status::kNoSafePlan}) {
+        Status::kInvalidInput, Status::kNoLane, Status::kNoSafePlan, Status::kStaleTracks}) {
     names.insert(status_name(status));
   }
-  EXPECT_EQ(names.size(), 7U);
+  EXPECT_EQ(names.size(), 8U);
   EXPECT_EQ(names.count("unknown"), 0U);
 }
 

@@ -253,6 +253,31 @@ TEST_F(CFacade, AnswersInvalidInputWithMinimumRisk) {
   EXPECT_EQ(plan.kind, static_cast<std::uint32_t>(S4TP_PLAN_MINIMUM_RISK));
 }
 
+// CORE-008, API-012: a list that is thrown away for its time never answers OK, and the plan is a stop: over 500 ms
+// old, as far ahead, time 0, older than the one before. One cycle later with a fresh list it drives on.
+TEST_F(CFacade, AListThrownAwayIsAStop) {
+  input.now_ms = 100'000;
+  const auto cycle = [this](std::uint32_t list_ms) {
+    input.start_ms = input.now_ms + 100U;
+    tracks.time_ms = list_ms;
+    const s4tp_status status = plan_now();
+    const bool stop = plan.kind == S4TP_PLAN_MINIMUM_RISK && plan.points[30].speed_mps < 0.1F;
+    EXPECT_EQ(status == S4TP_OK, !stop) << list_ms;
+    EXPECT_EQ(why.status, status);
+    input.now_ms += 100U;
+    return status;
+  };
+  EXPECT_EQ(cycle(input.now_ms - 500U), S4TP_OK);
+  EXPECT_EQ(cycle(input.now_ms - 501U), S4TP_STALE_TRACKS);
+  EXPECT_EQ(cycle(input.now_ms + 501U), S4TP_STALE_TRACKS);
+  EXPECT_EQ(cycle(0), S4TP_STALE_TRACKS);
+  EXPECT_EQ(cycle(input.now_ms), S4TP_OK);
+  EXPECT_EQ(cycle(input.now_ms - 150U), S4TP_STALE_TRACKS) << "older than the one before";
+  const std::uint32_t frozen_ms = input.now_ms;
+  for (int i = 0; i <= 5; ++i) EXPECT_EQ(cycle(frozen_ms), S4TP_OK) << i;
+  EXPECT_EQ(cycle(frozen_ms), S4TP_STALE_TRACKS);
+}
+
 // API-012: no map is not an error of the caller's, but there is only one thing to do.
 TEST_F(CFacade, WithoutMapOrListDrivesAsTheCoreDoes) {
   input.map = nullptr;
@@ -371,7 +396,7 @@ TEST(CFacadeNames, StatusAndVersions) {
     for (s4tp_status b = S4TP_OK; b < a; ++b) EXPECT_STRNE(s4tp_status_name(a), s4tp_status_name(b));
   }
   EXPECT_STREQ(s4tp_status_name(-1), "unknown status");
-  EXPECT_STREQ(s4tp_status_name(8), "unknown status");
+  EXPECT_STREQ(s4tp_status_name(9), "unknown status");
   EXPECT_EQ(s4tp_get_versions().api, S4TP_API_VERSION);
   EXPECT_EQ(s4tp_get_versions().wire, kWireVersion);
 }
