@@ -17,6 +17,7 @@ namespace {
 
 constexpr std::uint32_t kMaxLeadMs = 200;  // plan start after the snapshot
 constexpr std::uint8_t kNobody = 255;
+constexpr float kFarthestM = 1e5F;  // from the frame's origin
 constexpr float kCrashCost = 1000.0F;  // a certain crash outweighs all other terms of a score together
 
 bool within(float x, float low, float high) {
@@ -24,7 +25,7 @@ bool within(float x, float low, float high) {
 }
 
 bool valid(const Pose& pose) {
-  return is_finite(pose.x_m) && is_finite(pose.y_m) && within(pose.heading_rad, -kPi, kPi);
+  return abs(pose.x_m) < kFarthestM && abs(pose.y_m) < kFarthestM && within(pose.heading_rad, -kPi, kPi);
 }
 
 bool valid(const EgoState& ego) {
@@ -39,8 +40,8 @@ bool valid(const Track& track) {
          within(track.length_m, 0.5F, 26.0F) && within(track.width_m, 0.3F, 3.2F);
 }
 
-bool valid(const PlannerInput& input) {
-  if (!valid(input.ego) || input.start_ms - input.now_ms > kMaxLeadMs) return false;
+bool others_valid(const PlannerInput& input) {
+  if (input.start_ms - input.now_ms > kMaxLeadMs) return false;
   for (const Track& track : input.tracks) {
     if (!valid(track)) return false;
   }
@@ -72,6 +73,7 @@ Status Planner::init(const Parameters& parameters) {
   scene_builder_.reset();
   beliefs_.reset();
   guard_.reset();
+  ego_seen_ = false;
   initialized_ = true;
   return Status::kOk;
 }
@@ -87,8 +89,16 @@ Status Planner::plan(const PlannerInput& input, Plan& plan, Explanation& explana
   refined_in_force_ = false;
   refining_ = false;
 
+  const bool ego_valid = valid(input.ego);
+  if (ego_valid) {
+    last_ego_ = input.ego;
+    last_ego_ms_ = input.now_ms;
+    ego_seen_ = true;
+  }
+
   Status status = Status::kInvalidInput;
-  if (valid(input)) {
+  bool start_known = true;
+  if (ego_valid && others_valid(input)) {
     {
       const StageScope scope(probe, Stage::kScene);
       status = scene_builder_.build(input.now_ms, input.ego, input.tracks, input.tracks_ms, input.map,
@@ -108,9 +118,11 @@ Status Planner::plan(const PlannerInput& input, Plan& plan, Explanation& explana
     }
   } else {
     forget_scene();  // nothing of a broken input may be used
-    start_ = sample(running_, start_ms_);
+    start_known = start_without_input(ego_valid);
   }
-  if (status != Status::kOk) {
+  if (!start_known) {
+    chosen_ = Trajectory{};
+  } else if (status != Status::kOk) {
     minimum_risk(scene_, start_, running_, start_ms_, parameters_, chosen_);
   } else if (guarded) {
     const StageScope scope(probe, Stage::kCheck);
@@ -123,6 +135,7 @@ Status Planner::plan(const PlannerInput& input, Plan& plan, Explanation& explana
   if (status == Status::kOk || status == Status::kNoSafePlan) explain_risk(status, explanation);
 
   plan.kind = status == Status::kOk ? PlanKind::kDrive : PlanKind::kMinimumRisk;
+  if (!start_known) plan.kind = PlanKind::kNone;
   plan.start_ms = start_ms_;
   plan.trajectory = chosen_;
   explanation.status = status;
@@ -152,6 +165,16 @@ void Planner::forget_scene() {
   scene_.agents.clear();
   scene_.watched = 0;
   scene_.map = nullptr;
+}
+
+bool Planner::start_without_input(bool ego_valid) {
+  if (!ego_valid && plan_covers(running_, start_ms_)) {
+    start_ = sample(running_, start_ms_);
+    return true;
+  }
+  if (!ego_seen_) return false;
+  start_ = plan_start(last_ego_, last_ego_ms_, running_, start_ms_, parameters_);
+  return true;
 }
 
 void Planner::predict(Explanation& explanation) {

@@ -50,10 +50,10 @@ class Planner {
   /// kInvalidParameter
   [[nodiscard]] Status init(const Parameters& parameters);
 
-  /// Plans from the state predicted for input.start_ms. Always writes a plan that can be driven: on kNoLane
+  /// Plans from the state predicted for input.start_ms. Writes a plan that can be driven: on kNoLane
   /// and kNoSafePlan the minimum-risk manoeuvre; on kStaleTracks too, whatever the scene still knows of the
-  /// others. \return kOk, kNoLane, kNoSafePlan, kStaleTracks, kInvalidInput (plan = minimum-risk),
-  /// kNotInitialized (plan untouched)
+  /// others. \return kOk, kNoLane, kNoSafePlan, kStaleTracks, kInvalidInput (plan = minimum-risk,
+  /// of kind none where no valid state of ours was ever seen), kNotInitialized (plan untouched)
   [[nodiscard]] Status plan(const PlannerInput& input, Plan& plan, Explanation& explanation);
 
   /// What the optimizer was asked in the last cycle, for benchmarks; null when it was not asked.
@@ -70,6 +70,8 @@ class Planner {
 
  private:
   void forget_scene();
+  /// Sets start_ from what is still to be believed when the input as a whole is not. \return false: nothing is
+  [[nodiscard]] bool start_without_input(bool ego_valid);
   void predict(Explanation& explanation);
   class Ranking;
   /// Generates the candidates, scores each against the predictions without plan and shortlists the decisions.
@@ -91,6 +93,9 @@ class Planner {
   Parameters parameters_;
   std::uint32_t parameters_crc_ = 0;
   SceneBuilder scene_builder_;
+  EgoState last_ego_;  ///< the last valid one, of ...
+  std::uint32_t last_ego_ms_ = 0;
+  bool ego_seen_ = false;  ///< ... if any
 
   // One cycle's data, in the order it flows.
   std::uint32_t start_ms_ = 0;

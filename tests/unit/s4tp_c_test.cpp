@@ -253,6 +253,49 @@ TEST_F(CFacade, AnswersInvalidInputWithMinimumRisk) {
   EXPECT_EQ(plan.kind, static_cast<std::uint32_t>(S4TP_PLAN_MINIMUM_RISK));
 }
 
+// API-016, CORE-013: 8 m/s at x = -30. A broken vehicle in the list: the stop begins where we are, 0.8 m on at the
+// boundary. Our own state broken: at the running plan, or without one where we were seen last. Never seen: nothing,
+// said so, all zeros.
+TEST_F(CFacade, AStopBeginsWhereWeAreKnownToBe) {
+  const s4tp_ego good_ego = input.ego;
+  const auto stops_from = [this](float x_m) {
+    EXPECT_EQ(plan_now(), S4TP_INVALID_INPUT);
+    EXPECT_EQ(plan.kind, static_cast<std::uint32_t>(S4TP_PLAN_MINIMUM_RISK));
+    EXPECT_NEAR(plan.points[0].x_m, x_m, 0.01F);
+    EXPECT_NEAR(plan.points[0].y_m, -1.6F, 0.01F);
+    EXPECT_NEAR(plan.points[0].speed_mps, 8.0F, 0.2F);
+    EXPECT_EQ(plan.points[30].speed_mps, 0.0F);
+  };
+  input.ego.heading_rad = kNaN;
+  plan.points[7].x_m = 5.0F;
+  EXPECT_EQ(plan_now(), S4TP_INVALID_INPUT);
+  const s4tp_plan empty = {S4TP_PLAN_NONE, input.start_ms, {}};
+  EXPECT_EQ(std::memcmp(&plan, &empty, sizeof(plan)), 0);
+
+  input.ego = good_ego;
+  tracks.items[0].length_m = kNaN;
+  stops_from(-29.2F);
+  input.ego.speed_mps = 99.0F;
+  stops_from(-29.2F);
+
+  tracks.items[0].length_m = 4.6F;
+  input.ego = good_ego;
+  s4tp_plan running = {};
+  EXPECT_EQ(s4tp_make_plan(block.get(), &input, &running, nullptr), S4TP_OK);
+  input.running = &running;
+  input.ego.x_m = kNaN;
+  input.now_ms += 1000;
+  input.start_ms += 1000;
+  EXPECT_EQ(plan_now(), S4TP_INVALID_INPUT);
+  EXPECT_EQ(plan.points[0].x_m, running.points[10].x_m);
+  EXPECT_EQ(plan.points[0].speed_mps, running.points[10].speed_mps);
+
+  EXPECT_EQ(s4tp_init(block.get(), nullptr, nullptr), S4TP_OK);
+  input.running = nullptr;
+  EXPECT_EQ(plan_now(), S4TP_INVALID_INPUT);
+  EXPECT_EQ(plan.kind, static_cast<std::uint32_t>(S4TP_PLAN_NONE)) << "init forgets";
+}
+
 // CORE-008, API-012: a list that is thrown away for its time never answers OK, and the plan is a stop: over 500 ms
 // old, as far ahead, time 0, older than the one before. One cycle later with a fresh list it drives on.
 TEST_F(CFacade, AListThrownAwayIsAStop) {
