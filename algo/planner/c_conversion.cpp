@@ -5,6 +5,7 @@
 #include "algo/core/math.hpp"
 #include "algo/core/versions.hpp"
 #include "algo/scene/lane_path.hpp"
+#include "algo/trajectory/plan_limits.hpp"
 
 namespace s4tp {
 namespace {
@@ -171,15 +172,12 @@ bool copy_plan(const s4tp_plan& from, Plan& to) {
   to.start_ms = from.start_ms;
   for (int i = 0; i < kTrajectoryPoints; ++i) {
     const s4tp_plan_point& point = from.points[i];
-    const bool finite = is_finite(point.x_m) && is_finite(point.y_m) && is_finite(point.heading_rad) &&
-                        is_finite(point.speed_mps) && is_finite(point.acceleration_mps2) &&
-                        is_finite(point.curvature_1pm);
-    if (!finite) return false;
     TrajectoryPoint& copy = to.trajectory.points[i];
     copy.rear_axle = {point.x_m, point.y_m, point.heading_rad};
     copy.speed_mps = point.speed_mps;
     copy.acceleration_mps2 = point.acceleration_mps2;
     copy.curvature_1pm = point.curvature_1pm;
+    if (!in_range(copy)) return false;
   }
   return true;
 }

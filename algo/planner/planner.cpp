@@ -10,6 +10,7 @@
 #include "algo/safety/rss.hpp"
 #include "algo/trajectory/along_path.hpp"
 #include "algo/trajectory/bicycle.hpp"
+#include "algo/trajectory/plan_limits.hpp"
 #include "algo/trajectory/standing_room.hpp"
 
 namespace s4tp {
@@ -38,6 +39,11 @@ bool valid(const Track& track) {
   return valid(track.centre) && within(track.speed_mps, 0.0F, 61.0F) &&
          within(track.acceleration_mps2, -13.0F, 13.0F) && within(track.yaw_rate_radps, -1.3F, 1.3F) &&
          within(track.length_m, 0.5F, 26.0F) && within(track.width_m, 0.3F, 3.2F);
+}
+
+bool valid(const Plan& plan, const Parameters& parameters) {
+  if (plan.kind == PlanKind::kNone) return true;
+  return plan.kind <= PlanKind::kMinimumRisk && keeps_limits(plan.trajectory, parameters);
 }
 
 bool others_valid(const PlannerInput& input) {
@@ -89,6 +95,8 @@ Status Planner::plan(const PlannerInput& input, Plan& plan, Explanation& explana
   refined_in_force_ = false;
   refining_ = false;
 
+  const bool running_valid = valid(running_, parameters_);
+  if (!running_valid) running_ = Plan{};
   const bool ego_valid = valid(input.ego);
   if (ego_valid) {
     last_ego_ = input.ego;
@@ -98,7 +106,7 @@ Status Planner::plan(const PlannerInput& input, Plan& plan, Explanation& explana
 
   Status status = Status::kInvalidInput;
   bool start_known = true;
-  if (ego_valid && others_valid(input)) {
+  if (ego_valid && running_valid && others_valid(input)) {
     {
       const StageScope scope(probe, Stage::kScene);
       status = scene_builder_.build(input.now_ms, input.ego, input.tracks, input.tracks_ms, input.map,

@@ -27,7 +27,8 @@ struct PlannerInput {
   TrackList tracks;
   std::uint32_t tracks_ms = 0;    ///< vehicle time of the track list
   const LaneMap* map = nullptr;   ///< null: no whole map known
-  const Plan* running = nullptr;  ///< the plan in force, or null
+  const Plan* running = nullptr;  ///< the plan in force, or null; CORE-014 one that keeps_limits() (CAND-020)
+                                  ///< does not know for ours makes the input invalid and counts as none
   std::uint8_t degraded = 0;      ///< 0: all sources well; else drive carefully (lower speed, no lane change)
 };
 

@@ -207,15 +207,15 @@ s4tp_status s4tp_clear_map(s4tp_lane_map* map);
 
 /// One instant of the plan; the reference point is the middle of the rear axle.
 typedef struct s4tp_plan_point {
-  float x_m;
+  float x_m;  ///< |x|, |y| <= 110 000
   float y_m;
-  float heading_rad;
-  float speed_mps;  ///< >= 0
-  float acceleration_mps2;
-  float curvature_1pm;  ///< left positive; road-wheel angle = atan(wheelbase * curvature)
+  float heading_rad;        ///< -pi .. pi
+  float speed_mps;          ///< 0 .. 100
+  float acceleration_mps2;  ///< -13 .. 13
+  float curvature_1pm;      ///< -2 .. 2, left positive; road-wheel angle = atan(wheelbase * curvature)
 } s4tp_plan_point;
 
-/// points[i] holds at start_ms + i * S4TP_PLAN_STEP_MS. A zeroed plan is S4TP_PLAN_NONE. There is no padding:
+/// points[i] holds at start_ms + i * S4TP_PLAN_STEP_MS; every number in the range of its own comment. A zeroed plan is S4TP_PLAN_NONE. There is no padding:
 /// the bytes of two plans are equal exactly when their bits are.
 typedef struct s4tp_plan {
   uint32_t kind;  ///< S4TP_PLAN_...
@@ -289,7 +289,8 @@ typedef struct s4tp_input {
   s4tp_ego ego;
   const s4tp_tracks* tracks;  ///< null: nobody seen
   const s4tp_lane_map* map;   ///< null: no map known
-  const s4tp_plan* running;   ///< the plan in force as it was written, or null; may be the one to be written
+  const s4tp_plan* running;   ///< the plan in force as it was written, or null; may be the one to be written;
+                              ///< one no planner with these parameters would write is invalid input
   uint8_t degraded;           ///< not 0: a source is doubtful; lower speed, no lane change
 } s4tp_input;
 

@@ -10,6 +10,8 @@
 #include <limits>
 #include <memory>
 
+#include "algo/trajectory/bicycle.hpp"
+#include "algo/trajectory/plan_limits.hpp"
 #include "tests/support/lane_maps.hpp"
 
 namespace s4tp {
@@ -33,6 +35,7 @@ class Drive {
     Plan next;
     const Status status = planner->plan(input, next, explanation);
     running = next;
+    EXPECT_TRUE(keeps_limits(running.trajectory, Parameters{})) << input.now_ms;  // CAND-020
     input.now_ms += 100;
     input.start_ms += 100;
     input.tracks_ms = input.now_ms;
@@ -117,6 +120,56 @@ TEST(Planner, NeverUsesABrokenInput) {
   for (const TrajectoryPoint& point : plan.trajectory.points) {
     EXPECT_TRUE(std::isfinite(point.rear_axle.x_m) && std::isfinite(point.speed_mps) &&
                 std::isfinite(point.curvature_1pm));
+  }
+}
+
+/// Any one number of a plan.
+float& number_of(Plan& plan, int which) {
+  TrajectoryPoint& point = plan.trajectory.points[which % kTrajectoryPoints];
+  float* const numbers[] = {&point.rear_axle.x_m, &point.rear_axle.y_m,      &point.rear_axle.heading_rad,
+                            &point.speed_mps,     &point.acceleration_mps2, &point.curvature_1pm};
+  return *numbers[which / kTrajectoryPoints];
+}
+
+// CORE-014, CAND-019: any single number of the running plan made absurd is a plan none of ours: invalid input, and the
+// answer is a stop from where we are, in range itself.
+TEST(Planner, TakesNoRunningPlanThatCannotBeOurs) {
+  Drive drive = on_straight_road(10.0F);
+  for (int i = 0; i < 3; ++i) ASSERT_EQ(drive.step(), Status::kOk);
+  const Plan good = drive.running;
+  for (int which = 0; which < 6 * kTrajectoryPoints; ++which) {
+    for (const float absurd : {1e30F, -1e30F, 200.0F, -14.0F}) {
+      const bool position = which < 2 * kTrajectoryPoints;
+      if (position && std::abs(number_of(drive.running, which) - absurd) < 3.0F) continue;
+      number_of(drive.running, which) = absurd;
+      Plan plan;
+      drive.input.running = &drive.running;
+      ASSERT_EQ(drive.planner->plan(drive.input, plan, drive.explanation), Status::kInvalidInput)
+          << which << " " << absurd;
+      ASSERT_EQ(plan.kind, PlanKind::kMinimumRisk);
+      ASSERT_TRUE(keeps_limits(plan.trajectory, Parameters{}));
+      ASSERT_NEAR(plan.trajectory.points[0].rear_axle.x_m, drive.input.ego.rear_axle.x_m + 1.0F, 0.1F);
+      drive.running = good;
+    }
+  }
+}
+
+// CORE-014, CAND-020: a running plan that drives off with 5.8 m/s^2 where the car has 3.5, true to its own speeds: the
+// plan is not gone on with.
+TEST(Planner, TakesNoRunningPlanBeyondTheCarsLimits) {
+  Drive drive = on_straight_road(10.0F);
+  ASSERT_EQ(drive.step(), Status::kOk);
+  for (const float acceleration_mps2 : {3.5F, 5.8F}) {
+    for (int i = 0; i < kTrajectoryPoints; ++i) {
+      TrajectoryPoint& point = drive.running.trajectory.points[i];
+      point = drive.running.trajectory.points[i > 0 ? i - 1 : 0];
+      if (i > 0) point = bicycle_step(point, acceleration_mps2, 0.0F, kStepS);
+    }
+    Plan plan;
+    drive.input.running = &drive.running;
+    const Status expected = acceleration_mps2 > 3.5F ? Status::kInvalidInput : Status::kOk;
+    EXPECT_EQ(drive.planner->plan(drive.input, plan, drive.explanation), expected);
+    EXPECT_TRUE(keeps_limits(plan.trajectory, Parameters{}));
   }
 }
 

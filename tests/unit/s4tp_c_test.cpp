@@ -240,6 +240,11 @@ TEST_F(CFacade, AnswersInvalidInputWithMinimumRisk) {
   strange.kind = S4TP_PLAN_DRIVE;
   strange.points[30].curvature_1pm = kNaN;
   expect_invalid("NaN in the running plan");
+  strange.points[30].curvature_1pm = 3.0F;
+  expect_invalid("curvature of the running plan");
+  strange.points[30].curvature_1pm = 0.0F;
+  strange.points[3].heading_rad = 1e30F;
+  expect_invalid("heading of the running plan");
   input.running = nullptr;
 
   input.start_ms = input.now_ms + 201;
@@ -461,6 +466,9 @@ TEST(CFacadeSample, InterpolatesAndHolds) {
   EXPECT_EQ(point.speed_mps, 3.0F);
   EXPECT_EQ(s4tp_sample(nullptr, 0, &point), S4TP_INVALID_ARGUMENT);
   EXPECT_EQ(s4tp_sample(&plan, 0, nullptr), S4TP_INVALID_ARGUMENT);
+  plan.points[1].heading_rad = 1e30F;
+  EXPECT_EQ(s4tp_sample(&plan, 5050, &point), S4TP_INVALID_ARGUMENT) << "no angle of ours";
+  plan.points[1].heading_rad = 0.0F;
   plan.kind = 9;
   EXPECT_EQ(s4tp_sample(&plan, 0, &point), S4TP_INVALID_ARGUMENT);
 }
