@@ -67,6 +67,7 @@ struct Explanation {
   std::uint8_t leader_track = 255;       ///< track id of who drives ahead on the way chosen; 255: nobody
   float leader_gap_m = 0.0F;             ///< bumper to bumper
   RssEnvelope rss{};                     ///< what the proper response allows (rss.hpp)
+  std::uint8_t id_clashes = 0;           ///< vehicles whose ids were not their own (CORE-035)
   std::uint8_t rss_track = 255;          ///< track id of its `agent`
   bool rss_clipped = false;              ///< the plan wanted more
   std::uint16_t work[kStageCount] = {};  ///< units used per stage

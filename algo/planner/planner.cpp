@@ -114,6 +114,7 @@ Status Planner::plan(const PlannerInput& input, Plan& plan, Explanation& explana
       if (others_stand) let_others_stand(scene_);
       build_drivable(input.map, drivable_);
       keep_aside(parameters_, scene_);
+      explanation.id_clashes = scene_.id_clashes;
       count(explanation, Stage::kScene, scene_.agents.size());
     }
     start_ = plan_start(input.ego, input.now_ms, running_, start_ms_, parameters_);

@@ -124,7 +124,7 @@ typedef struct s4tp_ego {
 
 /// Another vehicle; the reference point is the centre of its box.
 typedef struct s4tp_track {
-  uint8_t id;  ///< stays with the vehicle while it is tracked
+  uint8_t id;  ///< stays with the vehicle while it is tracked; vehicles that share one have no past
   float x_m;   ///< |x|, |y| < 100 000
   float y_m;
   float heading_rad;
@@ -260,6 +260,7 @@ typedef struct s4tp_explanation {
   uint8_t dominating_track;                ///< id of the vehicle whose risk is largest, or S4TP_NOBODY
   uint8_t dominating_step;                 ///< and the plan's point where it is
   uint8_t rss_clipped;                     ///< 1: the RSS envelope braked harder than the plan wanted
+  uint8_t id_clashes;                      ///< vehicles whose ids were not their own: kept, under other ids
   uint16_t work[S4TP_STAGE_COUNT];         ///< work units used: scene, candidates, predict, rank, exact risk,
                                            ///< optimize, check, explain
 } s4tp_explanation;

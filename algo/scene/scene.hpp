@@ -70,6 +70,7 @@ struct Scene {
   int watched = 0;                          ///< <= kMaxAgents, predicted with interaction
   const LaneMap* map = nullptr;             ///< valid during the cycle only
   float waited_s = 0.0F;  ///< how long we have stood at the junction we are at or in (CORE-033)
+  std::uint8_t id_clashes = 0;  ///< CORE-035 vehicles of the last list whose ids were not their own
   bool list_refused = false;  ///< CORE-008 the list lies over 500 ms from the scene, or before the last one
 };
 
@@ -90,6 +91,8 @@ class SceneBuilder {
   /// (the scene is still usable for a minimum-risk manoeuvre), or kInvalidInput (the ego is not finite: the
   /// scene is empty). CORE-033 What we have waited counts where we give way within 15 m, and is forgotten
   /// only when that junction is left: a start is not judged by another measure than the rest of the crossing.
+  /// CORE-035 No vehicle is dropped for its id: those that share one are all kept, under ids that nobody has,
+  /// new ones in each list, without history; their number is told.
   [[nodiscard]] Status build(std::uint32_t time_ms, const EgoState& ego, const TrackList& tracks,
                              std::uint32_t list_time_ms, const LaneMap* map, const Parameters& parameters,
                              Scene& scene);
@@ -102,6 +105,7 @@ class SceneBuilder {
     Track track;                ///< as last seen
     std::uint32_t seen_ms = 0;  ///< list time of that
     LaneIndex lane = kNoLaneIndex;
+    bool nameless = false;  ///< its id stood twice in the list
     std::uint16_t stood_ms = 0;
     std::uint16_t known_ms = 0;
     History history;
@@ -112,11 +116,15 @@ class SceneBuilder {
   void advance_time(std::uint32_t time_ms);
   void take_list(const TrackList& tracks, std::uint32_t list_time_ms);
   int find_past(const Track& track, std::uint32_t list_time_ms) const;
+  void add_past(const Track& track, bool nameless, std::uint32_t list_time_ms);
+  std::uint8_t spare_id(const TrackList& tracks);
 
   BoundedVector<Past, kMaxTracks> past_;
   History ego_history_;
   std::uint32_t last_ms_ = 0;
   std::uint32_t last_list_ms_ = 0;
+  std::uint8_t id_clashes_ = 0;
+  std::uint8_t last_spare_id_ = 0;
   bool started_ = false;
   std::int32_t waited_ms_ = 0;
   LaneIndex ego_lane_ = kNoLaneIndex;

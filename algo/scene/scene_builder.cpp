@@ -19,6 +19,7 @@ constexpr float kStandingMps = 0.3F;
 constexpr float kAtJunctionM = 15.0F;  // standing this far before the zone, or nearer, is waiting for it
 constexpr std::int32_t kLongestStepMs = 500;  // a hole in time is no waiting
 constexpr std::int32_t kLongestStandMs = 60'000;
+constexpr std::uint8_t kNobodysId = 255;
 constexpr std::uint16_t kPresentBit = 1U << (kHistorySamples - 1);
 
 // Signed, so that the 32-bit time may wrap and lists may lie a little in the future.
@@ -107,6 +108,8 @@ void SceneBuilder::reset() {
   ego_history_ = History{};
   last_ms_ = 0;
   last_list_ms_ = 0;
+  id_clashes_ = 0;
+  last_spare_id_ = 0;
   started_ = false;
   waited_ms_ = 0;
   ego_lane_ = kNoLaneIndex;
@@ -168,18 +171,65 @@ int SceneBuilder::find_past(const Track& track, std::uint32_t list_time_ms) cons
   return -1;
 }
 
+std::uint8_t SceneBuilder::spare_id(const TrackList& tracks) {
+  const auto used = [&](std::uint8_t id) {
+    bool found = id == kNobodysId;
+    for (const Track& track : tracks) found = found || track.id == id;
+    for (const Past& past : past_) found = found || past.track.id == id;
+    return found;
+  };
+  do {  // at most twice kMaxTracks are used
+    ++last_spare_id_;
+  } while (used(last_spare_id_));
+  return last_spare_id_;
+}
+
+void SceneBuilder::add_past(const Track& track, bool nameless, std::uint32_t list_time_ms) {
+  if (past_.full()) {
+    int oldest = 0;
+    for (int i = 1; i < past_.size(); ++i) {
+      if (elapsed_ms(past_[i].seen_ms, past_[oldest].seen_ms) > 0) oldest = i;
+    }
+    if (past_[oldest].seen_ms == list_time_ms) return;  // a list has no more vehicles than there is room for
+    past_.swap_remove(oldest);
+  }
+  Past past;
+  past.track = track;
+  past.nameless = nameless;
+  past.seen_ms = list_time_ms;
+  (void)past_.push(past);
+}
+
 void SceneBuilder::take_list(const TrackList& tracks, std::uint32_t list_time_ms) {
+  // An id that stands twice belongs to nobody: what is known of it is given up, and those who bear it are
+  // other vehicles in each list.
+  bool clashes[kMaxTracks] = {};
+  id_clashes_ = 0;
+  for (int i = 0; i < tracks.size(); ++i) {
+    for (int k = 0; k < tracks.size(); ++k) clashes[i] = clashes[i] || (k != i && tracks[k].id == tracks[i].id);
+    if (clashes[i]) ++id_clashes_;
+  }
+  for (int i = past_.size() - 1; i >= 0; --i) {
+    bool gone = past_[i].nameless;
+    for (int k = 0; k < tracks.size(); ++k) gone = gone || (clashes[k] && tracks[k].id == past_[i].track.id);
+    if (gone) past_.swap_remove(i);
+  }
   // Known ids first, so that a new id cannot take the past of a vehicle that is still in the list.
   for (int pass = 0; pass < 2; ++pass) {
-    for (const Track& given : tracks) {
-      if (!sound(given)) continue;
-      const Track track = limited(given);
+    for (int i = 0; i < tracks.size(); ++i) {
+      if (!sound(tracks[i])) continue;
+      Track track = limited(tracks[i]);
+      if (clashes[i]) {
+        if (pass == 0) continue;
+        track.id = spare_id(tracks);
+        add_past(track, true, list_time_ms);
+        continue;
+      }
       const int index = find_past(track, list_time_ms);
       const bool known = index >= 0 && past_[index].track.id == track.id;
       if (known != (pass == 0)) continue;
       if (index >= 0) {
         Past& past = past_[index];
-        if (past.seen_ms == list_time_ms && known) continue;  // an id twice in one list
         const float seconds = 1e-3F * static_cast<float>(elapsed_ms(past.seen_ms, list_time_ms));
         if (distance(coasted(past.track, seconds), position(track.centre)) > kJumpM) {
           past.history.valid = 0;
@@ -191,18 +241,7 @@ void SceneBuilder::take_list(const TrackList& tracks, std::uint32_t list_time_ms
         past.seen_ms = list_time_ms;
         continue;
       }
-      if (past_.full()) {
-        int oldest = 0;
-        for (int i = 1; i < past_.size(); ++i) {
-          if (elapsed_ms(past_[i].seen_ms, past_[oldest].seen_ms) > 0) oldest = i;
-        }
-        if (past_[oldest].seen_ms == list_time_ms) continue;
-        past_.swap_remove(oldest);
-      }
-      Past past;
-      past.track = track;
-      past.seen_ms = list_time_ms;
-      (void)past_.push(past);
+      add_past(track, false, list_time_ms);
     }
   }
   last_list_ms_ = list_time_ms;
@@ -233,6 +272,7 @@ Status SceneBuilder::build(std::uint32_t time_ms, const EgoState& ego, const Tra
   const bool in_time = list_age_ms <= kCoastMs && list_age_ms >= -kCoastMs;
   scene.list_refused = !in_time || (!first && since_last_ms < 0);
   if (in_time && (first || since_last_ms > 0)) take_list(tracks, list_time_ms);
+  scene.id_clashes = id_clashes_;
   started_ = true;
 
   const LaneTable table(map);

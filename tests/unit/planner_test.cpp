@@ -200,6 +200,23 @@ TEST(Planner, StopsBehindAStandingCar) {
   EXPECT_GT(front_m, 85.0F);  // and not absurdly far from it
 }
 
+// CORE-035: the same when the standing car shares its id with one that stands behind us, named before it or after.
+TEST(Planner, StopsBehindAStandingCarThatSharesItsId) {
+  for (const bool named_first : {true, false}) {
+    Drive drive(straight_road(1, 400.0F));
+    drive.input.ego.rear_axle = {60.0F, 0.0F, 0.0F};
+    drive.input.ego.speed_mps = 13.0F;
+    ASSERT_TRUE(drive.input.tracks.push(car(7, named_first ? 120.0F : 10.0F, 0.0F, 0.0F, 0.0F)));
+    ASSERT_TRUE(drive.input.tracks.push(car(7, named_first ? 10.0F : 120.0F, 0.0F, 0.0F, 0.0F)));
+    for (int i = 0; i < 100; ++i) {
+      (void)drive.step();
+      ASSERT_EQ(drive.explanation.id_clashes, 2);
+    }
+    EXPECT_LT(drive.input.ego.speed_mps, 0.3F);
+    EXPECT_LT(drive.input.ego.rear_axle.x_m + 4.0F, 117.5F);
+  }
+}
+
 // A slow car ahead and two free lanes beside: it passes. After 20 s it is ahead of a car at 5 m/s (40 + 100
 // m).
 TEST(Planner, OvertakesASlowCar) {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "algo/core/math.hpp"
 #include "algo/scene/scene.hpp"
@@ -300,6 +301,46 @@ TEST(SceneBuilder, BringsTracksForwardAlongTheirLane) {
   const Pose& centre = scene.agents[0].track.centre;
   EXPECT_NEAR(std::hypot(centre.x_m, centre.y_m - 20.0F), 20.0F, 0.1F);
   EXPECT_NEAR(distance(position(centre), position(pose)), 4.0F, 0.1F);
+}
+
+// CORE-035 Three vehicles, two of one id, in ten lists: all are there in each, nobody has another's history, each has an
+// id of its own; the count says two. Once the ids are their own again they have a past again.
+TEST(SceneBuilder, KeepsVehiclesThatShareAnId) {
+  Drive drive;
+  drive.step({test::car(3, 60.0F, 0.0F, 0.0F, 0.0F)});
+  for (int i = 0; i < 10; ++i) {
+    drive.step({test::car(3, 60.0F, 0.0F, 0.0F, 0.0F), test::car(9, 40.0F, 3.2F, 0.0F, 0.0F),
+                test::car(3, -20.0F, 0.0F, 0.0F, 0.0F)});
+    ASSERT_EQ(drive.scene.agents.size(), 3) << i;
+    EXPECT_EQ(drive.scene.id_clashes, 2);
+    std::set<int> ids;
+    std::set<int> places_m;
+    for (const Agent& agent : drive.scene.agents) {
+      ids.insert(agent.track.id);
+      places_m.insert(static_cast<int>(std::lround(agent.track.centre.x_m)));
+      const bool own = agent.track.id == 9;
+      EXPECT_EQ(agent.known_ms, own ? (i + 1) * 100 : 100) << i;
+      if (!own) EXPECT_EQ(agent.history.valid, 1U << (kHistorySamples - 1)) << i;
+    }
+    EXPECT_EQ(ids.size(), 3U);
+    EXPECT_EQ(places_m, (std::set<int>{-20, 40, 60}));
+  }
+  for (int i = 0; i < 3; ++i) drive.step({test::car(3, 60.0F, 0.0F, 0.0F, 0.0F)});
+  EXPECT_EQ(drive.scene.id_clashes, 0);
+  EXPECT_EQ(test::find_agent(drive.scene, 3)->known_ms, 300);
+}
+
+// CORE-035 Sixteen vehicles, all of one id.
+TEST(SceneBuilder, KeepsSixteenOfOneId) {
+  Drive drive;
+  std::vector<Track> cars;
+  for (int i = 0; i < kMaxTracks; ++i)
+    cars.push_back(test::car(254, 20.0F + 10.0F * static_cast<float>(i), 0.0F, 0.0F, 0.0F));
+  for (int i = 0; i < 40; ++i) {
+    drive.step(cars);
+    ASSERT_EQ(drive.scene.agents.size(), kMaxTracks);
+    ASSERT_EQ(drive.scene.id_clashes, kMaxTracks);
+  }
 }
 
 // CORE-030 A vehicle that drops out of the lists goes on for 500 ms at its speed, then it is gone.
