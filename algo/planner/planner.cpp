@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::uint32_t kMaxLeadMs = 200;  // plan start after the snapshot
 constexpr std::uint8_t kNobody = 255;
-constexpr float kFarthestM = 1e5F;  // from the frame's origin
+constexpr float kFarthestM = 1e5F;     // from the frame's origin
 constexpr float kCrashCost = 1000.0F;  // a certain crash outweighs all other terms of a score together
 
 bool within(float x, float low, float high) {
@@ -96,7 +96,7 @@ Status Planner::plan(const PlannerInput& input, Plan& plan, Explanation& explana
   refining_ = false;
 
   const bool running_valid = valid(running_, parameters_);
-  if (!running_valid) running_ = Plan{};
+  if (!running_valid) running_.kind = PlanKind::kNone;
   const bool ego_valid = valid(input.ego);
   if (ego_valid) {
     last_ego_ = input.ego;
@@ -130,7 +130,7 @@ Status Planner::plan(const PlannerInput& input, Plan& plan, Explanation& explana
     start_known = start_without_input(ego_valid);
   }
   if (!start_known) {
-    chosen_ = Trajectory{};
+    for (TrajectoryPoint& point : chosen_.points) point = TrajectoryPoint{};
   } else if (status != Status::kOk) {
     minimum_risk(scene_, start_, running_, start_ms_, parameters_, chosen_);
   } else if (guarded) {

@@ -71,7 +71,8 @@ class Planner {
 
  private:
   void forget_scene();
-  /// Sets start_ from what is still to be believed when the input as a whole is not. \return false: nothing is
+  /// Sets start_ from what is still to be believed when the input as a whole is not. \return false: nothing
+  /// is
   [[nodiscard]] bool start_without_input(bool ego_valid);
   void predict(Explanation& explanation);
   class Ranking;

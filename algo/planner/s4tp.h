@@ -40,11 +40,11 @@ typedef int32_t s4tp_status;
 #define S4TP_NOT_INITIALIZED 1    ///< no successful s4tp_init() on this block, or the block was moved since
 #define S4TP_INVALID_PARAMETER 2  ///< a parameter is not finite or outside its range
 #define S4TP_ARITHMETIC 3         ///< this processor or build rounds, fuses or flushes where it must not
-#define S4TP_INVALID_INPUT 4      ///< an input is not finite or outside its range; the plan is a stop, or none
-#define S4TP_NO_LANE 5            ///< no lane under or before the car; the plan is minimum-risk
-#define S4TP_NO_SAFE_PLAN 6       ///< every candidate was rejected; the plan is minimum-risk
-#define S4TP_STALE_TRACKS 7       ///< the list is thrown away for its time; the plan is minimum-risk
-#define S4TP_INVALID_ARGUMENT 8   ///< a null or misaligned pointer, an unknown name; nothing was written
+#define S4TP_INVALID_INPUT 4     ///< an input is not finite or outside its range; the plan is a stop, or none
+#define S4TP_NO_LANE 5           ///< no lane under or before the car; the plan is minimum-risk
+#define S4TP_NO_SAFE_PLAN 6      ///< every candidate was rejected; the plan is minimum-risk
+#define S4TP_STALE_TRACKS 7      ///< the list is thrown away for its time; the plan is minimum-risk
+#define S4TP_INVALID_ARGUMENT 8  ///< a null or misaligned pointer, an unknown name; nothing was written
 
 /// API-001 The constant's name ("S4TP_OK"), or "unknown status".
 const char* s4tp_status_name(s4tp_status status);
@@ -215,8 +215,9 @@ typedef struct s4tp_plan_point {
   float curvature_1pm;      ///< -2 .. 2, left positive; road-wheel angle = atan(wheelbase * curvature)
 } s4tp_plan_point;
 
-/// points[i] holds at start_ms + i * S4TP_PLAN_STEP_MS; every number in the range of its own comment. A zeroed plan is S4TP_PLAN_NONE. There is no padding:
-/// the bytes of two plans are equal exactly when their bits are.
+/// points[i] holds at start_ms + i * S4TP_PLAN_STEP_MS; every number in the range of its own comment. A
+/// zeroed plan is S4TP_PLAN_NONE. There is no padding: the bytes of two plans are equal exactly when their
+/// bits are.
 typedef struct s4tp_plan {
   uint32_t kind;  ///< S4TP_PLAN_...
   uint32_t start_ms;

@@ -69,9 +69,9 @@ struct Scene {
   BoundedVector<Agent, kMaxTracks> agents;  ///< the first `watched` are the relevant ones
   int watched = 0;                          ///< <= kMaxAgents, predicted with interaction
   const LaneMap* map = nullptr;             ///< valid during the cycle only
-  float waited_s = 0.0F;  ///< how long we have stood at the junction we are at or in (CORE-033)
+  float waited_s = 0.0F;        ///< how long we have stood at the junction we are at or in (CORE-033)
   std::uint8_t id_clashes = 0;  ///< CORE-035 vehicles of the last list whose ids were not their own
-  bool list_refused = false;  ///< CORE-008 the list lies over 500 ms from the scene, or before the last one
+  bool list_refused = false;    ///< CORE-008 the list lies over 500 ms from the scene, or before the last one
 };
 
 /// Which vehicles SATP watches (METHOD 4.0).

@@ -206,7 +206,8 @@ void SceneBuilder::take_list(const TrackList& tracks, std::uint32_t list_time_ms
   bool clashes[kMaxTracks] = {};
   id_clashes_ = 0;
   for (int i = 0; i < tracks.size(); ++i) {
-    for (int k = 0; k < tracks.size(); ++k) clashes[i] = clashes[i] || (k != i && tracks[k].id == tracks[i].id);
+    for (int k = 0; k < tracks.size(); ++k)
+      clashes[i] = clashes[i] || (k != i && tracks[k].id == tracks[i].id);
     if (clashes[i]) ++id_clashes_;
   }
   for (int i = past_.size() - 1; i >= 0; --i) {

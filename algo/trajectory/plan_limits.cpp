@@ -6,7 +6,8 @@
 namespace s4tp {
 namespace {
 
-constexpr float kFarthestM = 1.1e5F;  // an ego may be 100 km from the origin, and its plan leads on from there
+constexpr float kFarthestM =
+    1.1e5F;  // an ego may be 100 km from the origin, and its plan leads on from there
 constexpr float kFastestMps = 100.0F;
 constexpr float kHardestMps2 = 13.0F;
 constexpr float kTightest1pm = 2.0F;
@@ -42,7 +43,8 @@ bool keeps_limits(const Trajectory& trajectory, const Parameters& parameters) {
     const TrajectoryPoint& a = trajectory.points[i - 1];
     const TrajectoryPoint& b = trajectory.points[i];
     const float gained_mps = b.speed_mps - a.speed_mps;
-    if (!within(gained_mps, -brake_mps2 * kStepS - kToleranceMps, drive_mps2 * kStepS + kToleranceMps)) return false;
+    if (!within(gained_mps, -brake_mps2 * kStepS - kToleranceMps, drive_mps2 * kStepS + kToleranceMps))
+      return false;
     const Point moved = position(b.rear_axle) - position(a.rear_axle);
     const float way_m = norm(moved);
     const float turned_rad = wrap_angle(b.rear_axle.heading_rad - a.rear_axle.heading_rad);

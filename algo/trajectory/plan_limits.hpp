@@ -1,5 +1,6 @@
 #pragma once
-/// What every plan of ours keeps to, whatever made it: a plan handed back to us that does not is none of ours.
+/// What every plan of ours keeps to, whatever made it: a plan handed back to us that does not is none of
+/// ours.
 
 #include "algo/core/parameters.hpp"
 #include "algo/core/trajectory.hpp"
@@ -11,9 +12,9 @@ namespace s4tp {
 [[nodiscard]] bool in_range(const TrajectoryPoint& point);
 
 /// CAND-020 Every point in range; acceleration within the vehicle's, curvature within what the largest
-/// road-wheel angle an ego may have (0.8 rad) steers; points as far apart as their speeds say, speeds as their
-/// accelerations allow, headings along the way driven. Each plan the planner makes is one.
-/// \note bounded work: two cosines and a sine a point
+/// road-wheel angle an ego may have (0.8 rad) steers; points as far apart as their speeds say, speeds as
+/// their accelerations allow, headings along the way driven. Each plan the planner makes is one. \note
+/// bounded work: two cosines and a sine a point
 [[nodiscard]] bool keeps_limits(const Trajectory& trajectory, const Parameters& parameters);
 
 }  // namespace s4tp

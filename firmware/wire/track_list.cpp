@@ -1,6 +1,7 @@
 #include "firmware/wire/track_list.hpp"
 
 #include "firmware/wire/codec.hpp"
+#include "firmware/wire/crc16.hpp"
 
 namespace s4tp::wire {
 namespace {
@@ -36,7 +37,31 @@ bool encodable(const Track& track) {
   return encode_pose(track, 0, 0, frame) && encode_motion(track, 0, 0, frame);
 }
 
+void keep(const Frame& frame, std::uint8_t (&kept)[8]) {
+  for (int i = 0; i < 8; ++i) kept[i] = frame.data[i];
+}
+
+bool same(const Frame& frame, const std::uint8_t (&kept)[8]) {
+  for (int i = 0; i < 8; ++i) {
+    if (frame.data[i] != kept[i]) return false;
+  }
+  return true;
+}
+
+void count_up(std::uint16_t& counter) {
+  if (counter < UINT16_MAX) ++counter;
+}
+
 }  // namespace
+
+std::uint16_t list_digest(const TrackMembers& members, int count) {
+  std::uint16_t crc = kCrc16Start;
+  for (int i = 0; i < count; ++i) {
+    for (const std::uint8_t byte : members.poses[i]) crc = crc16_add(crc, byte);
+    for (const std::uint8_t byte : members.motions[i]) crc = crc16_add(crc, byte);
+  }
+  return crc;
+}
 
 void TrackListSender::start(const Tracks& tracks) {
   tracks_.vehicle_time_ms = tracks.vehicle_time_ms;
@@ -64,10 +89,23 @@ bool TrackListSender::next(Frame& frame) {
     list.count = tracks_.count;
     list.left_out = tracks_.left_out;
     list.vehicle_time_ms = tracks_.vehicle_time_ms;
+    TrackMembers members;
+    for (int i = 0; i < tracks_.count; ++i) {
+      Frame member;
+      if (!seal_member(1 + 2 * i, member)) return false;
+      keep(member, members.poses[i]);
+      if (!seal_member(2 + 2 * i, member)) return false;
+      keep(member, members.motions[i]);
+    }
+    list.digest = list_digest(members, tracks_.count);
     if (!encode(list, frame)) return false;
     header_.protect(frame);
     return true;
   }
+  return seal_member(part, frame);
+}
+
+bool TrackListSender::seal_member(int part, Frame& frame) const {
   const int index = (part - 1) / 2;
   const Track& track = tracks_.items[index];
   const bool encoded = part % 2 == 1 ? encode_pose(track, generation_, index, frame)
@@ -117,6 +155,7 @@ bool TrackListReceiver::accept_header(const Frame& frame) {
   assembling_.vehicle_time_ms = list.vehicle_time_ms;
   assembling_.count = list.count;
   assembling_.left_out = list.left_out;
+  digest_ = list.digest;
   return finish_if_whole();
 }
 
@@ -126,9 +165,8 @@ bool TrackListReceiver::accept_pose(const Frame& frame) {
     reject();
     return false;
   }
-  const auto bit = static_cast<std::uint16_t>(1U << pose.index);
-  if (!awaits(pose.generation, pose.index) || (poses_ & bit) != 0U) return false;
-  poses_ |= bit;
+  if (!awaits(pose.generation, pose.index)) return false;
+  if (!is_new(frame, poses_, pose.index, members_.poses[pose.index])) return false;
   Track& track = assembling_.items[pose.index];
   track.x_m = pose.x_m;
   track.y_m = pose.y_m;
@@ -142,9 +180,8 @@ bool TrackListReceiver::accept_motion(const Frame& frame) {
     reject();
     return false;
   }
-  const auto bit = static_cast<std::uint16_t>(1U << motion.index);
-  if (!awaits(motion.generation, motion.index) || (motions_ & bit) != 0U) return false;
-  motions_ |= bit;
+  if (!awaits(motion.generation, motion.index)) return false;
+  if (!is_new(frame, motions_, motion.index, members_.motions[motion.index])) return false;
   Track& track = assembling_.items[motion.index];
   track.id = motion.id;
   track.speed_mps = motion.speed_mps;
@@ -166,21 +203,43 @@ bool TrackListReceiver::awaits(std::uint8_t generation, std::uint8_t index) {
   return false;
 }
 
+bool TrackListReceiver::is_new(const Frame& frame, std::uint16_t& arrived, unsigned index,
+                               std::uint8_t (&kept)[8]) {
+  const auto bit = static_cast<std::uint16_t>(1U << index);
+  if ((arrived & bit) != 0U) {
+    if (!same(frame, kept)) make_void();
+    return false;
+  }
+  arrived |= bit;
+  keep(frame, kept);
+  return true;
+}
+
 bool TrackListReceiver::finish_if_whole() {
   const auto all = static_cast<std::uint16_t>((1UL << assembling_.count) - 1U);
   if (poses_ != all || motions_ != all) return false;
+  if (list_digest(members_, assembling_.count) != digest_) {
+    make_void();
+    return false;
+  }
   whole_ = assembling_;
   begun_ = false;
   return true;
 }
 
 void TrackListReceiver::give_up() {
-  if (begun_ && broken_ < UINT16_MAX) ++broken_;
+  if (begun_) count_up(broken_);
   begun_ = false;
 }
 
+void TrackListReceiver::make_void() {
+  count_up(voided_);
+  begun_ = false;
+  reject();
+}
+
 void TrackListReceiver::reject() {
-  if (rejected_ < UINT16_MAX) ++rejected_;
+  count_up(rejected_);
 }
 
 }  // namespace s4tp::wire

@@ -1,6 +1,7 @@
 #pragma once
 /// The track list on the wire: a header (TrackList) and two members a track (TrackPose, TrackMotion), all of
 /// one generation. WIRE-020 A list counts only when whole; until then the previous one stands and ages.
+/// WIRE-023 Whole means that the header's digest fits all members, too: against corruption, not forgery.
 
 #include <cstdint>
 
@@ -30,6 +31,14 @@ struct Tracks {
   Track items[kMaxTracks];
 };
 
+/// The members of a list as they stand on the bus.
+struct TrackMembers {
+  std::uint8_t poses[kMaxTracks][8] = {};
+  std::uint8_t motions[kMaxTracks][8] = {};
+};
+/// CRC-16 over all bytes of the first `count` pairs, in their order.
+[[nodiscard]] std::uint16_t list_digest(const TrackMembers& members, int count);
+
 /// Sends lists: call start() with a new one, then next() until it answers false.
 class TrackListSender {
  public:
@@ -38,6 +47,8 @@ class TrackListSender {
   [[nodiscard]] bool next(Frame& frame);
 
  private:
+  [[nodiscard]] bool seal_member(int part, Frame& frame) const;
+
   Tracks tracks_;
   E2eSender header_;
   std::uint8_t generation_ = 0;
@@ -45,8 +56,10 @@ class TrackListSender {
   int total_ = 0;
 };
 
-/// Puts lists together. Members count from their header on and until the next one; a repeated member changes
-/// nothing. The generation tells 16 lists apart, so a frame would have to be 1.6 s late to be mistaken.
+/// Puts lists together. Members count from their header on and until the next one. WIRE-024 A member that
+/// comes again bit for bit changes nothing (CAN retransmits); one that comes again and says something else
+/// voids the list. The generation tells 16 lists apart, so a frame would have to be 1.6 s late to be
+/// mistaken.
 class TrackListReceiver {
  public:
   /// Takes a frame of one of the three messages. \return whether a list has just become whole
@@ -56,6 +69,7 @@ class TrackListReceiver {
   /// The newest whole list; meaningful once accept() has answered true.
   [[nodiscard]] const Tracks& tracks() const { return whole_; }
   [[nodiscard]] std::uint16_t broken_lists() const { return broken_; }  ///< replaced before they were whole
+  [[nodiscard]] std::uint16_t voided_lists() const { return voided_; }  ///< by digest or contradiction
   [[nodiscard]] std::uint16_t rejected_frames() const { return rejected_; }
 
  private:
@@ -63,18 +77,25 @@ class TrackListReceiver {
   [[nodiscard]] bool accept_pose(const Frame& frame);
   [[nodiscard]] bool accept_motion(const Frame& frame);
   [[nodiscard]] bool awaits(std::uint8_t generation, std::uint8_t index);
+  /// Whether the member is new; one that contradicts an earlier one voids the list.
+  [[nodiscard]] bool is_new(const Frame& frame, std::uint16_t& arrived, unsigned index,
+                            std::uint8_t (&kept)[8]);
+  void make_void();
   [[nodiscard]] bool finish_if_whole();
   void give_up();
   void reject();
 
   Tracks whole_;
   Tracks assembling_;
+  TrackMembers members_;
+  std::uint16_t digest_ = 0;
   E2eReceiver header_;
   bool begun_ = false;
   std::uint8_t generation_ = 0;
   std::uint16_t poses_ = 0;  ///< bit i: TrackPose i arrived
   std::uint16_t motions_ = 0;
   std::uint16_t broken_ = 0;
+  std::uint16_t voided_ = 0;
   std::uint16_t rejected_ = 0;
 };
 

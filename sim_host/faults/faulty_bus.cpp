@@ -161,6 +161,12 @@ void FaultyBus::apply(Source& source, int tick, Frames& frames, std::vector<Dela
 
 std::vector<Frame> FaultyBus::to_ecu(int tick, Frames frames) {
   for (Source& source : sources_) apply(source, tick, frames, source.delayed_to_ecu);
+  const bool lying = std::any_of(sources_.begin(), sources_.end(), [tick](const Source& source) {
+    const FaultKind kind = source.fault.kind;
+    return source.fault.active(tick) &&
+           (kind == FaultKind::kStuck || kind == FaultKind::kPattern || kind == FaultKind::kLongList);
+  });
+  sealer_.pass(lying, frames);
   return frames;
 }
 

@@ -8,6 +8,7 @@
 
 #include "firmware/wire/frame.hpp"
 #include "hal/can.hpp"
+#include "sim_host/faults/list_sealer.hpp"
 #include "sim_host/faults/script.hpp"
 
 namespace s4tp::faults {
@@ -46,6 +47,7 @@ class FaultyBus {
   static void delay(const Fault& fault, int tick, Frames& frames, std::vector<Delayed>& delayed);
 
   std::vector<Source> sources_;
+  ListSealer sealer_;
   int last_tick_ = 0;  ///< with a fault
 };
 

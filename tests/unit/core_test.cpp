@@ -65,7 +65,8 @@ TEST(Plan, SampleHoldsTheEnds) {
   EXPECT_EQ(sample(plan, 0xFFFFFF00U + 9000U).speed_mps, 30.0F);
 }
 
-// CORE-001 CORE-002 CORE-003 CORE-004 CORE-005 CORE-006 CORE-007 CORE-008: every status has a name of its own.
+// CORE-001 CORE-002 CORE-003 CORE-004 CORE-005 CORE-006 CORE-007 CORE-008: every status has a name of its
+// own.
 TEST(Status, NamesAreDistinct) {
   std::set<std::string> names;
   for (const Status status :

@@ -4,6 +4,8 @@
 
 #include "firmware/wire/codec.hpp"
 #include "firmware/wire/e2e.hpp"
+#include "firmware/wire/track_list.hpp"
+#include "tests/support/wire_samples.hpp"
 
 namespace s4tp::faults {
 namespace {
@@ -46,6 +48,7 @@ class Sender {
 constexpr MessageSet kMotionBit = 1U << 0U;
 constexpr MessageSet kPoseBit = 1U << 2U;
 constexpr MessageSet kTrackListBit = 1U << 4U;
+constexpr MessageSet kMembers = 3U << 5U;
 
 FaultScript script_of(const Fault& fault) {
   FaultScript script;
@@ -170,6 +173,35 @@ TEST(FaultyBus, MakesListsTooLong) {
   const auto beyond = through({FaultKind::kLongList, 10, 5, kTrackListBit, 0, 1});
   EXPECT_TRUE(wire::e2e_crc_fits(beyond[12][2]));
   EXPECT_FALSE(wire::decode(beyond[12][2], list));
+}
+
+// FAULT-004: a list whose senders lie is a whole list all the same: its digest is that of what it says, and
+// nothing of it is lost or comes twice.
+TEST(FaultyBus, SealsListsOfLies) {
+  wire::TrackListSender sender;
+  wire::TrackListReceiver receiver;
+  FaultyBus bus(script_of({FaultKind::kPattern, 1, 40, kMembers, 0, 9}));
+  int lists = 0;
+  int lies = 0;
+  for (int list = 0; list < 4; ++list) {
+    wire::Tracks tracks;
+    tracks.count = 6;
+    for (wire::Track& track : tracks.items) track = {1, 10.0F, 2.0F, 0.0F, 5.0F, 0.0F, 0.0F, 4.5F, 1.8F};
+    sender.start(tracks);
+    for (int tick = 10 * list + 1; tick <= 10 * list + 10; ++tick) {
+      std::vector<Frame> frames;
+      Frame frame;
+      for (int i = 0; i < 2 && sender.next(frame); ++i) frames.push_back(frame);
+      for (const Frame& passed : bus.to_ecu(tick, frames)) {
+        if (!receiver.accept(passed)) continue;
+        ++lists;
+        lies += receiver.tracks() == tracks ? 0 : 1;
+      }
+    }
+  }
+  EXPECT_EQ(receiver.voided_lists(), 0);
+  EXPECT_EQ(lists, 3);
+  EXPECT_EQ(lies, 3);
 }
 
 // The controller's state, and late plans, only while the fault lasts; off goes before passive.

@@ -168,8 +168,7 @@ TEST(PlanWords, LaneChangesAndStops) {
   stop.record.explanation.status = Status::kInvalidInput;
   EXPECT_EQ(in_words(stop), "Stopping to be safe: what the sensors say cannot be right.");
   stop.record.explanation.status = Status::kStaleTracks;
-  EXPECT_EQ(in_words(stop),
-            "Stopping to be safe: the sensors have not said for too long who is around.");
+  EXPECT_EQ(in_words(stop), "Stopping to be safe: the sensors have not said for too long who is around.");
   stop.record.explanation.status = Status::kNoSafePlan;
   add_track(stop, 7, {15.0F, 20.0F, kFromLeft});
   hold_up(stop, safety::Cause::kZone, 7, 1.0F, 3.0F);

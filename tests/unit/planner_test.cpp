@@ -126,13 +126,13 @@ TEST(Planner, NeverUsesABrokenInput) {
 /// Any one number of a plan.
 float& number_of(Plan& plan, int which) {
   TrajectoryPoint& point = plan.trajectory.points[which % kTrajectoryPoints];
-  float* const numbers[] = {&point.rear_axle.x_m, &point.rear_axle.y_m,      &point.rear_axle.heading_rad,
+  float* const numbers[] = {&point.rear_axle.x_m, &point.rear_axle.y_m,     &point.rear_axle.heading_rad,
                             &point.speed_mps,     &point.acceleration_mps2, &point.curvature_1pm};
   return *numbers[which / kTrajectoryPoints];
 }
 
-// CORE-014, CAND-019: any single number of the running plan made absurd is a plan none of ours: invalid input, and the
-// answer is a stop from where we are, in range itself.
+// CORE-014, CAND-019: any single number of the running plan made absurd is a plan none of ours: invalid
+// input, and the answer is a stop from where we are, in range itself.
 TEST(Planner, TakesNoRunningPlanThatCannotBeOurs) {
   Drive drive = on_straight_road(10.0F);
   for (int i = 0; i < 3; ++i) ASSERT_EQ(drive.step(), Status::kOk);
@@ -154,8 +154,8 @@ TEST(Planner, TakesNoRunningPlanThatCannotBeOurs) {
   }
 }
 
-// CORE-014, CAND-020: a running plan that drives off with 5.8 m/s^2 where the car has 3.5, true to its own speeds: the
-// plan is not gone on with.
+// CORE-014, CAND-020: a running plan that drives off with 5.8 m/s^2 where the car has 3.5, true to its own
+// speeds: the plan is not gone on with.
 TEST(Planner, TakesNoRunningPlanBeyondTheCarsLimits) {
   Drive drive = on_straight_road(10.0F);
   ASSERT_EQ(drive.step(), Status::kOk);
@@ -200,7 +200,8 @@ TEST(Planner, StopsBehindAStandingCar) {
   EXPECT_GT(front_m, 85.0F);  // and not absurdly far from it
 }
 
-// CORE-035: the same when the standing car shares its id with one that stands behind us, named before it or after.
+// CORE-035: the same when the standing car shares its id with one that stands behind us, named before it or
+// after.
 TEST(Planner, StopsBehindAStandingCarThatSharesItsId) {
   for (const bool named_first : {true, false}) {
     Drive drive(straight_road(1, 400.0F));

@@ -258,9 +258,9 @@ TEST_F(CFacade, AnswersInvalidInputWithMinimumRisk) {
   EXPECT_EQ(plan.kind, static_cast<std::uint32_t>(S4TP_PLAN_MINIMUM_RISK));
 }
 
-// API-016, CORE-013: 8 m/s at x = -30. A broken vehicle in the list: the stop begins where we are, 0.8 m on at the
-// boundary. Our own state broken: at the running plan, or without one where we were seen last. Never seen: nothing,
-// said so, all zeros.
+// API-016, CORE-013: 8 m/s at x = -30. A broken vehicle in the list: the stop begins where we are, 0.8 m on
+// at the boundary. Our own state broken: at the running plan, or without one where we were seen last. Never
+// seen: nothing, said so, all zeros.
 TEST_F(CFacade, AStopBeginsWhereWeAreKnownToBe) {
   const s4tp_ego good_ego = input.ego;
   const auto stops_from = [this](float x_m) {
@@ -301,8 +301,9 @@ TEST_F(CFacade, AStopBeginsWhereWeAreKnownToBe) {
   EXPECT_EQ(plan.kind, static_cast<std::uint32_t>(S4TP_PLAN_NONE)) << "init forgets";
 }
 
-// CORE-008, API-012: a list that is thrown away for its time never answers OK, and the plan is a stop: over 500 ms
-// old, as far ahead, time 0, older than the one before. One cycle later with a fresh list it drives on.
+// CORE-008, API-012: a list that is thrown away for its time never answers OK, and the plan is a stop: over
+// 500 ms old, as far ahead, time 0, older than the one before. One cycle later with a fresh list it drives
+// on.
 TEST_F(CFacade, AListThrownAwayIsAStop) {
   input.now_ms = 100'000;
   const auto cycle = [this](std::uint32_t list_ms) {

@@ -303,8 +303,8 @@ TEST(SceneBuilder, BringsTracksForwardAlongTheirLane) {
   EXPECT_NEAR(distance(position(centre), position(pose)), 4.0F, 0.1F);
 }
 
-// CORE-035 Three vehicles, two of one id, in ten lists: all are there in each, nobody has another's history, each has an
-// id of its own; the count says two. Once the ids are their own again they have a past again.
+// CORE-035 Three vehicles, two of one id, in ten lists: all are there in each, nobody has another's history,
+// each has an id of its own; the count says two. Once the ids are their own again they have a past again.
 TEST(SceneBuilder, KeepsVehiclesThatShareAnId) {
   Drive drive;
   drive.step({test::car(3, 60.0F, 0.0F, 0.0F, 0.0F)});
@@ -320,7 +320,7 @@ TEST(SceneBuilder, KeepsVehiclesThatShareAnId) {
       places_m.insert(static_cast<int>(std::lround(agent.track.centre.x_m)));
       const bool own = agent.track.id == 9;
       EXPECT_EQ(agent.known_ms, own ? (i + 1) * 100 : 100) << i;
-      if (!own) EXPECT_EQ(agent.history.valid, 1U << (kHistorySamples - 1)) << i;
+      EXPECT_TRUE(own || agent.history.valid == 1U << (kHistorySamples - 1)) << i;
     }
     EXPECT_EQ(ids.size(), 3U);
     EXPECT_EQ(places_m, (std::set<int>{-20, 40, 60}));

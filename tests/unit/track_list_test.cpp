@@ -104,6 +104,60 @@ TEST_F(TrackListTest, LateMembersChangeNothing) {
   EXPECT_TRUE(receiver_.tracks() == sent);
 }
 
+/// The member says something else in `bit`, under a CRC that fits.
+Frame forged(Frame member, unsigned bit) {
+  member.data[bit / 8U] = static_cast<std::uint8_t>(member.data[bit / 8U] ^ (1U << (bit % 8U)));
+  e2e_seal(member);
+  return member;
+}
+
+// WIRE-023: any bit of any member that says something else, or the same bit of two, sealed: the list is void,
+// counted and rejected, and the one before stands. The next one counts.
+TEST_F(TrackListTest, ADigestThatDoesNotFitVoidsTheList) {
+  constexpr unsigned kFirstBit = 16;  // behind generation and index
+  const Tracks before = receiver_.tracks();
+  int voided = 0;
+  int tried = 0;
+  for (unsigned bit = kFirstBit; bit < 63; ++bit) {
+    for (std::size_t member = 1; member < 9; ++member) {
+      TrackListSender sender = sender_;
+      TrackListReceiver receiver = receiver_;
+      std::vector<Frame> frames = frames_of(sender, sample_tracks(4, 9));
+      frames[member] = forged(frames[member], bit);
+      if (member > 2) frames[member - 2] = forged(frames[member - 2], bit);
+      int lists = 0;
+      for (const Frame& frame : frames) lists += receiver.accept(frame) ? 1 : 0;
+      ASSERT_EQ(lists, 0) << bit << " of member " << member;
+      ASSERT_TRUE(receiver.tracks() == before);
+      ++tried;
+      // A value the wire does not know is rejected at once; then the list never becomes whole.
+      voided += receiver.voided_lists();
+      EXPECT_GE(receiver.rejected_frames(), 1);
+      for (const Frame& frame : frames_of(sender, before)) lists += receiver.accept(frame) ? 1 : 0;
+      ASSERT_EQ(lists, 1);
+    }
+  }
+  EXPECT_GT(voided, tried / 2);
+}
+
+// WIRE-024: the true member first or the forged one first: once two differ there is no list.
+TEST_F(TrackListTest, AContradictionVoidsTheList) {
+  for (const bool forged_first : {true, false}) {
+    for (const std::size_t member : {3U, 4U}) {
+      std::vector<Frame> frames = frames_of(sender_, sample_tracks(4, 9));
+      const Frame other = forged(frames[member], 20);
+      const int voided = receiver_.voided_lists();
+      const int rejected = receiver_.rejected_frames();
+      frames.insert(frames.begin() + static_cast<int>(member) + (forged_first ? 0 : 1), other);
+      EXPECT_EQ(deliver(frames), 0);
+      EXPECT_EQ(receiver_.voided_lists(), voided + 1);
+      EXPECT_EQ(receiver_.rejected_frames(), rejected + 1);
+    }
+  }
+  EXPECT_EQ(deliver(frames_of(sender_, sample_tracks(2, 4))), 1);
+}
+
+// WIRE-024: a frame that came twice bit for bit.
 TEST_F(TrackListTest, RepeatedFramesChangeNothing) {
   const Tracks sent = sample_tracks(3, 5);
   int lists = 0;
