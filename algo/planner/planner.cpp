@@ -124,6 +124,7 @@ Status Planner::plan(const PlannerInput& input, Plan& plan, Explanation& explana
       predict(explanation);
       rank(input.degraded != 0, explanation);
       status = choose(explanation);
+      if (probe != nullptr) probe->candidates_done({start_, running_, lines_, candidates_, costs_});
     }
   } else {
     forget_scene();  // nothing of a broken input may be used

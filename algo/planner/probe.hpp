@@ -6,10 +6,21 @@
 
 namespace s4tp {
 
+/// What the candidates of a cycle were made from and what they cost: enough to roll each out again.
+struct CandidatesView {
+  const TrajectoryPoint& start;
+  const Plan& running;
+  const ReferenceLines& lines;
+  const CandidateList& candidates;
+  const CostBreakdown (&costs)[kMaxCandidates];  ///< of who was not rejected; risk 0 where none was computed
+};
+
 class Probe {
  public:
   virtual void stage_begin(Stage stage) = 0;
   virtual void stage_end(Stage stage) = 0;
+  /// After the choice among them; not in a cycle without candidates. References end with the call.
+  virtual void candidates_done(const CandidatesView&) {}
   /// The cycle's scene and what was predicted for the plan chosen, with its risk. References end with the
   /// call.
   virtual void cycle_done(const Scene& scene, const PredictionSet& prediction, const RiskProfile& risk) = 0;

@@ -61,6 +61,25 @@ static_assert(sizeof(kTable) / sizeof(kTable[0]) == kTransitionCount);
 
 }  // namespace
 
+const char* mode_name(Mode mode) {
+  static constexpr const char* kNames[kModeCount] = {"standby",      "ready",   "driving", "degraded",
+                                                     "minimum risk", "stopped", "fault"};
+  const int index = static_cast<int>(mode);
+  return index < kModeCount ? kNames[index] : "?";
+}
+
+const char* fault_name(int index) {
+  static constexpr const char* kNames[kFaultCount] = {"no motion frames", "motion frames early or late",
+                                                      "no pose",          "no steering angle",
+                                                      "track list late",  "no track list",
+                                                      "map late",         "no map",
+                                                      "another version",  "plan late",
+                                                      "no plan",          "self-test refused",
+                                                      "bus off",          "far from the plan",
+                                                      "the gate refused", "the driver took over"};
+  return index >= 0 && index < kFaultCount ? kNames[index] : "?";
+}
+
 const Transition& transition(int index) {
   S4TP_ASSERT(index >= 0 && index < kTransitionCount);
   return kTable[index];

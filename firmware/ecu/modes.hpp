@@ -27,6 +27,9 @@ enum class Mode : std::uint8_t {
 };
 inline constexpr int kModeCount = 7;
 
+/// In words, as reports and pages show it; "?" for none of them.
+[[nodiscard]] const char* mode_name(Mode mode);
+
 /// Bits of the status frame's fault field. The exact conditions stand in supervision.hpp.
 enum class FaultBit : std::uint16_t {
   kMotionMissing = 1U << 0,    ///< ECU-010 no valid motion frame for 3 ticks
@@ -51,6 +54,10 @@ using Faults = std::uint16_t;
 constexpr Faults bit(FaultBit fault) {
   return static_cast<Faults>(fault);
 }
+
+inline constexpr int kFaultCount = 16;
+/// What fault bit `index` means, in a few words; "?" where there is none.
+[[nodiscard]] const char* fault_name(int index);
 
 /// Faults that let the car drive on, degraded.
 inline constexpr Faults kDegradingFaults =

@@ -12,6 +12,7 @@
 #include "sim_host/processes/drive_on_bus.hpp"
 #include "sim_host/processes/drive_on_target.hpp"
 #include "sim_host/processes/emulated_board.hpp"
+#include "sim_host/telemetry/records.hpp"
 #include "sim_host/view/episode_picture.hpp"
 #include "sim_host/view/explanation_table.hpp"
 #include "sim_host/view/plan_words.hpp"
@@ -39,6 +40,7 @@ struct RunOptions {
   bool machine = false;
   fs::path log;
   bool explain = false;
+  std::string telemetry = telemetry::kDefaultName;
 };
 
 int run_one(const RunOptions& run) {
@@ -111,6 +113,7 @@ int run_on_bus(const RunOptions& run) {
       ecu.insert(ecu.end(), {"--parameters", run.common.parameters_file});
     }
     if (run.realtime) ecu.push_back("--realtime");
+    ecu.insert(ecu.end(), {"--telemetry", run.telemetry});
   }
   return processes::drive_on_bus(run.common.find_scenario(run.scenario), options, std::cout);
 }
@@ -159,6 +162,9 @@ Command add_run(CLI::App& tool) {
   bus->excludes(explain);
   run->add_flag("--realtime", options->realtime, "on a bus: 10 ms of host time a tick")->needs(bus);
   run->add_flag("--no-ecu", options->no_ecu, "on a bus: an ECU is there already")->needs(bus);
+  run->add_option("--telemetry", options->telemetry,
+                  "on a bus: shared memory the ECU tells what it does through (default /s4tp_ecu)")
+      ->needs(bus);
   CLI::Option* const target =
       run->add_option("--target", options->target,
                       "the ECU's image on an emulated board: m7, m55 (no picture then)")

@@ -30,6 +30,8 @@ int main(int argc, char** argv) {
   app.add_option("--silence", options.silence_s, "seconds without a tick that end the drive (default 5)");
   CLI::Option* realtime = app.add_flag("--realtime", options.realtime,
                                        "ticks from a timer of its own, control and planning on threads");
+  app.add_option("--telemetry", options.telemetry,
+                 "shared memory to write records to, /NAME; s4tp-telemetry and the view read it");
   app.add_option("--report", options.report, "JSON file that says whether it was on time")->needs(realtime);
   try {
     app.parse(argc, argv);

@@ -14,6 +14,7 @@
 #include "sim_host/processes/ecu_realtime.hpp"
 #include "sim_host/processes/ecu_reporter.hpp"
 #include "sim_host/processes/timed_bus.hpp"
+#include "sim_host/telemetry/ecu_tap.hpp"
 
 namespace s4tp::processes {
 namespace {
@@ -27,10 +28,16 @@ struct Devices {
   hal::sim::NullCycleCounter cycles;
   hal::sim::NullWatchdog watchdog;
   EcuReporter reporter;
+  telemetry::EcuTap tap{&reporter};
 
-  std::unique_ptr<campaign::AnyEcu> make_ecu(const EcuProcessOptions& options, hal::Can& bus) {
+  std::unique_ptr<campaign::AnyEcu> make_ecu(const EcuProcessOptions& options, hal::Can& bus,
+                                             std::ostream& out) {
+    hal::linux_host::Reason reason;
+    const bool told = !options.telemetry.empty();
+    if (told && !tap.open(options.telemetry, options.planner, options.bus, options.parameters, reason))
+      out << "no telemetry: " << reason.text << std::endl;
     return campaign::make_ecu(options.planner, options.guarded, options.parameters,
-                              {&bus, &clock, &cycles, &watchdog, &reporter}, nullptr);
+                              {&bus, &clock, &cycles, &watchdog, &tap}, tap.is_open() ? &tap : nullptr);
   }
 };
 
@@ -59,8 +66,9 @@ void print_summary(std::ostream& out, const EcuProcessOptions& options, std::uin
 EcuEnd run_in_lock_step(hal::linux_host::LinuxCan& can, const EcuProcessOptions& options, std::ostream& out,
                         const std::atomic<bool>& stop) {
   ecu::LockstepBus bus(can);
-  Devices devices;
-  const auto ecu = devices.make_ecu(options, bus);
+  const auto kept = std::make_unique<Devices>();  // tens of KiB
+  Devices& devices = *kept;
+  const auto ecu = devices.make_ecu(options, bus, out);
   ecu::Reporter hello;  // "I am there", until the world begins
   std::uint32_t ticks = 0;
   EcuEnd end = EcuEnd::kStopped;
@@ -79,6 +87,7 @@ EcuEnd run_in_lock_step(hal::linux_host::LinuxCan& can, const EcuProcessOptions&
     devices.clock.follow(++ticks * kTick_ms);
     ecu->control_tick();
     if (ecu->planning_due()) ecu->planning_cycle();
+    devices.tap.note_status(ecu->core(), bus);
     devices.reporter.print(out, options.bus);
   }
   print_summary(out, options, ticks, devices.reporter, *ecu, bus);
@@ -88,9 +97,11 @@ EcuEnd run_in_lock_step(hal::linux_host::LinuxCan& can, const EcuProcessOptions&
 EcuEnd run_in_real_time(hal::linux_host::LinuxCan& can, const EcuProcessOptions& options, std::ostream& out,
                         const std::atomic<bool>& stop) {
   TimedBus bus(can);
-  Devices devices;
-  const auto ecu = devices.make_ecu(options, bus);
-  const RealtimeDrive drive = drive_in_real_time(*ecu, bus, can, devices.reporter, options, out, stop);
+  const auto kept = std::make_unique<Devices>();  // tens of KiB
+  Devices& devices = *kept;
+  const auto ecu = devices.make_ecu(options, bus, out);
+  const RealtimeDrive drive =
+      drive_in_real_time(*ecu, bus, can, devices.reporter, devices.tap, options, out, stop);
   print_summary(out, options, drive.ticks, devices.reporter, *ecu, bus);
   if (drive.ticks > 0) print(out, drive.report);
   if (!options.report.empty()) {

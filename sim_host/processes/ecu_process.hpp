@@ -22,7 +22,8 @@ struct EcuProcessOptions {
   int silence_s = 5;  ///< without a tick, after which the drive is over
   bool realtime =
       false;  ///< control and planning on threads of their own, ticks from a timer: as on a real ECU
-  std::filesystem::path report;                       ///< realtime: whether it was on time, as JSON
+  std::string telemetry;         ///< shared memory to write records to (sim_host/telemetry); empty: none
+  std::filesystem::path report;  ///< realtime: whether it was on time, as JSON
   hal::linux_host::RealtimeKernel* kernel = nullptr;  ///< realtime: null is the one we run on
 };
 

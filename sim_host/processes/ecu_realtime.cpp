@@ -31,11 +31,12 @@ std::uint32_t clamp_us(std::uint64_t time_us) {
 class Drive {
  public:
   Drive(campaign::AnyEcu& ecu, TimedBus& bus, hal::linux_host::LinuxCan& can, EcuReporter& reporter,
-        const EcuProcessOptions& options, const std::atomic<bool>& stop)
+        telemetry::EcuTap& tap, const EcuProcessOptions& options, const std::atomic<bool>& stop)
       : ecu_(ecu),
         bus_(bus),
         can_(can),
         reporter_(reporter),
+        tap_(tap),
         options_(options),
         kernel_(options.kernel != nullptr ? *options.kernel : hal::linux_host::this_kernel()),
         stop_(stop) {}
@@ -119,6 +120,7 @@ class Drive {
         timer_.adjust(hal::linux_host::phase_shift_us(*motion_us, kLead_us, timer_.due_us()));
       ecu_.control_tick();
       wake_.release();
+      tap_.note_status(ecu_.core(), bus_);
       ++result_.ticks;
       note_news();
       const std::uint64_t now_us = clock_.now_us();
@@ -160,6 +162,7 @@ class Drive {
   TimedBus& bus_;
   hal::linux_host::LinuxCan& can_;
   EcuReporter& reporter_;
+  telemetry::EcuTap& tap_;
   const EcuProcessOptions& options_;
   hal::linux_host::RealtimeKernel& kernel_;
   const std::atomic<bool>& stop_;
@@ -183,9 +186,10 @@ class Drive {
 }  // namespace
 
 RealtimeDrive drive_in_real_time(campaign::AnyEcu& ecu, TimedBus& bus, hal::linux_host::LinuxCan& can,
-                                 EcuReporter& reporter, const EcuProcessOptions& options, std::ostream& out,
+                                 EcuReporter& reporter, telemetry::EcuTap& tap,
+                                 const EcuProcessOptions& options, std::ostream& out,
                                  const std::atomic<bool>& stop) {
-  return Drive(ecu, bus, can, reporter, options, stop).run(out);
+  return Drive(ecu, bus, can, reporter, tap, options, stop).run(out);
 }
 
 }  // namespace s4tp::processes

@@ -15,6 +15,7 @@
 #include "sim_host/processes/ecu_reporter.hpp"
 #include "sim_host/processes/realtime_report.hpp"
 #include "sim_host/processes/timed_bus.hpp"
+#include "sim_host/telemetry/ecu_tap.hpp"
 
 namespace s4tp::processes {
 
@@ -31,7 +32,7 @@ struct RealtimeDrive {
 /// above planning, and the process for locked memory, before the first tick.
 [[nodiscard]] RealtimeDrive drive_in_real_time(campaign::AnyEcu& ecu, TimedBus& bus,
                                                hal::linux_host::LinuxCan& can, EcuReporter& reporter,
-                                               const EcuProcessOptions& options, std::ostream& out,
-                                               const std::atomic<bool>& stop);
+                                               telemetry::EcuTap& tap, const EcuProcessOptions& options,
+                                               std::ostream& out, const std::atomic<bool>& stop);
 
 }  // namespace s4tp::processes

@@ -7,16 +7,10 @@
 namespace s4tp::processes {
 namespace {
 
-const char* mode_name(ecu::Mode mode) {
-  static constexpr const char* kNames[ecu::kModeCount] = {"standby",      "ready",   "driving", "degraded",
-                                                          "minimum risk", "stopped", "fault"};
-  return kNames[static_cast<int>(mode)];
-}
-
 void print_change(std::ostream& out, const ecu::ModeRecord& change) {
   char text[80];
-  std::snprintf(text, sizeof text, "ECU %8.2f s  %s -> %s", change.time_ms / 1000.0, mode_name(change.from),
-                mode_name(change.to));
+  std::snprintf(text, sizeof text, "ECU %8.2f s  %s -> %s", change.time_ms / 1000.0,
+                ecu::mode_name(change.from), ecu::mode_name(change.to));
   out << text;
   for (int bit = 0; bit < 16; ++bit) {  // ids of the faults stand beside the bits, in modes.hpp
     if ((change.faults >> bit & 1) != 0) out << ", fault ECU-0" << 10 + bit;

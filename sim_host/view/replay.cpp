@@ -28,8 +28,6 @@ constexpr int kHazeRows = 72;
 constexpr int kStepsShown = 2;     // every so many of a horizon
 constexpr double kSameCarM = 6.0;  // a track further from every car is none of them
 constexpr double kFirstShownS = -0.05;
-const char* const kModes[ecu::kModeCount] = {"standby",      "ready",   "driving", "degraded",
-                                             "minimum risk", "stopped", "fault"};
 
 long thousandths(double value) {
   return std::lround(1000.0 * value);
@@ -276,7 +274,7 @@ ordered_json replay_data(const Replayed& episode) {
     }
     ordered_json& modes = data["ecu_modes"] = ordered_json::array();
     for (const ecu::ModeRecord& mode : episode.result.trace->modes) {
-      modes.push_back({thousandths(mode.time_ms / 1000.0 - pre_roll_s), kModes[static_cast<int>(mode.to)]});
+      modes.push_back({thousandths(mode.time_ms / 1000.0 - pre_roll_s), ecu::mode_name(mode.to)});
     }
   }
   data["cycles"] = std::move(cycles);

@@ -1,0 +1,360 @@
+#include "sim_host/telemetry/dds_messages.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace s4tp::telemetry {
+namespace {
+
+using Header = std_msgs_msg_dds__Header_;
+using DdsPose = geometry_msgs_msg_dds__Pose_;
+using Object = autoware_perception_msgs_msg_dds__TrackedObject_;
+using Shape = autoware_perception_msgs_msg_dds__Shape_;
+using Classification = autoware_perception_msgs_msg_dds__ObjectClassification_;
+
+constexpr const char* kOdom = "odom";
+constexpr const char* kBase = "base_link";
+constexpr double kVehicleHeightM = 1.5;
+constexpr std::uint8_t kOrientationAvailable = 2;
+constexpr float kRestMps = 0.1F;
+
+template <class Stamp>
+void set_time(Stamp& stamp, std::uint32_t time_ms) {
+  stamp.sec = static_cast<std::int32_t>(time_ms / 1000U);
+  stamp.nanosec = time_ms % 1000U * 1'000'000U;
+}
+
+Header header(std::uint32_t time_ms, const char* frame, Arena& arena) {
+  Header result{};
+  set_time(result.stamp, time_ms);
+  result.frame_id = arena.text(frame);
+  return result;
+}
+
+DdsPose pose(const Pose& at, double z_m = 0.0) {
+  DdsPose result{};
+  result.position = {at.x_m, at.y_m, z_m};
+  result.orientation.z = std::sin(0.5 * static_cast<double>(at.heading_rad));
+  result.orientation.w = std::cos(0.5 * static_cast<double>(at.heading_rad));
+  return result;
+}
+
+/// By size: the planner knows nothing else. CAR 1, TRUCK 2, MOTORCYCLE 5.
+std::uint8_t label_of(const Track& track) {
+  if (track.length_m >= 9.0F) return 2;
+  return track.width_m < 1.2F ? 5 : 1;
+}
+
+template <class Sequence>
+void classify(const Track& track, Sequence& sequence, Arena& arena) {
+  Classification* const one = arena.sequence(sequence, 1);
+  one->label = label_of(track);
+  one->probability = 1.0F;
+}
+
+Shape shape(const Track& track) {
+  Shape result{};
+  result.dimensions = {track.length_m, track.width_m, kVehicleHeightM};
+  return result;
+}
+
+geometry_msgs_msg_dds__Point_ point(const Pose& at) {
+  return {at.x_m, at.y_m, 0.0};
+}
+
+std_msgs_msg_dds__ColorRGBA_ grey(float alpha) {
+  return {0.5F, 0.5F, 0.5F, alpha};
+}
+
+visualization_msgs_msg_dds__Marker_ marker(const Header& stamp, const char* group, int id, int type,
+                                           double width_m, Arena& arena) {
+  visualization_msgs_msg_dds__Marker_ result{};
+  result.header = stamp;
+  result.ns = arena.text(group);
+  result.id = id;
+  result.type = type;
+  result.pose.orientation.w = 1.0;
+  result.scale = {width_m, width_m, width_m};
+  char* const empty = arena.text("");
+  result.texture_resource = result.text = result.mesh_resource = empty;
+  result.texture.header.frame_id = result.texture.format = result.mesh_file.filename = empty;
+  return result;
+}
+
+constexpr int kLineStrip = 4;
+constexpr int kTextFacing = 9;
+constexpr int kDeleteAll = 3;
+
+/// The first marker of an array: what was shown before goes.
+visualization_msgs_msg_dds__Marker_ clear_all(const Header& stamp, Arena& arena) {
+  auto result = marker(stamp, "", 0, 0, 1.0, arena);
+  result.action = kDeleteAll;
+  return result;
+}
+
+template <class Sequence>
+class Values {
+ public:
+  Values(Sequence& sequence, std::size_t most, Arena& arena)
+      : sequence_(sequence), next_(arena.sequence(sequence, most)), arena_(arena) {
+    sequence_._length = 0;
+  }
+  void add(const char* key, const std::string& value) {
+    next_->key = arena_.text(key);
+    next_->value = arena_.text(value);
+    ++next_;
+    ++sequence_._length;
+  }
+  void add(const char* key, double value, int digits = 0) {
+    char text[48];
+    std::snprintf(text, sizeof text, "%.*f", digits, value);
+    add(key, text);
+  }
+
+ private:
+  Sequence& sequence_;
+  diagnostic_msgs_msg_dds__KeyValue_* next_;
+  Arena& arena_;
+};
+
+constexpr std::uint8_t kFine = 0;
+constexpr std::uint8_t kWarning = 1;
+constexpr std::uint8_t kError = 2;
+
+}  // namespace
+
+char* Arena::text(const std::string& text) {
+  char* const copy = take<char>(text.size() + 1);
+  std::memcpy(copy, text.c_str(), text.size() + 1);
+  return copy;
+}
+
+TrackedObjects tracked_objects(const CycleRecord& cycle, Arena& arena) {
+  TrackedObjects result{};
+  result.header = header(cycle.scene.time_ms, kOdom, arena);
+  auto* object = arena.sequence(result.objects, static_cast<std::size_t>(cycle.scene.agents.size()));
+  for (const Agent& agent : cycle.scene.agents) {
+    const Track& track = agent.track;
+    object->object_id.uuid[15] = track.id;
+    object->existence_probability = 1.0F;
+    classify(track, object->classification, arena);
+    auto& kinematics = object->kinematics;
+    kinematics.pose_with_covariance.pose = pose(track.centre, 0.5 * kVehicleHeightM);
+    kinematics.twist_with_covariance.twist.linear.x = track.speed_mps;
+    kinematics.twist_with_covariance.twist.angular.z = track.yaw_rate_radps;
+    kinematics.acceleration_with_covariance.accel.linear.x = track.acceleration_mps2;
+    kinematics.orientation_availability = kOrientationAvailable;
+    kinematics.is_stationary = track.speed_mps < kRestMps;
+    object->shape = shape(track);
+    ++object;
+  }
+  return result;
+}
+
+PredictedObjects predicted_objects(const ecu::PlanRecord& plan, const CycleRecord& cycle, Arena& arena) {
+  PredictedObjects result{};
+  result.header = header(plan.plan.start_ms, kOdom, arena);
+  auto* object = arena.sequence(result.objects, static_cast<std::size_t>(cycle.prediction.agents.size()));
+  for (const AgentPrediction& agent : cycle.prediction.agents) {
+    const Track& track = cycle.scene.agents[agent.agent].track;
+    object->object_id.uuid[15] = track.id;
+    object->existence_probability = 1.0F;
+    classify(track, object->classification, arena);
+    auto& kinematics = object->kinematics;
+    kinematics.initial_pose_with_covariance.pose = pose(track.centre, 0.5 * kVehicleHeightM);
+    kinematics.initial_twist_with_covariance.twist.linear.x = track.speed_mps;
+    kinematics.initial_twist_with_covariance.twist.angular.z = track.yaw_rate_radps;
+    kinematics.initial_acceleration_with_covariance.accel.linear.x = track.acceleration_mps2;
+    auto* future = arena.sequence(kinematics.predicted_paths, static_cast<std::size_t>(agent.modes.size()));
+    for (const Mode& mode : agent.modes) {
+      auto* step = arena.sequence(future->path, kHorizonSteps);
+      for (const Pose& at : mode.steps) *step++ = pose(at, 0.5 * kVehicleHeightM);
+      future->time_step.nanosec = static_cast<std::uint32_t>(kStepMs) * 1'000'000U;
+      future->confidence = mode.probability;
+      ++future;
+    }
+    object->shape = shape(track);
+    ++object;
+  }
+  return result;
+}
+
+TrajectoryMessage trajectory(const Plan& plan, float wheelbase_m, Arena& arena) {
+  TrajectoryMessage result{};
+  result.header = header(plan.start_ms, kOdom, arena);
+  const std::size_t count = plan.kind == PlanKind::kNone ? 0 : kTrajectoryPoints;
+  auto* to = arena.sequence(result.points, count);
+  for (std::size_t i = 0; i < count; ++i, ++to) {
+    const TrajectoryPoint& from = plan.trajectory.points[i];
+    const auto after_ms = static_cast<std::uint32_t>(i) * static_cast<std::uint32_t>(kStepMs);
+    to->time_from_start.sec = static_cast<std::int32_t>(after_ms / 1000U);
+    to->time_from_start.nanosec = after_ms % 1000U * 1'000'000U;
+    to->pose = pose(from.rear_axle);
+    to->longitudinal_velocity_mps = from.speed_mps;
+    to->acceleration_mps2 = from.acceleration_mps2;
+    to->heading_rate_rps = from.speed_mps * from.curvature_1pm;
+    to->front_wheel_angle_rad = std::atan(wheelbase_m * from.curvature_1pm);
+  }
+  return result;
+}
+
+MarkerArray candidate_markers(const ecu::PlanRecord& plan, const std::vector<RolledOut>& candidates,
+                              Arena& arena) {
+  const Header stamp = header(plan.plan.start_ms, kOdom, arena);
+  float least = 0.0F;
+  float most = 0.0F;
+  bool first = true;
+  for (const RolledOut& one : candidates) {
+    if (!one.costed) continue;
+    least = first ? one.cost.total() : std::min(least, one.cost.total());
+    most = first ? one.cost.total() : std::max(most, one.cost.total());
+    first = false;
+  }
+  MarkerArray result{};
+  auto* to = arena.sequence(result.markers, 1 + 2 * candidates.size());
+  *to++ = clear_all(stamp, arena);
+  result.markers._length = 1;
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    const RolledOut& one = candidates[i];
+    *to = marker(stamp, "candidates", static_cast<int>(i), kLineStrip, one.chosen ? 0.4 : 0.15, arena);
+    const float part = most > least ? (one.cost.total() - least) / (most - least) : 0.0F;
+    to->color = one.costed ? std_msgs_msg_dds__ColorRGBA_{part, 1.0F - part, 0.1F, 0.9F} : grey(0.5F);
+    auto* vertex = arena.sequence(to->points, kTrajectoryPoints);
+    for (const TrajectoryPoint& from : one.trajectory.points) *vertex++ = point(from.rear_axle);
+    ++to;
+    ++result.markers._length;
+    if (!one.costed) continue;
+    *to = marker(stamp, "costs", static_cast<int>(i), kTextFacing, 0.8, arena);
+    to->color = {1.0F, 1.0F, 1.0F, 1.0F};
+    to->pose = pose(one.trajectory.points[kHorizonSteps].rear_axle);
+    char cost[32];
+    std::snprintf(cost, sizeof cost, "%.1f", static_cast<double>(one.cost.total()));
+    to->text = arena.text(cost);
+    ++to;
+    ++result.markers._length;
+  }
+  return result;
+}
+
+ControlMessage control(const ecu::ControlRecord& record) {
+  ControlMessage result{};
+  set_time(result.stamp, record.time_ms);
+  result.control_time = result.lateral.stamp = result.lateral.control_time = result.stamp;
+  result.longitudinal.stamp = result.longitudinal.control_time = result.stamp;
+  result.lateral.steering_tire_angle = record.sent.steering_rad;
+  result.longitudinal.acceleration = record.sent.acceleration_mps2;
+  result.longitudinal.is_defined_acceleration = true;
+  return result;
+}
+
+OccupancyGrid risk_grid(const HeatMap& map, const CycleRecord& cycle, Arena& arena) {
+  OccupancyGrid result{};
+  result.header = header(cycle.scene.time_ms, kBase, arena);
+  result.info.map_load_time = result.header.stamp;
+  result.info.resolution = 1.0F;
+  result.info.width = kHeatColumns;
+  result.info.height = kHeatRows;
+  result.info.origin.position = {-static_cast<double>(kHeatBehind), -0.5 * kHeatRows, 0.0};
+  result.info.origin.orientation.w = 1.0;
+  auto* to = arena.sequence(result.data, static_cast<std::size_t>(kHeatRows) * kHeatColumns);
+  for (const auto& row : map.cells) {
+    for (const std::uint8_t level : row) {
+      int value = level * 99 / kHeatHighest;
+      if (level == kHeatOffRoad) value = -1;
+      if (level == kHeatOpposite) value = 0;
+      if (level == kHeatVehicle) value = 100;
+      *to++ = static_cast<std::int8_t>(value);
+    }
+  }
+  return result;
+}
+
+PathMessage path(const Plan& plan, Arena& arena) {
+  PathMessage result{};
+  result.header = header(plan.start_ms, kOdom, arena);
+  auto* to = arena.sequence(result.poses, plan.kind == PlanKind::kNone ? 0 : kTrajectoryPoints);
+  for (std::uint32_t i = 0; i < result.poses._length; ++i, ++to) {
+    to->header = header(plan.start_ms + i * static_cast<std::uint32_t>(kStepMs), kOdom, arena);
+    to->pose = pose(plan.trajectory.points[i].rear_axle);
+  }
+  return result;
+}
+
+MarkerArray lane_markers(const CycleRecord& cycle, Arena& arena) {
+  static constexpr const char* kKinds[] = {"ours", "opposite", "shoulder"};
+  const Header stamp = header(cycle.scene.time_ms, kOdom, arena);
+  MarkerArray result{};
+  auto* to = arena.sequence(result.markers, 1 + kMaxLanes);
+  *to++ = clear_all(stamp, arena);
+  result.markers._length = 1;
+  for (int i = 0; cycle.has_map && i < kMaxLanes; ++i) {
+    const Lane& lane = cycle.map.lanes[i];
+    if (!lane.present) continue;
+    *to = marker(stamp, kKinds[static_cast<int>(lane.kind)], i, kLineStrip, 0.12, arena);
+    to->color = lane.on_route ? std_msgs_msg_dds__ColorRGBA_{0.2F, 0.6F, 1.0F, 1.0F} : grey(0.8F);
+    auto* vertex = arena.sequence(to->points, lane.point_count);
+    for (int k = 0; k < lane.point_count; ++k) *vertex++ = {lane.points[k].x_m, lane.points[k].y_m, 0.0};
+    ++to;
+    ++result.markers._length;
+  }
+  return result;
+}
+
+DiagnosticArray diagnostics(const ecu::ControlRecord& control, const StatusRecord& status,
+                            const CycleRecord* cycle, Arena& arena) {
+  static constexpr const char* kStages[kStageCount] = {"scene",      "candidates", "predict", "rank",
+                                                       "exact risk", "optimize",   "check",   "explain"};
+  static constexpr const char* kStates[] = {"error-active", "error-passive", "bus off", "down"};
+  DiagnosticArray result{};
+  result.header = header(control.time_ms, "", arena);
+  auto* one = arena.sequence(result.status, 3);
+  for (int i = 0; i < 3; ++i) one[i].hardware_id = arena.text("s4tp");
+
+  std::string faults;
+  for (int bit = 0; bit < ecu::kFaultCount; ++bit) {
+    if ((control.faults >> bit & 1) != 0)
+      faults += (faults.empty() ? "" : ", ") + std::string(ecu::fault_name(bit));
+  }
+  one[0].name = arena.text("s4tp: mode");
+  one[0].message = arena.text(ecu::mode_name(control.mode));
+  const bool ended = control.mode == ecu::Mode::kMinimumRisk || control.mode == ecu::Mode::kFault;
+  one[0].level = ended ? kError : control.faults != 0 ? kWarning : kFine;
+  Values mode(one[0].values, 2, arena);
+  mode.add("faults", faults.empty() ? "none" : faults);
+  mode.add("violations of the gate's limits", control.violations);
+
+  one[1].name = arena.text("s4tp: planning");
+  one[1].level = status.cycles.slips > 0 ? kWarning : kFine;
+  one[1].message = arena.text(status.cycles.slips > 0 ? "deadlines missed" : "in time");
+  Values planning(one[1].values, 2 + kStageCount, arena);
+  planning.add("cycles", status.cycles.count);
+  planning.add("deadlines missed", status.cycles.slips);
+  for (int i = 0; cycle != nullptr && i < kStageCount; ++i)
+    planning.add(kStages[i], 0.001 * cycle->stage_ns[i], 1);  // us
+
+  one[2].name = arena.text("s4tp: bus");
+  one[2].message = arena.text(kStates[static_cast<int>(status.bus_state)]);
+  one[2].level = status.bus_state == hal::CanState::kActive ? kFine : kError;
+  Values bus(one[2].values, 6, arena);
+  bus.add("frames taken", status.accepted_frames);
+  bus.add("frames not believed", status.rejected_frames);
+  bus.add("sent", status.bus.sent);
+  bus.add("received", status.bus.received);
+  bus.add("dropped", status.bus.dropped);
+  bus.add("errors", status.bus.errors);
+  return result;
+}
+
+TransformMessage transform(const CycleRecord& cycle, Arena& arena) {
+  TransformMessage result{};
+  auto* one = arena.sequence(result.transforms, 1);
+  one->header = header(cycle.scene.time_ms, kOdom, arena);
+  one->child_frame_id = arena.text(kBase);
+  const DdsPose at = pose(cycle.scene.ego.rear_axle);
+  one->transform.translation = {at.position.x, at.position.y, 0.0};
+  one->transform.rotation = at.orientation;
+  return result;
+}
+
+}  // namespace s4tp::telemetry

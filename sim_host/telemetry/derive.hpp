@@ -1,0 +1,34 @@
+#pragma once
+/// What can be worked out again from a cycle's record, away from the ECU: the planner's own functions on the
+/// planner's own values.
+
+#include <vector>
+
+#include "algo/core/trajectory.hpp"
+#include "algo/sadrf/heat_map.hpp"
+#include "sim_host/telemetry/records.hpp"
+
+namespace s4tp::telemetry {
+
+struct RolledOut {
+  Trajectory trajectory;
+  Rejection rejection = Rejection::kNone;
+  CostBreakdown cost;
+  bool costed = false;  ///< it was not rejected
+  bool chosen = false;  ///< the plan began as this one
+};
+
+/// TELE-010 All candidates of the cycle, in their order; none when the cycle had none.
+[[nodiscard]] std::vector<RolledOut> candidates_of(const ecu::PlanRecord& plan, const CycleRecord& cycle,
+                                                   const Parameters& parameters);
+
+/// TELE-011 The risk around us, as s4tp::heat_row draws it. Takes tens of milliseconds.
+[[nodiscard]] HeatMap heat_map_of(const ecu::PlanRecord& plan, const CycleRecord& cycle,
+                                  const Parameters& parameters);
+
+/// TELE-012 The minimum-risk manoeuvre from the plan's next boundary on: what would be driven then if no
+/// plan passed.
+[[nodiscard]] Plan fail_safe_of(const ecu::PlanRecord& plan, const CycleRecord& cycle,
+                                const Parameters& parameters);
+
+}  // namespace s4tp::telemetry
