@@ -44,6 +44,7 @@ enum Topic : std::uint8_t {
   kTopicCount
 };
 
+/// TELE-031 On the wire it is plain RTPS: tshark finds every message well formed, and its topic and type.
 class DdsPublisher {
  public:
   /// TELE-030 Speaks on the loopback interface alone unless given another one or CYCLONEDDS_URI: Debian's
