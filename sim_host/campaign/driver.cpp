@@ -29,7 +29,7 @@ class EcuOnBus final : public Driver {
   }
 
   void inject_deadline_miss() override { ecu_->inject_deadline_miss(); }
-  ecu::Mode mode() const override { return ecu_->core().mode(); }
+  const ecu::EcuCore& core() const override { return ecu_->core(); }
 
  private:
   static constexpr std::uint32_t kTickMs = 10;

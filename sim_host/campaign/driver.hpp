@@ -7,7 +7,6 @@
 
 #include "algo/core/parameters.hpp"
 #include "algo/planner/probe.hpp"
-#include "firmware/ecu/modes.hpp"
 #include "firmware/wire/frame.hpp"
 #include "hal/telemetry.hpp"
 #include "sim_host/campaign/any_ecu.hpp"
@@ -22,7 +21,8 @@ class Driver {
   virtual void tick(const std::vector<wire::Frame>& from_world, std::vector<wire::Frame>& to_world) = 0;
   /// The plan being made now will miss its boundary.
   virtual void inject_deadline_miss() = 0;
-  [[nodiscard]] virtual ecu::Mode mode() const = 0;
+  /// What the ECU believes of the world, and its mode.
+  [[nodiscard]] virtual const ecu::EcuCore& core() const = 0;
 };
 
 /// \param telemetry  may be null  \throws as make_ecu()

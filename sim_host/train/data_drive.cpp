@@ -1,0 +1,369 @@
+#include "sim_host/train/data_drive.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "algo/trajectory/candidates.hpp"
+#include "firmware/ecu/map_conversion.hpp"
+#include "firmware/wire/codec.hpp"
+#include "sim_host/campaign/driver.hpp"
+#include "sim_host/train/branch_driver.hpp"
+#include "sim_host/train/instant.hpp"
+#include "sim_host/world/world.hpp"
+
+namespace s4tp::train {
+namespace {
+
+constexpr int kTicksPerSnapshot = 10;
+constexpr double kBusy_s = 0.9;   // between forks where ways cross or somebody is near
+constexpr double kQuiet_s = 4.0;  // and elsewhere
+constexpr float kNearM = 30.0F;
+constexpr double kLongest_s = 45.0;  // of an episode
+constexpr double kRange_m = 150.0;   // of the tracks, as the perception node's
+
+/// What the cars around look like from the car, without the wire: the nearest in range, under lasting ids.
+class Tracks {
+ public:
+  Tracks(const world::PerceptionOptions& errors, world::Vec2 origin, std::uint64_t seed)
+      : errors_(errors), origin_(origin), random_(seed) {}
+
+  /// Takes over the ids of a scene. \param cars  as they are at its time
+  void adopt(const Scene& scene, const std::vector<world::CarState>& cars) {
+    for (const Agent& agent : scene.agents) {
+      for (const world::CarState& car : cars) {
+        const double off_m =
+            std::hypot(car.centre.x - origin_.x - static_cast<double>(agent.track.centre.x_m),
+                       car.centre.y - origin_.y - static_cast<double>(agent.track.centre.y_m));
+        if (off_m < 1.5) ids_.try_emplace(car.id, agent.track.id);
+      }
+      last_id_ = std::max(last_id_, static_cast<int>(agent.track.id));
+    }
+  }
+
+  TrackList of(const world::CarState& ego, std::vector<world::CarState> cars) {
+    const auto away_m = [&](const world::CarState& car) {
+      return std::hypot(car.centre.x - ego.centre.x, car.centre.y - ego.centre.y);
+    };
+    std::erase_if(cars, [&](const world::CarState& car) { return away_m(car) > kRange_m; });
+    std::stable_sort(cars.begin(), cars.end(), [&](const world::CarState& a, const world::CarState& b) {
+      return away_m(a) < away_m(b);
+    });
+    TrackList list;
+    for (const world::CarState& car : cars) {
+      if (list.full()) break;
+      if (errors_.dropout > 0.0 && random_.uniform() < errors_.dropout) continue;
+      (void)list.push(track_of(car));
+    }
+    return list;
+  }
+
+ private:
+  double noisy(double value, double deviation) {
+    return deviation > 0.0 ? random_.normal(value, deviation) : value;
+  }
+  Track track_of(const world::CarState& car) {
+    const auto [known, fresh] = ids_.try_emplace(car.id, static_cast<std::uint8_t>(last_id_ % 254 + 1));
+    if (fresh) last_id_ = known->second;
+    Track track;
+    track.id = known->second;
+    track.centre = {static_cast<float>(noisy(car.centre.x - origin_.x, errors_.position_noise_m)),
+                    static_cast<float>(noisy(car.centre.y - origin_.y, errors_.position_noise_m)),
+                    static_cast<float>(std::remainder(noisy(car.heading_rad, errors_.heading_noise_rad),
+                                                      6.283185307179586))};
+    track.centre.heading_rad = std::clamp(track.centre.heading_rad, -3.1415F, 3.1415F);
+    track.speed_mps =
+        static_cast<float>(std::clamp(noisy(car.speed_mps, errors_.speed_noise_mps), 0.0, 60.0));
+    track.acceleration_mps2 = static_cast<float>(std::clamp(car.acceleration_mps2, -12.0, 12.0));
+    track.yaw_rate_radps = static_cast<float>(std::clamp(car.yaw_rate_radps, -1.28, 1.27));
+    track.length_m = static_cast<float>(car.length_m);
+    track.width_m = static_cast<float>(car.width_m);
+    return track;
+  }
+
+  world::PerceptionOptions errors_;
+  world::Vec2 origin_;
+  world::Random random_;
+  std::map<int, std::uint8_t> ids_;
+  int last_id_ = 0;
+};
+
+world::Snapshot snapshot_of(const world::Branch& branch) {
+  world::Snapshot snapshot;
+  snapshot.time_s = branch.time_s();
+  snapshot.ego = branch.ego();
+  snapshot.ego_steering_rad = branch.vehicle().steering_rad();
+  snapshot.others = branch.others();
+  return snapshot;
+}
+
+/// One of the planner's own candidates from here; false: it has none.
+bool draw_candidate(const Scene& scene, const Parameters& parameters, world::Random& random,
+                    BranchPlan& plan) {
+  plan.start_ms = scene.time_ms + kLeadMs;
+  const TrajectoryPoint start = plan_start(scene.ego, scene.time_ms, {}, plan.start_ms, parameters);
+  ReferenceLines lines;
+  CandidateList candidates;
+  int left_out = 0;
+  generate_candidates(scene, start, {}, plan.start_ms, parameters, kMaxCandidates, lines, candidates,
+                      left_out);
+  if (candidates.empty()) return false;
+  const Candidate& drawn = candidates[random.integer(0, candidates.size() - 1)];
+  roll_out(lines[drawn.path], drawn, start, {}, plan.start_ms, parameters, plan.candidate);
+  return true;
+}
+
+/// How often each intention is drawn, in their order.
+constexpr double kAtZones[kIntentions] = {3.0, 3.0, 1.5, 1.0, 0.5, 0.5, 2.0};
+constexpr double kOnTheRoad[kIntentions] = {2.0, 0.0, 0.0, 3.0, 2.0, 2.0, 2.0};
+
+class DataDrive {
+ public:
+  DataDrive(const world::Scenario& scenario, const DriveOptions& options,
+            const std::function<void(const Sample&)>& sink)
+      : scenario_(scenario),
+        options_(options),
+        sink_(sink),
+        guide_(world::mission_guide(scenario)),
+        world_(scenario, world_options(options)),
+        driver_(
+            campaign::make_driver(options.planner, options.guarded, options.parameters, nullptr, nullptr)),
+        observer_(options.parameters),
+        random_(world::next_seed(options.seed ^ 0xDA7A)) {}
+
+  DriveCounts run();
+
+ private:
+  struct Pending {
+    Instant instant;
+    std::size_t snapshot = 0;  ///< index of its instant in the recording
+  };
+
+  static world::WorldOptions world_options(const DriveOptions& options) {
+    world::WorldOptions result;
+    result.seed = options.seed;
+    if (options.noisy) result.perception = world::perception_preset("real");
+    return result;
+  }
+
+  void tick();
+  bool observe();
+  void consider_fork();
+  void fork();
+  void branch(Instant instant, int number, const BranchPlan& plan);
+  [[nodiscard]] BranchPlan draw(bool at_zone, std::vector<Intention>& used);
+  void label(Instant& instant, bool forked);
+  void emit(const Sample& sample, bool forked);
+
+  const world::Scenario& scenario_;
+  const DriveOptions& options_;
+  const std::function<void(const Sample&)>& sink_;
+  world::RouteGuide guide_;
+  world::World world_;
+  std::unique_ptr<campaign::Driver> driver_;
+  Observer observer_;
+  world::Random random_;
+  std::shared_ptr<const LaneMap> map_;
+  std::uint32_t map_revision_ = 0;
+  world::EgoCommand command_;  ///< the ECU's last
+  double next_fork_s_ = 0.5;
+  std::vector<Pending> pending_;
+  std::vector<wire::Frame> from_world_;
+  std::vector<wire::Frame> from_ecu_;
+  DriveCounts counts_;
+};
+
+void DataDrive::tick() {
+  from_world_.clear();
+  from_ecu_.clear();
+  world_.tick(from_world_);
+  driver_->tick(from_world_, from_ecu_);
+  for (const wire::Frame& frame : from_ecu_) {
+    world_.receive(frame);
+    wire::Command command;
+    if (frame.id == wire::kCommandId && wire::decode(frame, command)) {
+      command_ = {static_cast<double>(command.acceleration_mps2), static_cast<double>(command.steering_rad)};
+    }
+  }
+}
+
+bool DataDrive::observe() {
+  const ecu::Inputs& inputs = driver_->core().inputs();
+  if (!inputs.ego_known() || inputs.map() == nullptr) return false;
+  if (!map_ || inputs.map_revision() != map_revision_) {
+    auto map = std::make_shared<LaneMap>();
+    ecu::convert(*inputs.map(), *map);
+    map_ = std::move(map);
+    map_revision_ = inputs.map_revision();
+  }
+  return observer_.look(inputs.now_ms(), inputs.ego(), inputs.tracks(), inputs.tracks_ms(), *map_);
+}
+
+BranchPlan DataDrive::draw(bool at_zone, std::vector<Intention>& used) {
+  const double(&weights)[kIntentions] = at_zone ? kAtZones : kOnTheRoad;
+  const EgoPath& keep = observer_.scene().ego_paths[0];
+  const auto weight = [&](int i) {
+    const auto intention = static_cast<Intention>(i);
+    if (std::find(used.begin(), used.end(), intention) != used.end()) return 0.0;
+    const Lane& lane = map_->lanes[keep.path.lanes[0].lane];
+    if (intention == Intention::kLeft && lane.left == kNoLaneIndex) return 0.0;
+    if (intention == Intention::kRight && lane.right == kNoLaneIndex) return 0.0;
+    return weights[i];
+  };
+  double total = 0.0;
+  for (int i = 0; i < kIntentions; ++i) total += weight(i);
+  double left = random_.uniform(0.0, total);
+  int drawn = 0;
+  for (int i = 0; i < kIntentions; ++i) {
+    if (weight(i) <= 0.0) continue;
+    drawn = i;
+    left -= weight(i);
+    if (left < 0.0) break;
+  }
+  const auto intention = static_cast<Intention>(drawn);
+  used.push_back(intention);
+  BranchPlan plan = draw_plan(intention, random_);
+  if (intention == Intention::kCandidate &&
+      !draw_candidate(observer_.scene(), options_.parameters, random_, plan)) {
+    plan.intention = Intention::kGo;
+  }
+  return plan;
+}
+
+void DataDrive::label(Instant& instant, bool forked) {
+  Sample& sample = instant.sample;
+  sample.road = options_.road;
+  sample.episode = static_cast<std::uint16_t>(options_.seed);
+  sample.scenario = options_.scenario;
+  sample.flags = forked ? static_cast<std::uint8_t>(kForked) : std::uint8_t{0};
+}
+
+void DataDrive::emit(const Sample& sample, bool forked) {
+  ++counts_.samples;
+  counts_.forked += forked ? 1 : 0;
+  sink_(sample);
+}
+
+void DataDrive::branch(Instant instant, int number, const BranchPlan& plan) {
+  BranchDriver ego(
+      {command_, static_cast<double>(kLeadS), instant.scene.time_ms, world_.origin(), &options_.parameters},
+      plan);
+  const std::unique_ptr<world::Branch> branch = world_.fork(ego);
+  Observer observer = observer_;
+  Tracks tracks(world_options(options_).perception, world_.origin(), random_.integer(0, 1 << 30));
+  tracks.adopt(observer.scene(), branch->others());
+  const std::size_t later[] = {static_cast<std::size_t>(random_.integer(8, 24)),
+                               static_cast<std::size_t>(random_.integer(25, 48))};
+  std::vector<world::Snapshot> drive{snapshot_of(*branch)};
+  std::vector<Pending> instants;
+  while (drive.size() < kSettledSnapshots) {
+    for (int tick = 0; tick < kTicksPerSnapshot; ++tick) branch->step();
+    drive.push_back(snapshot_of(*branch));
+    const std::size_t index = drive.size() - 1;
+    if (index > later[1] || branch->touched() != world::kNoCar) continue;  // who has touched is no example
+    const bool seen = observer.look(instant.scene.time_ms + static_cast<std::uint32_t>(100 * index),
+                                    ego_state_of(branch->vehicle(), world_.origin()),
+                                    tracks.of(branch->ego(), branch->others()),
+                                    instant.scene.time_ms + static_cast<std::uint32_t>(100 * index), *map_);
+    if (!seen || (index != later[0] && index != later[1])) continue;
+    Instant there = capture(observer, options_.parameters, map_, branch->others(), world_.origin());
+    if (there.sample.input.hdvs > 0) instants.push_back({std::move(there), index});
+  }
+  counts_.driven_s += 0.1 * static_cast<double>(kSettledSnapshots);
+  ++counts_.branches;
+  counts_.collided += branch->touched() != world::kNoCar ? 1 : 0;
+  label(instant, true);
+  instant.sample.branch = static_cast<std::uint8_t>(number);
+  complete(instant, scenario_, guide_, drive, branch->touched(), world_.origin(), options_.parameters);
+  emit(instant.sample, true);
+  for (std::size_t i = 0; i < instants.size(); ++i) {
+    Instant& there = instants[i].instant;
+    label(there, false);
+    there.sample.fork = instant.sample.fork + 16 * static_cast<std::uint64_t>(number) + i + 1;
+    there.sample.branch = static_cast<std::uint8_t>(number);
+    complete(there, scenario_, guide_, std::span(drive).subspan(instants[i].snapshot), branch->touched(),
+             world_.origin(), options_.parameters);
+    emit(there.sample, false);
+  }
+}
+
+void DataDrive::fork() {
+  Instant instant = capture(observer_, options_.parameters, map_, world_.recording().snapshots.back().others,
+                            world_.origin());
+  if (instant.sample.input.hdvs == 0) return;
+  const std::uint64_t key =
+      (options_.road * 100'000 + options_.seed) * 1000 + static_cast<std::uint64_t>(counts_.forks);
+  instant.sample.fork = key * 256;
+  ++counts_.forks;
+  bool at_zone = false;
+  for (int i = 0; i < instant.sample.input.hdvs; ++i) {
+    at_zone = at_zone || instant.sample.input.pair[i][static_cast<int>(satp::PairFeature::kZone)] > 0.5F;
+  }
+  std::vector<Intention> used;
+  for (int i = 1; i <= options_.branches; ++i) branch(instant, i, draw(at_zone, used));
+  label(instant, true);
+  pending_.push_back({std::move(instant), world_.recording().snapshots.size() - 1});
+}
+
+void DataDrive::consider_fork() {
+  if (world_.time_s() < next_fork_s_ || counts_.forks >= options_.forks) return;
+  const Scene& scene = observer_.scene();
+  bool busy = false;
+  for (int i = 0; i < scene.watched; ++i) {
+    const Track& track = scene.agents[i].track;
+    busy = busy || distance(position(track.centre), position(scene.ego.rear_axle)) < kNearM;
+  }
+  fork();
+  next_fork_s_ = world_.time_s() + (busy ? kBusy_s : kQuiet_s) * random_.uniform(0.7, 1.6);
+}
+
+DriveCounts DataDrive::run() {
+  bool whole = true;
+  while (!world_.finished() && world_.time_s() < kLongest_s && whole) {
+    tick();
+    const bool boundary = driver_->core().now_ms() % 100 == 0;
+    if (!boundary) continue;
+    const bool seen = observe();
+    if (seen && world_.time_s() >= 0.0 && !world_.finished() && world_.recording().collisions.empty()) {
+      consider_fork();
+    }
+    // What comes after the last fork is driven only as far as its sample needs it.
+    whole = counts_.forks < options_.forks ||
+            world_.recording().snapshots.size() < pending_.back().snapshot + kSettledSnapshots;
+  }
+  counts_.driven_s += world_.time_s();
+  const world::Recording& recording = world_.recording();
+  const int touched = recording.collisions.empty() ? world::kNoCar : recording.collisions.front().other;
+  for (Pending& one : pending_) {
+    const std::span<const world::Snapshot> drive = std::span(recording.snapshots).subspan(one.snapshot);
+    if (drive.size() < kSampleSnapshots) continue;
+    const bool in_time =
+        touched != world::kNoCar &&
+        recording.collisions.front().time_s <= drive[std::min(drive.size(), kSettledSnapshots) - 1].time_s;
+    complete(one.instant, scenario_, guide_, drive, in_time ? touched : world::kNoCar, world_.origin(),
+             options_.parameters);
+    emit(one.instant.sample, true);
+  }
+  return counts_;
+}
+
+}  // namespace
+
+DriveCounts& DriveCounts::operator+=(const DriveCounts& other) {
+  forks += other.forks;
+  branches += other.branches;
+  collided += other.collided;
+  samples += other.samples;
+  forked += other.forked;
+  driven_s += other.driven_s;
+  return *this;
+}
+
+DriveCounts make_samples(const world::Scenario& scenario, const DriveOptions& options,
+                         const std::function<void(const Sample&)>& sink) {
+  return DataDrive(scenario, options, sink).run();
+}
+
+}  // namespace s4tp::train
