@@ -24,6 +24,7 @@ USES = {
     "EventRing": "s4tp::ecu::EventRing<float, 4>",
     "TripleBuffer": "s4tp::ecu::TripleBuffer<float>",
     "Ecu": "s4tp::ecu::Ecu<s4tp::Planner>",
+    "Rows": "s4tp::satp::Rows<float>",
 }
 EXTRA_INCLUDES = {"Ecu": '#include "algo/planner/planner.hpp"\n'}
 # Run-time calls of the Arm ABI that compute with float or double, and the C mathematics library.

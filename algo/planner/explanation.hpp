@@ -56,6 +56,7 @@ struct Explanation {
   CostBreakdown chosen_cost;
   CostBreakdown runner_up_cost;
   Rejection rejections[kMaxCandidates] = {};
+  bool learned = false;        ///< the network predicted, not the kinematic model alone
   std::uint8_t decisions = 0;  ///< how many were predicted with our plan
   /// CORE-072 Of the plan as it is given, a minimum-risk manoeuvre's too; zeros where nothing was predicted
   /// (no lane, broken input), and of the plan before its last changes where no allowance was left.

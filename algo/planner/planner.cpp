@@ -78,10 +78,17 @@ Status Planner::init(const Parameters& parameters) {
   parameters_crc_ = s4tp::parameters_crc(parameters);
   scene_builder_.reset();
   beliefs_.reset();
+  trust_.reset();
   guard_.reset();
   ego_seen_ = false;
   initialized_ = true;
   return Status::kOk;
+}
+
+satp::WeightStatus Planner::use_weights(const void* image, std::uint32_t size_bytes) {
+  weights_ = satp::Weights{};
+  trust_.reset();
+  return satp::Weights::check(image, size_bytes, weights_);
 }
 
 Status Planner::plan(const PlannerInput& input, Plan& plan, Explanation& explanation) {
@@ -91,7 +98,7 @@ Status Planner::plan(const PlannerInput& input, Plan& plan, Explanation& explana
   running_ = input.running != nullptr ? *input.running : Plan{};
   start_ms_ = input.start_ms;
 
-  conditioned_.agents.clear();
+  conditioned_.set.agents.clear();
   refined_in_force_ = false;
   refining_ = false;
 
@@ -149,7 +156,7 @@ Status Planner::plan(const PlannerInput& input, Plan& plan, Explanation& explana
   plan.start_ms = start_ms_;
   plan.trajectory = chosen_;
   explanation.status = status;
-  if (probe != nullptr) probe->cycle_done(scene_, conditioned_, explanation.risk);
+  if (probe != nullptr) probe->cycle_done(scene_, conditioned_.set, explanation.risk);
   return status;
 }
 
@@ -159,7 +166,7 @@ void Planner::explain_risk(Status status, Explanation& explanation) {
   // lasts.
   const bool changed = status != Status::kOk || refined_in_force_ || explanation.rss_clipped;
   if (changed && explanation.work[static_cast<int>(Stage::kExactRisk)] < allowance.exact_risks) {
-    const PredictionSet& prediction = status == Status::kOk ? conditioned_ : unconditioned_;
+    const PredictionSet& prediction = status == Status::kOk ? conditioned_.set : unconditioned_;
     exact_risk(scene_, drivable_, prediction, keep_going_, chosen_, parameters_, explanation.risk);
     count(explanation, Stage::kExactRisk, 1);
   } else if (status != Status::kOk) {
@@ -189,12 +196,16 @@ bool Planner::start_without_input(bool ego_valid) {
 
 void Planner::predict(Explanation& explanation) {
   const StageScope scope(probe, Stage::kPredict);
-  new (&arena_.predictor) Predictor;
-  arena_.predictor.encode(scene_, parameters_, start_ms_, &beliefs_);
+  new (&arena_.predictor) SatpPredictor;
+  explanation.learned = weights_.present();
+  if (weights_.present()) trust_.observe(scene_, weights_.header().usual_residual_m);
+  arena_.predictor.encode(weights_, scene_, parameters_, start_ms_, &beliefs_, &trust_, conditioned_.scratch);
+  new (&conditioned_.set) PredictionSet;
   YieldHypotheses hypotheses[kMaxAgents];
   arena_.predictor.hypotheses(hypotheses);
   beliefs_.observe(scene_, hypotheses);
   arena_.predictor.decode(nullptr, allowance.prediction, unconditioned_);
+  if (weights_.present()) trust_.remember(scene_, unconditioned_, start_ms_);
   arena_.predictor.keep_going(keep_going_);
   count(explanation, Stage::kPredict, arena_.predictor.work());
 }
@@ -261,7 +272,7 @@ bool Planner::evaluate(int index, Explanation& explanation) {
   {
     const StageScope scope(probe, Stage::kPredict);
     const int before = arena_.predictor.work();
-    arena_.predictor.decode(&chosen_, allowance.prediction, conditioned_);
+    arena_.predictor.decode(&chosen_, allowance.prediction, conditioned_.set);
     count(explanation, Stage::kPredict, arena_.predictor.work() - before);
   }
   {
@@ -274,9 +285,9 @@ bool Planner::evaluate(int index, Explanation& explanation) {
   // Without an allowance left the ranking's risk stands.
   if (explanation.work[static_cast<int>(Stage::kExactRisk)] >= allowance.exact_risks) return true;
   const StageScope scope(probe, Stage::kExactRisk);
-  exact_risk(scene_, drivable_, conditioned_, keep_going_, chosen_, parameters_, explanation.risk);
+  exact_risk(scene_, drivable_, conditioned_.set, keep_going_, chosen_, parameters_, explanation.risk);
   costs_[index].risk = parameters_.scoring.risk * risk_integral(explanation.risk, parameters_) +
-                       crash_cost(conditioned_) + hard_[index];
+                       crash_cost(conditioned_.set) + hard_[index];
   count(explanation, Stage::kExactRisk, 1);
   return true;
 }
@@ -291,7 +302,7 @@ void Planner::refine(const Candidate& candidate, Explanation& explanation) {
   IlqrResult result;
   {
     const StageScope scope(probe, Stage::kOptimize);
-    const Surroundings surroundings{scene_, unconditioned_, conditioned_, keep_going_};
+    const Surroundings surroundings{scene_, unconditioned_, conditioned_.set, keep_going_};
     new (&arena_.optimizer) Optimizer;
     refining_ = passes > 0;
     result = arena_.optimizer.refine(lines_[candidate.path], candidate.start_s_m, surroundings, parameters_,

@@ -13,7 +13,8 @@
 #include "algo/planner/probe.hpp"
 #include "algo/sadrf/risk.hpp"
 #include "algo/safety/guard.hpp"
-#include "algo/satp/predictor.hpp"
+#include "algo/satp/prediction_trust.hpp"
+#include "algo/satp/satp_predictor.hpp"
 #include "algo/scene/scene.hpp"
 #include "algo/trajectory/optimizer.hpp"
 
@@ -50,6 +51,12 @@ class Planner {
   /// Checks the arithmetic and the parameters; forgets all history. \return kOk, kArithmetic,
   /// kInvalidParameter
   [[nodiscard]] Status init(const Parameters& parameters);
+
+  /// SATP-055 From the next cycle on the network predicts, if the image is sound; if not, and before the
+  /// first call, the kinematic predictor does. init() leaves the weights as they are. \param image  stays
+  /// where it is while the planner lives; null: no network \return why it was refused \note reads the whole
+  /// image: at start or in standby only
+  [[nodiscard]] satp::WeightStatus use_weights(const void* image, std::uint32_t size_bytes);
 
   /// Plans from the state predicted for input.start_ms. Writes a plan that can be driven: on kNoLane
   /// and kNoSafePlan the minimum-risk manoeuvre; on kStaleTracks too, whatever the scene still knows of the
@@ -107,6 +114,8 @@ class Planner {
   safety::Guard guard_;
   TrajectoryPoint start_;
   YieldBeliefs beliefs_;
+  satp::Weights weights_;
+  PredictionTrust trust_;
   PredictionSet unconditioned_;
   KinematicSet keep_going_;
   ReferenceLines lines_;
@@ -116,7 +125,13 @@ class Planner {
   DecisionList decisions_;
   bool keeps_plan_ = false;  ///< the running plan is among the candidates, as decision plan_key_
   DecisionKey plan_key_ = 0;
-  PredictionSet conditioned_;
+  /// Before anything is predicted for a plan, its room serves the network.
+  union Conditioned {
+    Conditioned() : set() {}
+    PredictionSet set;
+    satp::EncoderScratch scratch;
+  };
+  Conditioned conditioned_;
   Trajectory chosen_;
   Trajectory refined_;
   bool refined_in_force_ = false;  ///< chosen_ is refined_
@@ -125,7 +140,7 @@ class Planner {
   /// begins.
   union Arena {
     Arena() : predictor() {}
-    Predictor predictor;
+    SatpPredictor predictor;
     Optimizer optimizer;
   };
   Arena arena_;

@@ -255,6 +255,11 @@ void build_network_input(const Scene& scene, const Parameters& parameters, float
 
 void build_plan_input(const Trajectory& plan, const Parameters& parameters, const NetworkInput& input,
                       PlanInput& plan_input) {
+  build_plan_input(plan, parameters, input.hdvs, input.anchor, input.pair, plan_input);
+}
+
+void build_plan_input(const Trajectory& plan, const Parameters& parameters, int hdvs, const Pose* anchor,
+                      const float (*pair)[kPairFeatures], PlanInput& plan_input) {
   new (&plan_input) PlanInput;
   const float centre_m = centre_ahead_m(parameters);
   Pose knot[kDecoderSteps + 1];
@@ -267,14 +272,14 @@ void build_plan_input(const Trajectory& plan, const Parameters& parameters, cons
       driven_m[s] += distance(position(plan.points[i].rear_axle), position(plan.points[i + 1].rear_axle));
     }
   }
-  for (int i = 0; i < input.hdvs; ++i) {
-    const float* pair = input.pair[i];
-    const bool zone = pair[static_cast<int>(PairFeature::kZone)] > 0.0F;
-    const float entry_m = pair[static_cast<int>(PairFeature::kOurEntryM)];
-    const float exit_m = pair[static_cast<int>(PairFeature::kOurExitM)];
+  for (int i = 0; i < hdvs; ++i) {
+    const float(&values)[kPairFeatures] = pair[i];
+    const bool zone = values[static_cast<int>(PairFeature::kZone)] > 0.0F;
+    const float entry_m = values[static_cast<int>(PairFeature::kOurEntryM)];
+    const float exit_m = values[static_cast<int>(PairFeature::kOurExitM)];
     for (int s = 0; s < kDecoderSteps; ++s) {
-      const Pose begin = to_anchor(input.anchor[i], knot[s]);
-      const Pose end = to_anchor(input.anchor[i], knot[s + 1]);
+      const Pose begin = to_anchor(anchor[i], knot[s]);
+      const Pose end = to_anchor(anchor[i], knot[s + 1]);
       float(&row)[kPlanValues] = plan_input.step[i][s];
       row[0] = begin.x_m;
       row[1] = begin.y_m;

@@ -28,6 +28,9 @@ void build_network_input(const Scene& scene, const Parameters& parameters, float
 /// \param plan  our motion from plan start \param input  of the same scene
 void build_plan_input(const Trajectory& plan, const Parameters& parameters, const NetworkInput& input,
                       PlanInput& plan_input);
+/// The same, for who has kept of the input the `hdvs` rows of `anchor` and `pair`.
+void build_plan_input(const Trajectory& plan, const Parameters& parameters, int hdvs, const Pose* anchor,
+                      const float (*pair)[kPairFeatures], PlanInput& plan_input);
 
 /// `pose` of the odometry frame in the frame of `anchor`, and back; headings wrapped.
 [[nodiscard]] Pose to_anchor(const Pose& anchor, const Pose& pose);

@@ -27,6 +27,9 @@ struct AgentPrediction {
   BoundedVector<Mode, kMaxModes> modes;  ///< the likeliest first
 };
 
+/// Puts the likeliest mode first.
+void likeliest_first(AgentPrediction& futures);
+
 /// Futures of the watched vehicles, in the order of Scene::agents.
 struct PredictionSet {
   bool conditioned = false;  ///< on our plan

@@ -70,17 +70,6 @@ float yielding(const EgoMotion& ego, const Way& way, const WayMotion& undisturbe
   return chance;
 }
 
-void likeliest_first(AgentPrediction& futures) {
-  int best = 0;
-  for (int i = 1; i < futures.modes.size(); ++i) {
-    if (futures.modes[i].probability > futures.modes[best].probability) best = i;
-  }
-  if (best == 0) return;
-  const Mode first = futures.modes[0];
-  futures.modes[0] = futures.modes[best];
-  futures.modes[best] = first;
-}
-
 }  // namespace
 
 void Predictor::encode(const Scene& scene, const Parameters& parameters, std::uint32_t start_ms,
@@ -103,57 +92,60 @@ void Predictor::decode(const Trajectory* plan, int allowance, PredictionSet& pre
   const EgoMotion ego(*scene_, *parameters_, lead_s_, plan);
   const int work_before = work_;
   for (int i = 0; i < scene_->watched; ++i) {
-    const Agent& agent = scene_->agents[i];
-    const int most = 2 * kPathsPerAgent * kHorizonSteps;
-    if (work_ - work_before + most > allowance) break;
+    if (work_ - work_before + kMaxAgentWork > allowance) break;
     AgentPrediction futures;
-    futures.agent = static_cast<std::uint8_t>(i);
-    const int paths = agent.paths.size();
-    int room = kMaxModes - paths;  // for second futures along the same path
-    Mode mode;
-    if (paths == 0) {
-      mode.probability = 1.0F;
-      place_on_arc(agent.track, lead_s_, mode);
-      (void)futures.modes.push(mode);
-      work_ += kHorizonSteps;
-    }
-    for (int k = 0; k < paths; ++k) {
-      const Way& way = ways_[i][k];
-      const EgoOnPath on_path = ego.on_path(agent.paths[k], way.start_s_m, agent.track);
-      WayMotion motion;
-      drive(way, agent.track, on_path, Hold{}, motion);
-      work_ += kHorizonSteps;
-      Hold hold;
-      float prior = yielding(ego, way, motion, hold);
-      if (prior < 0.0F && agent.track.speed_mps < kStandingMps) {
-        prior = kGoesOnStanding;
-        hold = {way.start_s_m, kNeverS};
-      }
-      float yields =
-          prior < 0.0F
-              ? 0.0F
-              : with_evidence(prior, beliefs_ == nullptr ? 0.0F : beliefs_->evidence(agent.track.id));
-      const bool both = room > 0 && yields > 1.0F - kCertain && yields < kCertain;
-      if (!both) yields = yields >= 0.5F ? 1.0F : 0.0F;
-      if (yields < 1.0F) {
-        mode.probability = agent.path_probability[k] * (1.0F - yields);
-        mode.yields = false;
-        place(*scene_->map, agent.paths[k], agent.frenet[k], agent.track, motion, mode);
-        (void)futures.modes.push(mode);
-      }
-      if (yields > 0.0F) {
-        drive(way, agent.track, on_path, hold, motion);
-        work_ += kHorizonSteps;
-        mode.probability = agent.path_probability[k] * yields;
-        mode.yields = true;
-        place(*scene_->map, agent.paths[k], agent.frenet[k], agent.track, motion, mode);
-        (void)futures.modes.push(mode);
-      }
-      if (both) --room;
-    }
-    likeliest_first(futures);
+    decode_one(ego, i, futures);
     (void)prediction.agents.push(futures);
   }
+}
+
+void Predictor::decode_one(const EgoMotion& ego, int index, AgentPrediction& futures) const {
+  const Agent& agent = scene_->agents[index];
+  futures.agent = static_cast<std::uint8_t>(index);
+  futures.modes.clear();
+  const int paths = agent.paths.size();
+  int room = kMaxModes - paths;  // for second futures along the same path
+  Mode mode;
+  if (paths == 0) {
+    mode.probability = 1.0F;
+    place_on_arc(agent.track, lead_s_, mode);
+    (void)futures.modes.push(mode);
+    work_ += kHorizonSteps;
+  }
+  for (int k = 0; k < paths; ++k) {
+    const Way& way = ways_[index][k];
+    const EgoOnPath on_path = ego.on_path(agent.paths[k], way.start_s_m, agent.track);
+    WayMotion motion;
+    drive(way, agent.track, on_path, Hold{}, motion);
+    work_ += kHorizonSteps;
+    Hold hold;
+    float prior = yielding(ego, way, motion, hold);
+    if (prior < 0.0F && agent.track.speed_mps < kStandingMps) {
+      prior = kGoesOnStanding;
+      hold = {way.start_s_m, kNeverS};
+    }
+    float yields =
+        prior < 0.0F ? 0.0F
+                     : with_evidence(prior, beliefs_ == nullptr ? 0.0F : beliefs_->evidence(agent.track.id));
+    const bool both = room > 0 && yields > 1.0F - kCertain && yields < kCertain;
+    if (!both) yields = yields >= 0.5F ? 1.0F : 0.0F;
+    if (yields < 1.0F) {
+      mode.probability = agent.path_probability[k] * (1.0F - yields);
+      mode.yields = false;
+      place(*scene_->map, agent.paths[k], agent.frenet[k], agent.track, motion, mode);
+      (void)futures.modes.push(mode);
+    }
+    if (yields > 0.0F) {
+      drive(way, agent.track, on_path, hold, motion);
+      work_ += kHorizonSteps;
+      mode.probability = agent.path_probability[k] * yields;
+      mode.yields = true;
+      place(*scene_->map, agent.paths[k], agent.frenet[k], agent.track, motion, mode);
+      (void)futures.modes.push(mode);
+    }
+    if (both) --room;
+  }
+  likeliest_first(futures);
 }
 
 void Predictor::hypotheses(YieldHypotheses (&result)[kMaxAgents]) const {

@@ -5,6 +5,7 @@
 
 #include "algo/core/parameters.hpp"
 #include "algo/core/trajectory.hpp"
+#include "algo/satp/ego_motion.hpp"
 #include "algo/satp/prediction.hpp"
 #include "algo/satp/way.hpp"
 #include "algo/satp/yield_belief.hpp"
@@ -12,8 +13,14 @@
 
 namespace s4tp {
 
-/// Most work of one decode: every path of every vehicle, undisturbed and yielding.
-inline constexpr int kMaxPredictionWork = kMaxAgents * (2 * kPathsPerAgent) * kHorizonSteps;
+/// Most work of one vehicle: every path of it, undisturbed and yielding.
+inline constexpr int kMaxAgentWork = 2 * kPathsPerAgent * kHorizonSteps;
+
+/// Work of the network on one vehicle: GRU steps of its modes.
+inline constexpr int kNetworkAgentWork = 18;
+
+/// Most work of one decode: both predictors on every vehicle.
+inline constexpr int kMaxPredictionWork = kMaxAgents * (kMaxAgentWork + kNetworkAgentWork);
 
 class Predictor {
  public:
@@ -35,6 +42,9 @@ class Predictor {
   /// \param allowance  most work; vehicles it does not cover, the least relevant ones, are not in the set
   void decode(const Trajectory* plan, int allowance, PredictionSet& prediction) const;
 
+  /// The same for one of them. \param ego  of this scene, lead and plan \pre index < scene.watched
+  void decode_one(const EgoMotion& ego, int index, AgentPrediction& futures) const;
+
   /// CORE-043 "Keeps doing what it does": every agent along its likeliest path at constant speed; one without
   /// a path at constant yaw rate.
   void keep_going(KinematicSet& prediction) const;
@@ -42,6 +52,9 @@ class Predictor {
   /// Work done since encode(), in agent-mode-steps (the unit of the stage's allowance). At most
   /// kMaxPredictionWork a decode.
   [[nodiscard]] int work() const { return work_; }
+
+  /// The ways of the watched vehicles, as read in encode().
+  [[nodiscard]] const Way (&ways() const)[kMaxAgents][kPathsPerAgent] { return ways_; }
 
  private:
   const Scene* scene_ = nullptr;

@@ -1,0 +1,127 @@
+#include "algo/satp/satp_predictor.hpp"
+
+#include <new>
+
+#include "algo/core/inline.hpp"
+#include "algo/satp/input_builder.hpp"
+
+namespace s4tp {
+namespace {
+
+constexpr float kFullTrust = 0.95F;  // above it nothing is blended in
+constexpr float kNoTrust = 0.2F;     // below it the network is not asked
+static_assert(kNetworkAgentWork == satp::kMcuShape.modes * satp::kDecoderSteps);
+constexpr float kCertain = 0.999F;  // what is so likely is not told apart
+
+float way_of(const Mode& mode, const Pose& from) {
+  float way_m = distance(position(from), position(mode.steps[0]));
+  for (int i = 1; i < kHorizonSteps; ++i)
+    way_m += distance(position(mode.steps[i - 1]), position(mode.steps[i]));
+  return way_m;
+}
+
+// Room for one future more: the least likely one goes, its mass to the others.
+void drop_least(AgentPrediction& futures) {
+  int least = 0;
+  for (int k = 1; k < futures.modes.size(); ++k) {
+    if (futures.modes[k].probability < futures.modes[least].probability) least = k;
+  }
+  const float rest = 1.0F - futures.modes[least].probability;
+  futures.modes.swap_remove(least);
+  for (Mode& mode : futures.modes) mode.probability = mode.probability / rest;
+}
+
+}  // namespace
+
+void SatpPredictor::encode(const satp::Weights& weights, const Scene& scene, const Parameters& parameters,
+                           std::uint32_t start_ms, const YieldBeliefs* beliefs, const PredictionTrust* trust,
+                           satp::EncoderScratch& scratch) {
+  kinematic_.encode(scene, parameters, start_ms, beliefs);
+  weights_ = weights;
+  scene_ = &scene;
+  parameters_ = &parameters;
+  beliefs_ = beliefs;
+  trust_ = trust;
+  work_ = 0;
+  if (!weights_.present()) return;
+  const auto lead_ms = static_cast<std::int32_t>(start_ms - scene.time_ms);
+  lead_s_ = clamp(1e-3F * static_cast<float>(lead_ms), 0.0F, 1.0F);
+  new (&room_.input) satp::NetworkInput;
+  build_network_input(scene, parameters, lead_s_, kinematic_.ways(), room_.input);
+  satp::encode(weights_, room_.input, scratch, encoded_);
+}
+
+// The classes' masses are the belief's, what they look like the network's (METHOD 4.3).
+void SatpPredictor::believe(int index, AgentPrediction& result) const {
+  const float(&pair)[satp::kPairFeatures] = encoded_.pair[index];
+  const float entry_m = pair[static_cast<int>(satp::PairFeature::kEntryM)];
+  if (pair[static_cast<int>(satp::PairFeature::kZone)] == 0.0F || entry_m <= 0.0F) return;
+  float prior = 0.0F;
+  for (Mode& mode : result.modes) {
+    mode.yields = way_of(mode, encoded_.anchor[index]) < entry_m;
+    if (mode.yields) prior += mode.probability;
+  }
+  if (prior < 1.0F - kCertain || prior > kCertain) return;
+  const float evidence = beliefs_ == nullptr ? 0.0F : beliefs_->evidence(scene_->agents[index].track.id);
+  const float yields = with_evidence(prior, evidence);
+  for (Mode& mode : result.modes) {
+    const float share = mode.yields ? yields / prior : (1.0F - yields) / (1.0F - prior);
+    mode.probability = mode.probability * share;
+  }
+}
+
+void SatpPredictor::decode_one(const satp::PlanInput* plan, int index, satp::Futures& futures,
+                               AgentPrediction& result) const {
+  satp::decode(weights_, encoded_, index, plan == nullptr ? nullptr : plan->step[index], futures);
+  work_ += kNetworkAgentWork;
+  result.agent = static_cast<std::uint8_t>(index);
+  result.modes.clear();
+  Mode mode;
+  for (int k = 0; k < satp::kMcuShape.modes; ++k) {
+    mode.probability = futures.probability[k];
+    for (int i = 0; i < kHorizonSteps; ++i)
+      mode.steps[i] = satp::from_anchor(encoded_.anchor[index], futures.poses[k][i]);
+    measure_steps(mode);
+    (void)result.modes.push(mode);
+  }
+  believe(index, result);
+}
+
+// The kinematic predictor's likeliest future takes what trust is missing.
+void SatpPredictor::blend(const EgoMotion& ego, int index, float trust, AgentPrediction& kinematic,
+                          AgentPrediction& result) const {
+  kinematic_.decode_one(ego, index, kinematic);
+  drop_least(result);
+  for (Mode& mode : result.modes) mode.probability = mode.probability * trust;
+  kinematic.modes[0].probability = 1.0F - trust;
+  (void)result.modes.push(kinematic.modes[0]);
+}
+
+void SatpPredictor::decode(const Trajectory* plan, int allowance, PredictionSet& prediction) const {
+  if (!weights_.present()) {
+    kinematic_.decode(plan, allowance, prediction);
+    return;
+  }
+  prediction.conditioned = plan != nullptr;
+  prediction.agents.clear();
+  new (&room_.decoding) Decoding;
+  auto& [plan_input, futures, result, kinematic] = room_.decoding;
+  if (plan != nullptr)
+    build_plan_input(*plan, *parameters_, encoded_.hdvs, encoded_.anchor, encoded_.pair, plan_input);
+  const EgoMotion ego(*scene_, *parameters_, lead_s_, plan);
+  const int work_before = work();
+  for (int i = 0; i < encoded_.hdvs; ++i) {
+    if (work() - work_before + kMaxAgentWork + kNetworkAgentWork > allowance) break;
+    const float trust = trust_ == nullptr ? 1.0F : trust_->of(scene_->agents[i].track.id);
+    if (trust < kNoTrust) {
+      kinematic_.decode_one(ego, i, result);
+    } else {
+      decode_one(plan == nullptr ? nullptr : &plan_input, i, futures, result);
+      if (trust < kFullTrust) blend(ego, i, trust, kinematic, result);
+      likeliest_first(result);
+    }
+    (void)prediction.agents.push(result);
+  }
+}
+
+}  // namespace s4tp
