@@ -53,8 +53,7 @@ void mix_inputs(const Weights& weights, const Encoded& encoded, int hdv, const f
   for (int k = 0; k < kModes; ++k) {
     for (int c = 0; c < kEmbed; ++c) {
       const std::int32_t sum = own[k][c] + ((gate * ours[k][c] + (1 << 14)) >> 15);
-      const std::int32_t q = requantize(sum, multiplier);
-      inputs[k][c] = static_cast<std::int8_t>((q > 254 ? 254 : q) - 127);
+      inputs[k][c] = static_cast<std::int8_t>(saturate_unsigned8(requantize(sum, multiplier)) - 128);
     }
   }
 }

@@ -27,7 +27,7 @@ Rows<std::int8_t> write(std::int8_t (*rows)[kWidth]) {
 
 // 64 units of a sum are one of an int8 activation.
 std::int8_t narrow(std::int32_t sum) {
-  return static_cast<std::int8_t>(saturate((sum + 32) >> 6, 127));
+  return static_cast<std::int8_t>(saturate8((sum + 32) >> 6));
 }
 
 // What a vehicle's past says of it, as of now. \param first  kEgoEmbed1 or kHdvEmbed1

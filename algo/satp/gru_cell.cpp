@@ -26,7 +26,7 @@ void gru_step(const GruCell& cell, std::int8_t (*inputs)[kGruInput], int count,
   std::int16_t from_state[kMaxBatch][kHidden];
   for (int b = 0; b < count; ++b) {
     for (int c = 0; c < kHidden; ++c)
-      inputs[b][kEmbed + c] = static_cast<std::int8_t>(saturate((states[b][c] + 128) >> 8, 127));
+      inputs[b][kEmbed + c] = static_cast<std::int8_t>(saturate8((states[b][c] + 128) >> 8));
   }
   linear(cell.gates, {inputs[0], kGruInput}, count, Rows<std::int16_t>{gates[0], 2 * kHidden});
   linear(cell.input, {inputs[0], kGruInput}, count, Rows<std::int16_t>{from_input[0], kHidden});
@@ -36,7 +36,7 @@ void gru_step(const GruCell& cell, std::int8_t (*inputs)[kGruInput], int count,
       const std::int32_t reset = sigmoid_q15(gates[b][c]);
       const std::int32_t keep = sigmoid_q15(gates[b][kHidden + c]);
       const std::int32_t argument = from_input[b][c] + share_of(reset, from_state[b][c]);
-      const std::int32_t candidate = tanh_q15(static_cast<std::int16_t>(saturate(argument, 32767)));
+      const std::int32_t candidate = tanh_q15(static_cast<std::int16_t>(saturate16(argument)));
       states[b][c] = static_cast<std::int16_t>(candidate + share_of(keep, states[b][c] - candidate));
     }
   }

@@ -67,7 +67,7 @@ void layer_norm(const Norm& norm, const std::int32_t* values, std::int8_t* outpu
     // Gain and bias are bounded, their sum with a half is not: in 64 bits.
     const std::int64_t output =
         static_cast<std::int64_t>(scaled_up) + norm.bias[j] + (1 << (kOutputBits - 1));
-    outputs[j] = static_cast<std::int8_t>(saturate(static_cast<std::int32_t>(output >> kOutputBits), 127));
+    outputs[j] = static_cast<std::int8_t>(saturate8(static_cast<std::int32_t>(output >> kOutputBits)));
   }
 }
 

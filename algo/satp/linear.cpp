@@ -8,9 +8,6 @@
 namespace s4tp::satp {
 namespace {
 
-constexpr std::int32_t kMost8 = 127;
-constexpr std::int32_t kMost16 = 32767;
-
 std::int32_t rescale(const std::int8_t* /*input*/, std::int32_t sum, std::int32_t multiplier) {
   return requantize(sum, multiplier);
 }
@@ -21,24 +18,22 @@ std::int32_t rescale(const std::int16_t* /*input*/, std::int32_t sum, std::int32
 
 struct Signed8 {
   using Type = std::int8_t;
-  static Type of(std::int32_t q) { return static_cast<Type>(saturate(q, kMost8)); }
+  static Type of(std::int32_t q) { return static_cast<Type>(saturate8(q)); }
 };
 
 struct Relu8 {
   using Type = std::int8_t;
-  static Type of(std::int32_t q) {
-    return static_cast<Type>(q < 0 ? -kMost8 : (q > 2 * kMost8 ? kMost8 : q - kMost8));
-  }
+  static Type of(std::int32_t q) { return static_cast<Type>(saturate_unsigned8(q) - 128); }
 };
 
 struct Signed16 {
   using Type = std::int16_t;
-  static Type of(std::int32_t q) { return static_cast<Type>(saturate(q, kMost16)); }
+  static Type of(std::int32_t q) { return static_cast<Type>(saturate16(q)); }
 };
 
 struct Relu16 {
   using Type = std::int16_t;
-  static Type of(std::int32_t q) { return static_cast<Type>(q < 0 ? 0 : (q > kMost16 ? kMost16 : q)); }
+  static Type of(std::int32_t q) { return static_cast<Type>(saturate16(q < 0 ? 0 : q)); }
 };
 
 // Outputs are made in groups of kMaxRows, so that their sums need little of the stack.
@@ -53,9 +48,7 @@ void sum_up(const Linear& layer, int bias_stride, Rows<const In> inputs, int cou
       group.rows = static_cast<std::int16_t>(layer.rows - from < kMaxRows ? layer.rows - from : kMaxRows);
       const std::int32_t* bias = layer.bias + done * bias_stride + from;
       multiply(group, bias, bias_stride, inputs[done], inputs.stride, batch, sums);
-      for (int b = 0; b < batch; ++b) {
-        for (int o = 0; o < group.rows; ++o) emit(done + b, from + o, sums[b][o]);
-      }
+      for (int b = 0; b < batch; ++b) emit(done + b, from, group.rows, sums[b]);
     }
   }
 }
@@ -63,8 +56,10 @@ void sum_up(const Linear& layer, int bias_stride, Rows<const In> inputs, int cou
 template <typename Output, typename In>
 void run(const Linear& layer, int bias_stride, Rows<const In> inputs, int count,
          Rows<typename Output::Type> outputs) {
-  sum_up(layer, bias_stride, inputs, count, [&](int row, int o, std::int32_t sum) {
-    outputs[row][o] = Output::of(rescale(inputs.data, sum, layer.multiplier[o]));
+  sum_up(layer, bias_stride, inputs, count, [&](int row, int from, int rows, const std::int32_t* sums) {
+    typename Output::Type* output = outputs[row] + from;
+    const std::int32_t* multiplier = layer.multiplier + from;
+    for (int o = 0; o < rows; ++o) output[o] = Output::of(rescale(inputs.data, sums[o], multiplier[o]));
   });
 }
 
@@ -114,10 +109,12 @@ void linear_by_bias(const Linear& layer, const std::int8_t* input, int bias_rows
 }
 
 void linear(const Linear& layer, Rows<const std::int16_t> inputs, int count, Rows<float> outputs) {
-  sum_up(layer, 0, inputs, count, [&](int row, int o, std::int32_t sum) {
-    float scale = 0.0F;
-    std::memcpy(&scale, &layer.multiplier[o], sizeof scale);
-    outputs[row][o] = scale * static_cast<float>(sum);
+  sum_up(layer, 0, inputs, count, [&](int row, int from, int rows, const std::int32_t* sums) {
+    for (int o = 0; o < rows; ++o) {
+      float scale = 0.0F;
+      std::memcpy(&scale, &layer.multiplier[from + o], sizeof scale);
+      outputs[row][from + o] = scale * static_cast<float>(sums[o]);
+    }
   });
 }
 

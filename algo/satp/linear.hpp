@@ -1,7 +1,7 @@
 #pragma once
 /// Linear layers with what follows them: y = requantize(bias + W x), saturated, ReLU where the name says so.
-/// SATP-021 Whatever the input, outputs stay in -127 .. 127 or -32767 .. 32767; never -128: a kernel may rely
-/// on it. Internal: for algo/satp's own sources.
+/// SATP-021 Whatever the input, outputs saturate at the ends of int8 and int16. Internal: for algo/satp's own
+/// sources.
 ///
 /// Inputs and outputs are rows of `stride` elements, 4-byte aligned; `count` of them, any number. `bias` is
 /// the layer's, or one of its rows.

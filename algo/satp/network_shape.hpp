@@ -43,9 +43,9 @@ enum class LayerKind : std::uint8_t {
 /// How values stand between layers.
 enum class Format : std::uint8_t {
   kNone,
-  kInt8,       ///< symmetric, -127 .. 127
-  kInt8Relu,   ///< never negative: value = scale * (q + 127)
-  kInt16,      ///< symmetric, -32767 .. 32767, scale of the image's own choice
+  kInt8,       ///< symmetric
+  kInt8Relu,   ///< never negative: value = scale * (q + 128)
+  kInt16,      ///< symmetric, scale of the image's own choice
   kInt16Relu,  ///< the same, never negative
   kQ12,        ///< int16 in 2^-12: argument of a sigmoid or tanh
   kQ13,        ///< int16 in 2^-13: an input divided by its unit

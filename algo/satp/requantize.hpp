@@ -35,8 +35,30 @@ namespace s4tp::satp {
 #endif
 }
 
-[[nodiscard]] inline std::int32_t saturate(std::int32_t x, std::int32_t limit) {
-  return x < -limit ? -limit : (x > limit ? limit : x);
+/// To the range of int8, of int16, and of a byte without sign.
+[[nodiscard]] inline std::int32_t saturate8(std::int32_t x) {
+#if defined(__ARM_FEATURE_DSP) && __ARM_FEATURE_DSP && defined(__thumb__)
+  asm("ssat %0, #8, %0" : "+r"(x));
+  return x;
+#else
+  return x < -128 ? -128 : (x > 127 ? 127 : x);
+#endif
+}
+[[nodiscard]] inline std::int32_t saturate16(std::int32_t x) {
+#if defined(__ARM_FEATURE_DSP) && __ARM_FEATURE_DSP && defined(__thumb__)
+  asm("ssat %0, #16, %0" : "+r"(x));
+  return x;
+#else
+  return x < -32768 ? -32768 : (x > 32767 ? 32767 : x);
+#endif
+}
+[[nodiscard]] inline std::int32_t saturate_unsigned8(std::int32_t x) {
+#if defined(__ARM_FEATURE_DSP) && __ARM_FEATURE_DSP && defined(__thumb__)
+  asm("usat %0, #8, %0" : "+r"(x));
+  return x;
+#else
+  return x < 0 ? 0 : (x > 255 ? 255 : x);
+#endif
 }
 
 }  // namespace s4tp::satp

@@ -47,7 +47,7 @@ std::int64_t magnitude(std::int64_t x) {
 
 bool sound(const LayerInfo& info, const Linear& layer) {
   const bool wide = info.input == Format::kQ13 || info.input == Format::kQ15;
-  const std::int64_t largest = wide ? 32767 : 127;
+  const std::int64_t largest = wide ? 32768 : 128;
   const std::int64_t limit = wide ? kInt16AccumulatorLimit : kInt8AccumulatorLimit;
   for (int row = 0; row < layer.rows; ++row) {
     std::int64_t sum = 0;

@@ -44,9 +44,7 @@ class Writer {
  private:
   [[nodiscard]] double magnitude(const std::string& name) const;
   [[nodiscard]] Scale int8(const std::string& name) const { return {magnitude(name) / kMost8, 0.0}; }
-  [[nodiscard]] Scale relu(const std::string& name) const {
-    return {magnitude(name) / (2.0 * kMost8), -kMost8};
-  }
+  [[nodiscard]] Scale relu(const std::string& name) const { return {magnitude(name) / 255.0, -128.0}; }
   [[nodiscard]] double units(const std::string& add) const { return magnitude(add) / kSumUnits; }
   [[nodiscard]] Scale history() const;
   [[nodiscard]] double embed_unit() const;

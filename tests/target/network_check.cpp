@@ -71,9 +71,9 @@ bool kernels_agree() {
       weight = static_cast<std::int8_t>(round == 0 ? (random.integer(0, 1) != 0 ? 127 : -127)
                                                    : random.integer(-127, 127));
     for (std::int8_t& value : inputs8)
-      value = static_cast<std::int8_t>(round == 0 ? -127 : random.integer(-127, 127));
+      value = static_cast<std::int8_t>(round == 0 ? -128 : random.integer(-128, 127));
     for (std::int16_t& value : inputs16)
-      value = static_cast<std::int16_t>(round == 0 ? -32767 : random.integer(-32767, 32767));
+      value = static_cast<std::int16_t>(round == 0 ? -32768 : random.integer(-32768, 32767));
     for (std::int32_t& bias : biases) bias = random.integer(-1000000, 1000000);
     for (std::int32_t batch = 1; batch <= satp::kMaxBatch; ++batch) {
       for (const Size& size : kSizes) {
