@@ -8,6 +8,7 @@
 #include "algo/sadrf/overlap.hpp"
 #include "algo/safety/minimum_risk.hpp"
 #include "algo/safety/rss.hpp"
+#include "algo/satp/shipped_weights.hpp"
 #include "algo/trajectory/along_path.hpp"
 #include "algo/trajectory/bicycle.hpp"
 #include "algo/trajectory/plan_limits.hpp"
@@ -79,6 +80,11 @@ Status Planner::init(const Parameters& parameters) {
   scene_builder_.reset();
   beliefs_.reset();
   trust_.reset();
+  if (!given_weights_) {
+    const satp::ShippedWeights shipped = satp::shipped_weights();
+    weight_status_ = satp::Weights::check(shipped.image, shipped.size_bytes, weights_);
+    given_weights_ = true;
+  }
   guard_.reset();
   ego_seen_ = false;
   initialized_ = true;
@@ -88,7 +94,9 @@ Status Planner::init(const Parameters& parameters) {
 satp::WeightStatus Planner::use_weights(const void* image, std::uint32_t size_bytes) {
   weights_ = satp::Weights{};
   trust_.reset();
-  return satp::Weights::check(image, size_bytes, weights_);
+  given_weights_ = true;
+  weight_status_ = satp::Weights::check(image, size_bytes, weights_);
+  return weight_status_;
 }
 
 Status Planner::plan(const PlannerInput& input, Plan& plan, Explanation& explanation) {

@@ -52,11 +52,13 @@ class Planner {
   /// kInvalidParameter
   [[nodiscard]] Status init(const Parameters& parameters);
 
-  /// SATP-055 From the next cycle on the network predicts, if the image is sound; if not, and before the
-  /// first call, the kinematic predictor does. init() leaves the weights as they are. \param image  stays
-  /// where it is while the planner lives; null: no network \return why it was refused \note reads the whole
-  /// image: at start or in standby only
+  /// SATP-055 From the next cycle on the network predicts, if the image is sound; if not, the kinematic
+  /// predictor does. Without this call the first init() takes the weights the build carries; later ones leave
+  /// them as they are. \param image  stays where it is while the planner lives; null: no network
+  /// \return why it was refused \note reads the whole image: at start or in standby only
   [[nodiscard]] satp::WeightStatus use_weights(const void* image, std::uint32_t size_bytes);
+  /// Of the last image looked at; kAbsent: none was given.
+  [[nodiscard]] satp::WeightStatus weight_status() const { return weight_status_; }
 
   /// Plans from the state predicted for input.start_ms. Writes a plan that can be driven: on kNoLane
   /// and kNoSafePlan the minimum-risk manoeuvre; on kStaleTracks too, whatever the scene still knows of the
@@ -115,6 +117,8 @@ class Planner {
   TrajectoryPoint start_;
   YieldBeliefs beliefs_;
   satp::Weights weights_;
+  satp::WeightStatus weight_status_ = satp::WeightStatus::kAbsent;
+  bool given_weights_ = false;  ///< or looked for in the build
   PredictionTrust trust_;
   PredictionSet unconditioned_;
   KinematicSet keep_going_;

@@ -21,53 +21,50 @@ constexpr double exp_at_compile_time(double x) {
   return sum;
 }
 
+/// Where a stretch begins, and how far it rises: one word to load.
+struct Stretch {
+  std::int16_t value;
+  std::int16_t rise;
+};
+
 struct Table {
-  std::int16_t values[kStretches + 1];
+  Stretch stretches[kStretches];
 };
 
 constexpr std::int16_t rounded(double x) {
   return static_cast<std::int16_t>(x < 0.0 ? x - 0.5 : x + 0.5);
 }
 
-constexpr Table sigmoid_table() {
+constexpr double sigmoid_at(int i) {
+  return 1.0 / (1.0 + exp_at_compile_time(8.0 - kStretch * i));
+}
+
+constexpr double tanh_at(int i) {
+  const double e = exp_at_compile_time(2.0 * (8.0 - kStretch * i));
+  return (1.0 - e) / (1.0 + e);
+}
+
+constexpr double exp_minus_at(int i) {
+  return exp_at_compile_time(-kStretch * i);
+}
+
+constexpr Table table_of(double (*function)(int)) {
   Table table{};
-  for (int i = 0; i <= kStretches; ++i) {
-    table.values[i] = rounded(kOne / (1.0 + exp_at_compile_time(8.0 - kStretch * i)));
+  for (int i = 0; i < kStretches; ++i) {
+    const std::int16_t value = rounded(kOne * function(i));
+    table.stretches[i] = {value, static_cast<std::int16_t>(rounded(kOne * function(i + 1)) - value)};
   }
   return table;
 }
 
-constexpr Table tanh_table() {
-  Table table{};
-  for (int i = 0; i <= kStretches; ++i) {
-    const double e = exp_at_compile_time(2.0 * (8.0 - kStretch * i));
-    table.values[i] = rounded(kOne * (1.0 - e) / (1.0 + e));
-  }
-  return table;
-}
-
-constexpr Table exp_table() {
-  Table table{};
-  for (int i = 0; i <= kStretches; ++i) {
-    table.values[i] = rounded(kOne * exp_at_compile_time(-kStretch * i));
-  }
-  return table;
-}
-
-constexpr Table kSigmoid = sigmoid_table();
-constexpr Table kTanh = tanh_table();
-constexpr Table kExp = exp_table();
-
-// Between two table values, `part` of 2^bits of the way.
-std::int32_t between(const Table& table, int index, std::int32_t part, int bits) {
-  const std::int32_t a = table.values[index];
-  const std::int32_t b = table.values[index + 1];
-  return a + (((b - a) * part + (1 << (bits - 1))) >> bits);
-}
+constexpr Table kSigmoid = table_of(sigmoid_at);
+constexpr Table kTanh = table_of(tanh_at);
+constexpr Table kExp = table_of(exp_minus_at);
 
 std::int16_t look_up(const Table& table, std::int16_t x_q12) {
   const std::int32_t from_start = x_q12 + 32768;
-  return static_cast<std::int16_t>(between(table, from_start >> 8, from_start & 255, 8));
+  const Stretch& stretch = table.stretches[from_start >> 8];
+  return static_cast<std::int16_t>(stretch.value + ((stretch.rise * (from_start & 255) + 128) >> 8));
 }
 
 }  // namespace
@@ -80,9 +77,19 @@ std::int16_t tanh_q15(std::int16_t x_q12) {
   return look_up(kTanh, x_q12);
 }
 
+void sigmoid_q15(std::int16_t* values, int count) {
+  for (int i = 0; i < count; ++i) values[i] = look_up(kSigmoid, values[i]);
+}
+
+void tanh_q15(std::int16_t* values, int count) {
+  for (int i = 0; i < count; ++i) values[i] = look_up(kTanh, values[i]);
+}
+
 std::int32_t exp_minus_q15(std::int32_t x_q8) {
   const std::int32_t index = x_q8 >> 4;
-  return index >= kStretches ? 0 : between(kExp, index, x_q8 & 15, 4);
+  if (index >= kStretches) return 0;
+  const Stretch& stretch = kExp.stretches[index];
+  return stretch.value + ((stretch.rise * (x_q8 & 15) + 8) >> 4);
 }
 
 }  // namespace s4tp::satp

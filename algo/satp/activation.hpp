@@ -10,6 +10,9 @@ namespace s4tp::satp {
 /// \param x_q12  in 2^-12  \return in 2^-15; 1 is 32767
 [[nodiscard]] std::int16_t sigmoid_q15(std::int16_t x_q12);
 [[nodiscard]] std::int16_t tanh_q15(std::int16_t x_q12);
+/// Of `count` values in place.
+void sigmoid_q15(std::int16_t* values, int count);
+void tanh_q15(std::int16_t* values, int count);
 
 /// exp(-x): 2^-15. \param x_q8  in 2^-8, >= 0; 0 from 16 on
 [[nodiscard]] std::int32_t exp_minus_q15(std::int32_t x_q8);

@@ -161,9 +161,7 @@ void encode(const Weights& weights, const NetworkInput& input, EncoderScratch& s
         interaction_gate(weights, scratch.histories[0], scratch.histories[1 + i], scene + 2 * kWidth);
     linear_by_bias(weights.linear(kStart), scene, kMcuShape.modes,
                    Rows<std::int16_t>{encoded.start[i][0], kMcuShape.hidden});
-    for (std::int16_t(&start)[kMcuShape.hidden] : encoded.start[i]) {
-      for (std::int16_t& value : start) value = tanh_q15(value);
-    }
+    for (std::int16_t(&start)[kMcuShape.hidden] : encoded.start[i]) tanh_q15(start, kMcuShape.hidden);
     encoded.speed_mps[i] = input.speed_mps[i];
     encoded.anchor[i] = input.anchor[i];
     std::memcpy(encoded.pair[i], input.pair[i], sizeof encoded.pair[i]);

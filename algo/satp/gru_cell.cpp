@@ -32,12 +32,16 @@ void gru_step(const GruCell& cell, std::int8_t (*inputs)[kGruInput], int count,
   linear(cell.input, {inputs[0], kGruInput}, count, Rows<std::int16_t>{from_input[0], kHidden});
   linear(cell.state, {inputs[0] + kEmbed, kGruInput}, count, Rows<std::int16_t>{from_state[0], kHidden});
   for (int b = 0; b < count; ++b) {
+    sigmoid_q15(gates[b], 2 * kHidden);
+    std::int16_t* candidates = from_input[b];
+    const std::int16_t* keep = gates[b] + kHidden;
+    for (int c = 0; c < kHidden; ++c)
+      candidates[c] =
+          static_cast<std::int16_t>(saturate16(candidates[c] + share_of(gates[b][c], from_state[b][c])));
+    tanh_q15(candidates, kHidden);
     for (int c = 0; c < kHidden; ++c) {
-      const std::int32_t reset = sigmoid_q15(gates[b][c]);
-      const std::int32_t keep = sigmoid_q15(gates[b][kHidden + c]);
-      const std::int32_t argument = from_input[b][c] + share_of(reset, from_state[b][c]);
-      const std::int32_t candidate = tanh_q15(static_cast<std::int16_t>(saturate16(argument)));
-      states[b][c] = static_cast<std::int16_t>(candidate + share_of(keep, states[b][c] - candidate));
+      const std::int32_t candidate = candidates[c];
+      states[b][c] = static_cast<std::int16_t>(candidate + share_of(keep[c], states[b][c] - candidate));
     }
   }
 }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "algo/planner/planner.hpp"
+#include "algo/satp/shipped_weights.hpp"
 #include "tests/support/lane_maps.hpp"
 #include "tests/support/random_network.hpp"
 #include "tests/support/scene_support.hpp"
@@ -188,17 +189,22 @@ TEST(SatpPredictor, LostTrustGoesToTheKinematicFuture) {
   }
 }
 
-// SATP-055 The planner takes an image, says so, still gives a plan; a broken one is refused and it is as it
-// was.
+// SATP-055 The planner begins with what the build carries, takes an image and keeps it over the next init(),
+// says so, still gives a plan; a broken one is refused and it is as it was.
 TEST(SatpPlanner, UsesTheWeightsItIsGiven) {
   const LaneMap map = test::straight_road(2, 400.0F);
   std::vector<std::int32_t> words(satp::kImageBytes / 4);
   test::make_random_image(8, words.data());
   float risk = 0.0F;
+  satp::Weights carried;
+  const satp::ShippedWeights shipped = satp::shipped_weights();
   const auto first_plan = [&](const void* image, satp::WeightStatus expected) {
     const auto planner = std::make_unique<Planner>();
     EXPECT_EQ(planner->init(kParameters), Status::kOk);
+    EXPECT_EQ(planner->weight_status(), satp::Weights::check(shipped.image, shipped.size_bytes, carried));
     EXPECT_EQ(planner->use_weights(image, satp::kImageBytes), expected);
+    EXPECT_EQ(planner->init(kParameters), Status::kOk);
+    EXPECT_EQ(planner->weight_status(), expected);
     PlannerInput input;
     input.now_ms = 1000;
     input.start_ms = 1100;

@@ -1,0 +1,25 @@
+#include "algo/satp/shipped_weights.hpp"
+
+namespace s4tp::satp {
+
+#if __has_include("algo/satp/shipped_weights.inc")
+
+namespace {
+[[gnu::section(".weights")]] alignas(8) constexpr std::uint32_t kImage[] = {
+#include "algo/satp/shipped_weights.inc"
+};
+}  // namespace
+
+ShippedWeights shipped_weights() {
+  return {kImage, sizeof kImage};
+}
+
+#else
+
+ShippedWeights shipped_weights() {
+  return {};
+}
+
+#endif
+
+}  // namespace s4tp::satp
