@@ -25,11 +25,19 @@ struct Trajectory {
 /// What a plan is, for whoever follows it.
 enum class PlanKind : std::uint8_t { kNone = 0, kDrive = 1, kMinimumRisk = 2 };
 
+/// How a plan is given up when no new one takes effect: driven until `branch_s` after its start, then braked
+/// to a standstill along its own path.
+struct FailSafe {
+  float branch_s = 0.0F;  ///< >= 0; 0: at once
+  float braking_mps2 = 0.0F;
+};
+
 /// A trajectory with the instant it takes effect. Valid for kHorizonSteps * kStepS from there.
 struct Plan {
   PlanKind kind = PlanKind::kNone;
   std::uint32_t start_ms = 0;  ///< vehicle time of points[0]
   Trajectory trajectory;
+  FailSafe fail_safe;
 };
 
 /// The state a `share` of the way from `a` to `b`; headings along the shorter way. \pre 0 <= share <= 1

@@ -6,7 +6,7 @@
 #include "algo/core/self_test.hpp"
 #include "algo/planner/stage_scope.hpp"
 #include "algo/sadrf/overlap.hpp"
-#include "algo/safety/minimum_risk.hpp"
+#include "algo/safety/fail_safe.hpp"
 #include "algo/safety/rss.hpp"
 #include "algo/satp/shipped_weights.hpp"
 #include "algo/trajectory/along_path.hpp"
@@ -145,10 +145,12 @@ Status Planner::plan(const PlannerInput& input, Plan& plan, Explanation& explana
     forget_scene();  // nothing of a broken input may be used
     start_known = start_without_input(ego_valid);
   }
+  plan = Plan{};
+  plan.start_ms = start_ms_;
   if (!start_known) {
     for (TrajectoryPoint& point : chosen_.points) point = TrajectoryPoint{};
   } else if (status != Status::kOk) {
-    minimum_risk(scene_, start_, running_, start_ms_, parameters_, chosen_);
+    give_up(status, plan);
   } else if (guarded) {
     const StageScope scope(probe, Stage::kCheck);
     const RssEnvelope envelope = rss_envelope(scene_, chosen_, parameters_);
@@ -159,13 +161,23 @@ Status Planner::plan(const PlannerInput& input, Plan& plan, Explanation& explana
 
   if (status == Status::kOk || status == Status::kNoSafePlan) explain_risk(status, explanation);
 
-  plan.kind = status == Status::kOk ? PlanKind::kDrive : PlanKind::kMinimumRisk;
-  if (!start_known) plan.kind = PlanKind::kNone;
-  plan.start_ms = start_ms_;
-  plan.trajectory = chosen_;
+  if (status == Status::kOk) plan = {PlanKind::kDrive, start_ms_, chosen_, fail_safe_};
   explanation.status = status;
   if (probe != nullptr) probe->cycle_done(scene_, conditioned_.set, explanation.risk);
   return status;
+}
+
+void Planner::give_up(Status status, Plan& plan) {
+  using safety::drive_fail_safe;
+  const float planned_mps2 = running_.fail_safe.braking_mps2;
+  const float braking_mps2 = planned_mps2 > 0.0F ? planned_mps2 : parameters_.guard.braking_mps2;
+  drive_fail_safe(running_, start_, start_ms_, braking_mps2, parameters_, plan);
+  // Where the one ahead has broken the law it takes more.
+  const bool too_near = status == Status::kNoSafePlan &&
+                        guard_.judge(0, plan.trajectory).cause == safety::Cause::kLeader;
+  if (too_near)
+    drive_fail_safe(running_, start_, start_ms_, parameters_.vehicle.braking_max_mps2, parameters_, plan);
+  chosen_ = plan.trajectory;
 }
 
 void Planner::explain_risk(Status status, Explanation& explanation) {
@@ -251,7 +263,9 @@ Status Planner::choose(Explanation& explanation) {
   if (best < 0) return Status::kNoSafePlan;
   if (best != held && !evaluate(best, explanation)) return Status::kNoSafePlan;
   refine(candidates_[best], explanation);
-  guard_.commit(candidates_[best].path, guard_.judge(candidates_[best].path, chosen_));
+  const safety::Verdict verdict = guard_.judge(candidates_[best].path, chosen_);
+  guard_.commit(candidates_[best].path, verdict);
+  fail_safe_ = verdict.fail_safe;
 
   const StageScope scope(probe, Stage::kExplain);
   explanation.chosen = candidates_[best];

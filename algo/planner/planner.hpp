@@ -98,6 +98,8 @@ class Planner {
   [[nodiscard]] Rejection judge(int path, safety::Verdict& verdict) const;
   /// Price of the touches that are to be expected.
   [[nodiscard]] float crash_cost(const PredictionSet& prediction) const;
+  /// Drives the fail-safe of the plan in force.
+  void give_up(Status status, Plan& plan);
   void refine(const Candidate& candidate, Explanation& explanation);
 
   bool initialized_ = false;
@@ -138,6 +140,7 @@ class Planner {
   Conditioned conditioned_;
   Trajectory chosen_;
   Trajectory refined_;
+  FailSafe fail_safe_;
   bool refined_in_force_ = false;  ///< chosen_ is refined_
 
   /// Scratch of stages that never need it at once: the predictor's ways have served when the optimizer

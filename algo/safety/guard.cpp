@@ -387,6 +387,7 @@ Verdict Guard::judge(int path_index, const Trajectory& trajectory) const {
   own.branch_s_m = own.s_m[branch] + 0.5F * on_s * (own.speed_mps[branch] + own.branch_mps);
   const float stop_s_m = own.stop_s_m(guard.braking_mps2);
 
+  verdict.fail_safe = {guard.takeover_s, guard.braking_mps2};
   const float front_m = front_m_ - centre_m_;
   if (stop_s_m + front_m > max(sight.end_s_m, own.s_m[0] + front_m + 0.1F)) {
     verdict.cause = Cause::kRoadEnd;
@@ -420,7 +421,9 @@ Verdict Guard::judge(int path_index, const Trajectory& trajectory) const {
       }
       break;
     }
-    if (!verdict.clears) verdict.clear_s = own.time_at_s(group.exit_s_m, group.cap_mps);
+    const float clear_s = own.time_at_s(group.exit_s_m, group.cap_mps);
+    if (!verdict.clears) verdict.clear_s = clear_s;
+    verdict.fail_safe.branch_s = max(verdict.fail_safe.branch_s, min(clear_s, kHorizonS));
     verdict.clears = true;
     verdict.cleared_end = group.end;
     if (!passes_group(path, sight, group, own, verdict)) return verdict;
@@ -437,7 +440,9 @@ Verdict Guard::judge(int path_index, const Trajectory& trajectory) const {
               : own.stop_s_m(braking_mps2);
       if (stops_s_m > free_s_m) continue;
       brakes = followers_can_brake(sight, own, from_s, braking_mps2, verdict);
-      if (brakes) break;
+      if (!brakes) continue;
+      verdict.fail_safe = {max(verdict.fail_safe.branch_s, from_s), braking_mps2};
+      break;
     }
     if (!brakes) {
       if (verdict.cause == Cause::kNone) verdict.cause = Cause::kFollower;

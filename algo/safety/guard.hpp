@@ -47,6 +47,7 @@ struct Verdict {
   bool clears = false;           ///< the fail-safe is to go through a group of zones; else it stops
   std::uint8_t cleared_end = 0;  ///< those groups' zones are among [0, this) of the path
   float clear_s = 0.0F;          ///< when it has left the first of them
+  FailSafe fail_safe = {};       ///< of a safe plan
   bool hard = false;  ///< safe only because the fail-safe brakes hard before a group nobody leaves to us yet
   [[nodiscard]] bool safe() const { return cause == Cause::kNone; }
 };

@@ -80,8 +80,11 @@ void Tracker::reset(float acceleration_mps2) {
 gate::Command Tracker::follow(const Plan& plan, std::uint32_t now_ms, const EgoState& ego,
                               const Parameters& parameters) {
   const auto elapsed_ms = static_cast<std::int32_t>(now_ms - plan.start_ms);
-  if (plan.kind == PlanKind::kNone || elapsed_ms > kHorizonSteps * kStepMs)
-    return stop(plan, ego, parameters);
+  // A stop is followed to its end; a plan to drive only as far as the guard's fail-safe counts on.
+  const std::int32_t branch_ms = to_int(1000.0F * plan.fail_safe.branch_s, 0, kHorizonSteps * kStepMs);
+  const bool has_branch = plan.kind == PlanKind::kDrive && plan.fail_safe.braking_mps2 > 0.0F;
+  const std::int32_t last_ms = has_branch ? branch_ms : kHorizonSteps * kStepMs;
+  if (plan.kind == PlanKind::kNone || elapsed_ms > last_ms) return stop(plan, ego, parameters);
   const TrajectoryPoint now = sample(plan, now_ms);
   const Point offset = to_local(now.rear_axle, position(ego.rear_axle));
   error_ = {offset.x_m, offset.y_m, norm(offset)};
@@ -95,7 +98,8 @@ gate::Command Tracker::follow(const Plan& plan, std::uint32_t now_ms, const EgoS
 gate::Command Tracker::stop(const Plan& last, const EgoState& ego, const Parameters& parameters) {
   error_ = {};
   acceleration_trim_mps2_ = 0.0F;
-  gate::Command command{-parameters.safety.minimum_risk_braking_mps2, ego.steering_rad};
+  const float braking_mps2 = max(parameters.safety.minimum_risk_braking_mps2, last.fail_safe.braking_mps2);
+  gate::Command command{-braking_mps2, ego.steering_rad};
   if (last.kind != PlanKind::kNone) {
     const Place place = nearest(last.trajectory, position(ego.rear_axle));
     const float beside_m = abs(to_local(place.point.rear_axle, position(ego.rear_axle)).y_m);

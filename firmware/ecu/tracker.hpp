@@ -32,12 +32,13 @@ class Tracker {
   /// Follows the plan. ECU-050 A plan that stands is held with the brake; leaving a standstill, acceleration
   /// rises by at most 10 m/s^3. ECU-051 Integrators learn a bias (a
   /// slope, a steering offset) only near the plan, and stop where the actuator or they themselves saturate.
-  /// ECU-052 Past its end a plan is followed by stop().
+  /// ECU-052 Past its end a plan is followed by stop(). ECU-095 So is a plan to drive past its fail-safe's
+  /// branch: by then a new one was to be there.
   [[nodiscard]] gate::Command follow(const Plan& plan, std::uint32_t now_ms, const EgoState& ego,
                                      const Parameters& parameters);
 
-  /// ECU-053 Brakes to a standstill along the path of `last`, at least with safety.minimum_risk_braking, and
-  /// as hard as the plan itself does; without a plan, or further than 3 m beside it, with the present
+  /// ECU-053 Brakes to a standstill along the path of `last`, at least with safety.minimum_risk_braking, as
+  /// hard as its fail-safe and as hard as the plan itself does; without a plan, or further than 3 m beside it, with the present
   /// steering. ECU-054 Does not ease off at a standstill: what says that the car stands may be what failed.
   [[nodiscard]] gate::Command stop(const Plan& last, const EgoState& ego, const Parameters& parameters);
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "algo/safety/minimum_risk.hpp"
+#include "algo/safety/fail_safe.hpp"
 #include "algo/safety/rss.hpp"
 #include "algo/trajectory/bicycle.hpp"
 #include "algo/trajectory/candidates.hpp"
@@ -46,6 +46,7 @@ Status Guard::apply(const PlannerInput& input, Status status, Plan& plan, Explan
     const safety::Verdict verdict = guard_.judge(path, plan.trajectory);
     if (verdict.safe() && feasible(plan.trajectory, parameters_)) {
       guard_.commit(path, verdict);
+      plan.fail_safe = verdict.fail_safe;
     } else {
       status = Status::kNoSafePlan;
       explanation.held_up.verdict = verdict;
@@ -59,10 +60,8 @@ Status Guard::apply(const PlannerInput& input, Status status, Plan& plan, Explan
         clip_to_envelope(rss_envelope(scene_, plan.trajectory, parameters_), parameters_, plan.trajectory);
     return status;
   }
-  plan.kind = PlanKind::kMinimumRisk;
-  plan.start_ms = input.start_ms;
   const TrajectoryPoint start = plan_start(input.ego, input.now_ms, running, input.start_ms, parameters_);
-  minimum_risk(scene_, start, running, input.start_ms, parameters_, plan.trajectory);
+  safety::drive_fail_safe(running, start, input.start_ms, parameters_.guard.braking_mps2, parameters_, plan);
   return status;
 }
 

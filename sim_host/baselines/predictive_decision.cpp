@@ -6,7 +6,7 @@
 #include "algo/core/math.hpp"
 #include "algo/sadrf/futures.hpp"
 #include "algo/sadrf/overlap.hpp"
-#include "algo/safety/minimum_risk.hpp"
+#include "algo/safety/fail_safe.hpp"
 #include "algo/trajectory/along_path.hpp"
 #include "algo/trajectory/bicycle.hpp"
 #include "algo/trajectory/candidates.hpp"
@@ -176,12 +176,14 @@ Status PredictiveDecision::plan(const PlannerInput& input, Plan& plan, Explanati
       plan.trajectory = trajectory;
       chosen = conditioned;
     }
-    if (status == Status::kOk)
-      guard_.commit(explanation.chosen.path, guard_.judge(explanation.chosen.path, plan.trajectory));
+    if (status == Status::kOk) {
+      const safety::Verdict verdict = guard_.judge(explanation.chosen.path, plan.trajectory);
+      guard_.commit(explanation.chosen.path, verdict);
+      plan.fail_safe = verdict.fail_safe;
+    }
   }
   if (status != Status::kOk) {
-    plan.kind = PlanKind::kMinimumRisk;
-    minimum_risk(scene_, start, running, input.start_ms, parameters_, plan.trajectory);
+    safety::drive_fail_safe(running, start, input.start_ms, parameters_.guard.braking_mps2, parameters_, plan);
   }
   explanation.status = status;
   if (probe != nullptr) probe->cycle_done(scene_, chosen, RiskProfile{});

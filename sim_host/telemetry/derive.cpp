@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "algo/safety/minimum_risk.hpp"
+#include "algo/safety/fail_safe.hpp"
 #include "algo/satp/predictor.hpp"
 #include "algo/trajectory/candidates.hpp"
 
@@ -56,10 +56,9 @@ HeatMap heat_map_of(const ecu::PlanRecord& plan, const CycleRecord& cycle, const
 
 Plan fail_safe_of(const ecu::PlanRecord& plan, const CycleRecord& cycle, const Parameters& parameters) {
   Plan result;
-  result.kind = PlanKind::kMinimumRisk;
-  result.start_ms = plan.plan.start_ms + static_cast<std::uint32_t>(kStepMs);
-  minimum_risk(scene_of(cycle), plan.plan.trajectory.points[1], plan.plan, result.start_ms, parameters,
-               result.trajectory);
+  const float planned_mps2 = plan.plan.fail_safe.braking_mps2;
+  safety::drive_fail_safe(plan.plan, plan.plan.trajectory.points[0], plan.plan.start_ms,
+                          planned_mps2 > 0.0F ? planned_mps2 : parameters.guard.braking_mps2, parameters, result);
   return result;
 }
 

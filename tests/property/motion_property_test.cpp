@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "algo/safety/minimum_risk.hpp"
+#include "algo/safety/fail_safe.hpp"
 #include "algo/trajectory/bicycle.hpp"
 #include "algo/trajectory/candidates.hpp"
 #include "tests/support/driving_scenes.hpp"
@@ -161,25 +161,32 @@ TEST(MotionProperty, StopsRestBeforeTheirPlace) {
   }));
 }
 
-// MRM-005 From any state, with or without a map: finite, continuous, and driven cycle by cycle it comes to
-// rest.
-TEST(MotionProperty, MinimumRiskAlwaysStops) {
+// FAIL-001 FAIL-002 FAIL-003 From any state, along any plan or none: finite, continuous, the path's own; driven
+// cycle by cycle, each from the one before, it is at rest within branch + v / b and a second for the build-up.
+TEST(MotionProperty, FailSafeAlwaysStops) {
   EXPECT_TRUE(rc::check([] {
-    World world;
-    if (*rc::gen::inRange(0, 4) == 0) {
-      world.scene.ego_paths.clear();
-      world.scene.map = nullptr;
-    }
+    const World world;
     TrajectoryPoint state = world.start;
-    const float fastest_mps =
-        std::fmax(state.speed_mps, 6.0F) + 0.5F * std::fmax(0.0F, state.acceleration_mps2);
-    for (int i = 0; i < 120; ++i) {
-      if (world.scene.map != nullptr) put_ego(world.scene, state);
-      Trajectory trajectory;
-      minimum_risk(world.scene, state, Plan{}, kNow, Parameters{}, trajectory);
-      check_motion(trajectory);
-      state = trajectory.points[1];
-      RC_ASSERT(state.speed_mps <= fastest_mps);
+    Plan running;
+    if (*rc::gen::inRange(0, 4) != 0) {
+      running.kind = PlanKind::kDrive;
+      running.start_ms = kNow;
+      running.fail_safe = {0.1F * static_cast<float>(*rc::gen::inRange(0, 31)), 6.0F};
+      running.trajectory.points[0] = state;
+      for (int i = 1; i < kTrajectoryPoints; ++i)
+        running.trajectory.points[i] = bicycle_step(running.trajectory.points[i - 1], 0.0F, 0.0F, kStepS);
+    }
+    const float fastest_mps = state.speed_mps + 0.5F * std::fmax(0.0F, state.acceleration_mps2);
+    const float longest_s = running.fail_safe.branch_s + fastest_mps / 6.0F + 1.0F;
+    for (int i = 1; i <= static_cast<int>(10.0F * longest_s) + 1; ++i) {
+      Plan next;
+      safety::drive_fail_safe(running, state, kNow + static_cast<std::uint32_t>(100 * i), 6.0F, Parameters{},
+                              next);
+      RC_ASSERT(next.kind == PlanKind::kMinimumRisk);
+      check_motion(next.trajectory);
+      state = next.trajectory.points[1];
+      running = next;
+      RC_ASSERT(state.speed_mps <= fastest_mps + 0.1F);
     }
     RC_ASSERT(state.speed_mps == 0.0F);
   }));
