@@ -17,7 +17,7 @@ static_assert(S4TP_MAX_TRACKS == kMaxTracks && S4TP_MAX_LANES == kMaxLanes &&
               S4TP_MAX_CONFLICTS == kMaxConflicts && S4TP_NO_LANE_INDEX == kNoLaneIndex);
 static_assert(S4TP_PLAN_POINTS == kTrajectoryPoints && S4TP_PLAN_STEP_MS == kStepMs &&
               S4TP_STAGE_COUNT == kStageCount);
-static_assert(sizeof(s4tp_plan) == 8 + sizeof(float) * 6 * kTrajectoryPoints, "no padding");
+static_assert(sizeof(s4tp_plan) == 16 + sizeof(float) * 6 * kTrajectoryPoints, "no padding");
 
 template <typename Enum>
 constexpr bool same(Enum core, std::uint32_t c) {
@@ -170,6 +170,7 @@ bool copy_plan(const s4tp_plan& from, Plan& to) {
   if (from.kind > S4TP_PLAN_MINIMUM_RISK) return false;
   to.kind = static_cast<PlanKind>(from.kind);
   to.start_ms = from.start_ms;
+  to.fail_safe = {from.fail_safe_branch_s, from.fail_safe_braking_mps2};
   for (int i = 0; i < kTrajectoryPoints; ++i) {
     const s4tp_plan_point& point = from.points[i];
     TrajectoryPoint& copy = to.trajectory.points[i];
@@ -190,6 +191,8 @@ s4tp_plan_point c_point(const TrajectoryPoint& from) {
 void copy_back(const Plan& from, s4tp_plan& to) {
   to.kind = static_cast<std::uint32_t>(from.kind);
   to.start_ms = from.start_ms;
+  to.fail_safe_branch_s = from.fail_safe.branch_s;
+  to.fail_safe_braking_mps2 = from.fail_safe.braking_mps2;
   for (int i = 0; i < kTrajectoryPoints; ++i) to.points[i] = c_point(from.trajectory.points[i]);
 }
 

@@ -44,7 +44,8 @@ bool valid(const Track& track) {
 
 bool valid(const Plan& plan, const Parameters& parameters) {
   if (plan.kind == PlanKind::kNone) return true;
-  return plan.kind <= PlanKind::kMinimumRisk && keeps_limits(plan.trajectory, parameters);
+  return plan.kind <= PlanKind::kMinimumRisk && keeps_limits(plan.trajectory, parameters) &&
+         within(plan.fail_safe.branch_s, 0.0F, 3.0F) && within(plan.fail_safe.braking_mps2, 0.0F, 13.0F);
 }
 
 bool others_valid(const PlannerInput& input) {
@@ -173,8 +174,8 @@ void Planner::give_up(Status status, Plan& plan) {
   const float braking_mps2 = planned_mps2 > 0.0F ? planned_mps2 : parameters_.guard.braking_mps2;
   drive_fail_safe(running_, start_, start_ms_, braking_mps2, parameters_, plan);
   // Where the one ahead has broken the law it takes more.
-  const bool too_near = status == Status::kNoSafePlan &&
-                        guard_.judge(0, plan.trajectory).cause == safety::Cause::kLeader;
+  const bool too_near =
+      status == Status::kNoSafePlan && guard_.judge(0, plan.trajectory).cause == safety::Cause::kLeader;
   if (too_near)
     drive_fail_safe(running_, start_, start_ms_, parameters_.vehicle.braking_max_mps2, parameters_, plan);
   chosen_ = plan.trajectory;

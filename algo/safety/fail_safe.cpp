@@ -8,6 +8,9 @@
 namespace s4tp::safety {
 namespace {
 
+constexpr float kRoundingS = 1e-3F;
+constexpr float kSpeedGain1ps = 1.0F;  // while the plan is driven on: who starts beside its speed comes to it
+
 /// Way of the plan that lies behind the point at `time_ms`.
 float way_driven_m(const Plan& plan, std::uint32_t time_ms) {
   const int steps = static_cast<int>(static_cast<std::int32_t>(time_ms - plan.start_ms)) / kStepMs;
@@ -29,11 +32,11 @@ void along_plan(const Plan& running, const TrajectoryPoint& start, std::uint32_t
   trajectory.points[0] = start;
   for (int i = 1; i < kTrajectoryPoints; ++i) {
     const float time_s = static_cast<float>(i) * kStepS;
-    const TrajectoryPoint planned = sample(running, start_ms + static_cast<std::uint32_t>(i * kStepMs));
-    const bool drives_on = time_s <= branch_s;
-    // While the plan is driven on, its own speeds are approached; what it may lack is braked away later.
-    const float wanted_mps2 =
-        drives_on ? (planned.speed_mps - state.speed_mps) / kStepS : -braking_mps2;
+    const std::uint32_t now_ms = start_ms + static_cast<std::uint32_t>((i - 1) * kStepMs);
+    const bool drives_on = time_s <= branch_s + kRoundingS;
+    const float slower_mps = sample(running, now_ms).speed_mps - state.speed_mps;
+    const float planned_mps2 = sample(running, now_ms + kStepMs).acceleration_mps2;
+    const float wanted_mps2 = drives_on ? planned_mps2 + kSpeedGain1ps * slower_mps : -braking_mps2;
     const float step_m = advance(wanted_mps2, parameters, state);
     TrajectoryPoint& point = trajectory.points[i];
     point = trajectory.points[i - 1];
@@ -69,8 +72,7 @@ void drive_fail_safe(const Plan& running, const TrajectoryPoint& start, std::uin
     as_steered(start, braking_mps2, plan.trajectory);
     return;
   }
-  plan.fail_safe.branch_s =
-      max(0.0F, running.fail_safe.branch_s - 1e-3F * static_cast<float>(elapsed_ms));
+  plan.fail_safe.branch_s = max(0.0F, running.fail_safe.branch_s - 1e-3F * static_cast<float>(elapsed_ms));
   along_plan(running, start, start_ms, plan.fail_safe.branch_s, braking_mps2, parameters, plan.trajectory);
 }
 

@@ -1,7 +1,6 @@
 #include "algo/safety/guard.hpp"
 
 #include "algo/core/inline.hpp"
-#include "algo/safety/lane_change.hpp"
 #include "algo/trajectory/along_path.hpp"
 #include "algo/trajectory/bicycle.hpp"
 

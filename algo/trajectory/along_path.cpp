@@ -15,6 +15,14 @@ constexpr int kMostSweeps = 44;  // the longest vehicle and ours
 constexpr float kFarM = 200.0F;
 constexpr float kAtGoalM = 2.0F;  // a goal at the very end of a road counts as on it
 
+/// Whether a lane is that of the path at one of its parts.
+bool on_path(const LanePath& path, LaneIndex lane) {
+  for (const PathLane& part : path.lanes) {
+    if (part.lane == lane) return true;
+  }
+  return false;
+}
+
 /// Where lane `lane` begins along the path, or false.
 bool lane_start(const LanePath& path, LaneIndex lane, float& start_s_m) {
   for (const PathLane& entry : path.lanes) {
@@ -34,7 +42,8 @@ bool clear_of(const Scene& scene, const EgoPath& path, const Agent& agent) {
          agent.track.length_m < 10.0F;
 }
 
-/// Whether our box, driven along the path, comes within kStripM of a vehicle that stands across or against it.
+/// Whether our box, driven along the path, comes within kStripM of a vehicle that stands across or against
+/// it.
 bool sweeps(const Scene& scene, const EgoPath& path, const Agent& agent, const OnPath& seen,
             const Parameters& parameters) {
   const Box other{agent.track.centre, agent.track.length_m, agent.track.width_m};
@@ -98,6 +107,17 @@ OnPath see_on_path(const Scene& scene, const EgoPath& path, const Agent& agent, 
   if (seen.overlaps && cosine < kCrossingCos && !seen.crossing)
     seen.overlaps = sweeps(scene, path, agent, seen, parameters);
   return seen;
+}
+
+bool joins(const Scene& scene, const EgoPath& path, const Agent& agent) {
+  if (agent.lane == kNoLaneIndex || on_path(path.path, agent.lane)) return false;
+  const Lane& own = scene.map->lanes[agent.lane];
+  for (const LanePath& way : agent.paths) {
+    if (way.lanes.empty()) continue;
+    const LaneIndex lane = way.lanes[0].lane;
+    if ((lane == own.left || lane == own.right) && on_path(path.path, lane)) return true;
+  }
+  return false;
 }
 
 Leader find_leader(const Scene& scene, const EgoPath& path, float rear_axle_s_m,

@@ -25,6 +25,9 @@ struct OnPath {
 [[nodiscard]] OnPath see_on_path(const Scene& scene, const EgoPath& path, const Agent& agent,
                                  const Parameters& parameters, bool whole_road, bool& known);
 
+/// Whether the vehicle is coming into a lane of the path from the lane beside it.
+[[nodiscard]] bool joins(const Scene& scene, const EgoPath& path, const Agent& agent);
+
 /// The nearest vehicle ahead of us in the strip; crossing ones are the business of conflict zones.
 struct Leader {
   int agent = -1;          ///< index into Scene::agents; -1: the way is free

@@ -50,6 +50,12 @@ std::uint32_t plan_digest(const Plan& plan) {
       crc.add(bits);
     }
   }
+  const float fail_safe[] = {plan.fail_safe.branch_s, plan.fail_safe.braking_mps2};
+  for (const float value : fail_safe) {
+    std::uint32_t bits = 0;
+    std::memcpy(&bits, &value, sizeof(bits));
+    crc.add(bits);
+  }
   return crc.value();
 }
 

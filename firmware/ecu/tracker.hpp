@@ -38,8 +38,9 @@ class Tracker {
                                      const Parameters& parameters);
 
   /// ECU-053 Brakes to a standstill along the path of `last`, at least with safety.minimum_risk_braking, as
-  /// hard as its fail-safe and as hard as the plan itself does; without a plan, or further than 3 m beside it, with the present
-  /// steering. ECU-054 Does not ease off at a standstill: what says that the car stands may be what failed.
+  /// hard as its fail-safe and as hard as the plan itself does; without a plan, or further than 3 m beside
+  /// it, with the present steering. ECU-054 Does not ease off at a standstill: what says that the car stands
+  /// may be what failed.
   [[nodiscard]] gate::Command stop(const Plan& last, const EgoState& ego, const Parameters& parameters);
 
   /// Of the last follow(); all zero after anything else.

@@ -183,7 +183,8 @@ Status PredictiveDecision::plan(const PlannerInput& input, Plan& plan, Explanati
     }
   }
   if (status != Status::kOk) {
-    safety::drive_fail_safe(running, start, input.start_ms, parameters_.guard.braking_mps2, parameters_, plan);
+    safety::drive_fail_safe(running, start, input.start_ms, parameters_.guard.braking_mps2, parameters_,
+                            plan);
   }
   explanation.status = status;
   if (probe != nullptr) probe->cycle_done(scene_, chosen, RiskProfile{});

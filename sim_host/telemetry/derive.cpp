@@ -54,11 +54,12 @@ HeatMap heat_map_of(const ecu::PlanRecord& plan, const CycleRecord& cycle, const
   return map;
 }
 
-Plan fail_safe_of(const ecu::PlanRecord& plan, const CycleRecord& cycle, const Parameters& parameters) {
+Plan fail_safe_of(const ecu::PlanRecord& plan, const Parameters& parameters) {
   Plan result;
   const float planned_mps2 = plan.plan.fail_safe.braking_mps2;
   safety::drive_fail_safe(plan.plan, plan.plan.trajectory.points[0], plan.plan.start_ms,
-                          planned_mps2 > 0.0F ? planned_mps2 : parameters.guard.braking_mps2, parameters, result);
+                          planned_mps2 > 0.0F ? planned_mps2 : parameters.guard.braking_mps2, parameters,
+                          result);
   return result;
 }
 

@@ -26,9 +26,7 @@ struct RolledOut {
 [[nodiscard]] HeatMap heat_map_of(const ecu::PlanRecord& plan, const CycleRecord& cycle,
                                   const Parameters& parameters);
 
-/// TELE-012 The minimum-risk manoeuvre from the plan's next boundary on: what would be driven then if no
-/// plan passed.
-[[nodiscard]] Plan fail_safe_of(const ecu::PlanRecord& plan, const CycleRecord& cycle,
-                                const Parameters& parameters);
+/// TELE-012 The plan's fail-safe: what is driven if no further plan takes effect.
+[[nodiscard]] Plan fail_safe_of(const ecu::PlanRecord& plan, const Parameters& parameters);
 
 }  // namespace s4tp::telemetry

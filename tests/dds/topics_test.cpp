@@ -175,7 +175,7 @@ TEST(Topics, ReachFastDdsWithTheRightValues) {
     EXPECT_EQ(got_path.poses()[static_cast<std::size_t>(i)].pose().position().x(),
               static_cast<double>(sent.rear_axle.x_m));
   }
-  const Plan stop = telemetry::fail_safe_of(plan, cycle, Parameters{});
+  const Plan stop = telemetry::fail_safe_of(plan, Parameters{});
   const auto got_stop = fail_safe.last();
   ASSERT_EQ(got_stop.points().size(), static_cast<std::size_t>(kTrajectoryPoints));
   EXPECT_EQ(got_stop.points()[30].longitudinal_velocity_mps(), stop.trajectory.points[30].speed_mps);

@@ -274,7 +274,7 @@ TEST_F(CFacade, AStopBeginsWhereWeAreKnownToBe) {
   input.ego.heading_rad = kNaN;
   plan.points[7].x_m = 5.0F;
   EXPECT_EQ(plan_now(), S4TP_INVALID_INPUT);
-  const s4tp_plan empty = {S4TP_PLAN_NONE, input.start_ms, {}};
+  const s4tp_plan empty = {S4TP_PLAN_NONE, input.start_ms, 0.0F, 0.0F, {}};
   EXPECT_EQ(std::memcmp(&plan, &empty, sizeof(plan)), 0);
 
   input.ego = good_ego;

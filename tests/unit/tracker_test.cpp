@@ -307,6 +307,21 @@ TEST(Tracker, StopsPastThePlansEnd) {
   EXPECT_EQ(tracker.error().distance_m, 0.0F);
 }
 
+// ECU-095 ECU-053: a plan to drive whose fail-safe branches after 0.35 s is braked along with 6 m/s^2 from
+// then on; one that is a stop itself is followed.
+TEST(Tracker, DrivesTheFailSafePastItsBranch) {
+  EgoState ego;
+  ego.rear_axle.x_m = 3.6F;
+  ego.speed_mps = 10.0F;
+  Plan plan = plan_of(straight(10.0), 0);
+  plan.fail_safe = {0.35F, 6.0F};
+  Tracker tracker;
+  EXPECT_GT(tracker.follow(plan, 350, ego, {}).acceleration_mps2, -1.0F);
+  EXPECT_EQ(tracker.follow(plan, 360, ego, {}).acceleration_mps2, -6.0F);
+  plan.kind = PlanKind::kMinimumRisk;
+  EXPECT_GT(Tracker().follow(plan, 360, ego, {}).acceleration_mps2, -1.0F);
+}
+
 // ECU-053: stopping out of the turn's middle stays on the turn; and brakes as hard as the plan where that is
 // harder.
 TEST(Tracker, StopsAlongThePlansPath) {
