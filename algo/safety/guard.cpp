@@ -26,6 +26,9 @@ struct Settling {
 };
 constexpr Settling kSettlings[] = {{2.0F, 1.0F}, {0.0F, 1.0F}, {0.0F, 0.6F}, {0.0F, 0.35F}};
 constexpr float kEasesOff = 0.25F;  // share of the fail-safe's braking that is not asked for behind a cut-in
+constexpr float kEndShare =
+    0.5F;  // of that braking, at least, past the last place to stop before the road's end
+constexpr float kEndRoundingM = 0.01F;
 constexpr float kCurvesMps2 = 3.0F;
 constexpr int kCapSamples = 4;
 constexpr float kUsualHalfLengthM = 2.5F;  // of the boxes the map node takes for its zones
@@ -388,7 +391,11 @@ Verdict Guard::judge(int path_index, const Trajectory& trajectory) const {
 
   verdict.fail_safe = {guard.takeover_s, guard.braking_mps2};
   const float front_m = front_m_ - centre_m_;
-  if (stop_s_m + front_m > max(sight.end_s_m, own.s_m[0] + front_m + 0.1F)) {
+  // Who cannot stop before the end any more brakes; at rest it stays.
+  const float last_s_m = sight.end_s_m - front_m;
+  const bool past = own.s_m[0] + occupancy::stopping_way_m(own.speed_mps[0], guard.braking_mps2) > last_s_m;
+  const float braked_m = occupancy::stopping_way_m(own.speed_mps[0], kEndShare * guard.braking_mps2);
+  if (stop_s_m > (past ? own.s_m[0] + braked_m + kEndRoundingM : last_s_m)) {
     verdict.cause = Cause::kRoadEnd;
     return verdict;
   }

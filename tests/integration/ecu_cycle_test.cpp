@@ -242,7 +242,7 @@ std::uint32_t plain_crc(const std::vector<std::uint8_t>& bytes) {
   return ~crc;
 }
 
-// ECU-064: against a plain CRC-32 over kind, start and 31 x 6 floats, little endian.
+// ECU-064: against a plain CRC-32 over kind, start, 31 x 6 floats and the fail-safe's two, little endian.
 TEST(EcuReports, DigestIsCrc32) {
   Plan plan;
   plan.kind = PlanKind::kDrive;
@@ -260,6 +260,8 @@ TEST(EcuReports, DigestIsCrc32) {
       for (int i = 0; i < 4; ++i) bytes.push_back(static_cast<std::uint8_t>(bits >> (8 * i)));
     }
   }
+  plan.fail_safe = {0.5F, 6.0F};
+  for (const std::uint8_t byte : {0x00, 0x00, 0x00, 0x3f, 0x00, 0x00, 0xc0, 0x40}) bytes.push_back(byte);
   EXPECT_EQ(plan_digest(plan), plain_crc(bytes));
 }
 

@@ -210,6 +210,9 @@ TEST(Guard, TheRoadMayEnd) {
   EXPECT_EQ(road.cause(41.5F, 12.0F, 0.0F), Cause::kRoadEnd);
   EXPECT_EQ(road.cause(59.0F, 0.0F, 0.0F), Cause::kNone) << "who stands may go on standing";
   EXPECT_EQ(road.cause(59.0F, 0.0F, 2.0F), Cause::kRoadEnd);
+  EXPECT_EQ(road.cause(59.0F, 0.0F, 0.3F), Cause::kRoadEnd) << "nor may it creep on";
+  EXPECT_EQ(road.cause(59.0F, 6.0F, -6.0F), Cause::kNone) << "who cannot stop before it any more brakes";
+  EXPECT_EQ(road.cause(59.0F, 6.0F, 0.0F), Cause::kNone) << "within half of the fail-safe's braking";
 }
 
 // GUARD-001 Whoever stands 0.3 m before the zone goes on standing; it need not go back to 0.7 m. It may not
