@@ -221,8 +221,8 @@ typedef struct s4tp_plan_point {
 typedef struct s4tp_plan {
   uint32_t kind;  ///< S4TP_PLAN_...
   uint32_t start_ms;
-  float fail_safe_branch_s;      ///< 0 .. 3: with no new plan in force this long after the start, brake along the
-                                 ///< plan's path: the guard has shown that this is safe
+  float fail_safe_branch_s;  ///< 0 .. 3: with no new plan in force this long after the start, brake along the
+                             ///< plan's path: the guard has shown that this is safe
   float fail_safe_braking_mps2;  ///< 0 .. 13
   s4tp_plan_point points[S4TP_PLAN_POINTS];
 } s4tp_plan;

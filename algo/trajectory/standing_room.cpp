@@ -9,7 +9,7 @@ namespace {
 constexpr float kStandsMps = 0.3F;  // all that a standing car's measured speed may be
 constexpr float kStepM = 0.5F;
 constexpr int kStepsAhead = 60;
-constexpr float kWideM = 100.0F;       // wider than any lane
+constexpr float kWideM = 100.0F;  // wider than any lane
 constexpr float kRoundingM = 0.01F;
 constexpr float kAcrossCos = 0.7071F;  // 45 degrees
 

@@ -123,8 +123,7 @@ void DdsPublisher::publish_plan(const Watch& watch) {
   write(kTransformTopic, transform(cycle, arena));
   write(kTrackedTopic, tracked_objects(cycle, arena));
   write(kPredictedTopic, predicted_objects(plan, cycle, arena));
-  write(kFailSafeTopic,
-        trajectory(fail_safe_of(plan, parameters), parameters.vehicle.wheelbase_m, arena));
+  write(kFailSafeTopic, trajectory(fail_safe_of(plan, parameters), parameters.vehicle.wheelbase_m, arena));
   write(kCandidatesTopic, candidate_markers(plan, candidates_of(plan, cycle, parameters), arena));
   if (!lanes_told_ || plan.plan.start_ms - lanes_ms_ >= kSlowMs) {
     write(kLanesTopic, lane_markers(cycle, arena));

@@ -56,8 +56,9 @@ TEST(StandingRoom, AllOfTheLane) {
   EXPECT_FLOAT_EQ(narrow.aside_m(), 0.7F);
 }
 
-// CAND-018 Whom we pass aside does not lead us: its front, 0.8 m right of the line, is in the strip we need on
-// the line (0.9 + 0.2 m), and 0.6 m from our side when we drive 0.7 m to the left. (It is in no lane of its own.)
+// CAND-018 Whom we pass aside does not lead us: its front, 0.8 m right of the line, is in the strip we need
+// on the line (0.9 + 0.2 m), and 0.6 m from our side when we drive 0.7 m to the left. (It is in no lane of
+// its own.)
 TEST(StandingRoom, WhomWePassDoesNotLeadUs) {
   Bystander passed(-0.8F);
   passed.scene.agents[0].lane = kNoLaneIndex;
