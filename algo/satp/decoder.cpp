@@ -21,13 +21,11 @@ static_assert(kModes <= kMaxBatch, "the modes of a vehicle go through the kernel
 
 // GRU input of every mode: where it has come to, and our plan as far as the gate lets it in.
 void mix_inputs(const Weights& weights, const Encoded& encoded, int hdv, const float (*plan)[kPlanValues],
-                int step, const StepState (&states)[kModes], std::int8_t (*inputs)[kGruInput]) {
-  constexpr int kOwnColumns = padded(kOwnFeatures);
-  constexpr int kPlanColumns = padded(kPlanFeatures);
-  alignas(4) std::int16_t own_rows[kModes][kOwnColumns];
-  alignas(4) std::int16_t plan_rows[kModes][kPlanColumns];
-  std::int16_t own[kModes][kEmbed];
-  std::int16_t ours[kModes][kEmbed];
+                int step, const StepState (&states)[kModes], DecoderScratch& scratch) {
+  auto& own_rows = scratch.own_rows;
+  auto& plan_rows = scratch.plan_rows;
+  auto& own = scratch.own;
+  auto& ours = scratch.ours;
   for (int k = 0; k < kModes; ++k) {
     float features[kOwnFeatures];
     own_features(states[k], encoded.speed_mps[hdv], step, features);
@@ -37,10 +35,10 @@ void mix_inputs(const Weights& weights, const Encoded& encoded, int hdv, const f
     plan_features(states[k], plan[step], encoded.pair[hdv], seen);
     embed_features(seen, kPlanUnit, plan_rows[k]);
   }
-  linear_relu(weights.linear(kOwnEmbed), {own_rows[0], kOwnColumns}, kModes,
+  linear_relu(weights.linear(kOwnEmbed), {own_rows[0], kOwnFeatures}, kModes,
               Rows<std::int16_t>{own[0], kEmbed});
   if (plan != nullptr) {
-    linear_relu(weights.linear(kPlanEmbed), {plan_rows[0], kPlanColumns}, kModes,
+    linear_relu(weights.linear(kPlanEmbed), {plan_rows[0], kPlanFeatures}, kModes,
                 Rows<std::int16_t>{ours[0], kEmbed});
   } else {
     const std::int32_t* null_plan = weights.words(kNullPlan);
@@ -53,7 +51,7 @@ void mix_inputs(const Weights& weights, const Encoded& encoded, int hdv, const f
   for (int k = 0; k < kModes; ++k) {
     for (int c = 0; c < kEmbed; ++c) {
       const std::int32_t sum = own[k][c] + ((gate * ours[k][c] + (1 << 14)) >> 15);
-      inputs[k][c] = static_cast<std::int8_t>(saturate_unsigned8(requantize(sum, multiplier)) - 128);
+      scratch.inputs[k][c] = static_cast<std::int8_t>(saturate_unsigned8(requantize(sum, multiplier)) - 128);
     }
   }
 }
@@ -87,24 +85,23 @@ void weigh(const float (&scores)[kModes], float temperature, float (&probability
 }  // namespace
 
 void decode(const Weights& weights, const Encoded& encoded, int hdv, const float (*plan)[kPlanValues],
-            Futures& futures) {
+            DecoderScratch& scratch, Futures& futures) {
   const GruCell cell = gru_at(weights);
   const Linear head = weights.linear(kIncrements);
-  std::int16_t states[kModes][kHidden];
-  alignas(4) std::int8_t inputs[kModes][kGruInput];
-  float increments[kModes][kIncrementRows];
+  auto& states = scratch.states;
+  auto& increments = scratch.increments;
   StepState steps[kModes];
   std::memcpy(states, encoded.start[hdv], sizeof states);
   for (StepState& step : steps) step.velocity_x_mps = encoded.speed_mps[hdv];
   for (int s = 0; s < kDecoderSteps; ++s) {
-    mix_inputs(weights, encoded, hdv, plan, s, steps, inputs);
-    gru_step(cell, inputs, kModes, states);
+    mix_inputs(weights, encoded, hdv, plan, s, steps, scratch);
+    gru_step(cell, scratch.inputs, kModes, scratch.gru, states);
     linear(head, {states[0], kHidden}, kModes, Rows<float>{increments[0], kIncrementRows});
     for (int k = 0; k < kModes; ++k)
       advance(increments[k], encoded.speed_mps[hdv], steps[k], &futures.poses[k][s * kStepsPerDecode]);
   }
 
-  alignas(4) std::int16_t ends[kModes][2 * kHidden];
+  auto& ends = scratch.ends;
   float scores[kModes];
   for (int k = 0; k < kModes; ++k) {
     std::memcpy(ends[k], encoded.start[hdv][k], sizeof states[k]);

@@ -1,7 +1,6 @@
 #include "algo/satp/gru_cell.hpp"
 
 #include "algo/satp/activation.hpp"
-#include "algo/satp/kernels.hpp"
 #include "algo/satp/linear.hpp"
 #include "algo/satp/requantize.hpp"
 
@@ -19,11 +18,9 @@ GruCell gru_at(const Weights& weights) {
   return {weights.linear(kGruGates), weights.linear(kGruFromInput), weights.linear(kGruState)};
 }
 
-void gru_step(const GruCell& cell, std::int8_t (*inputs)[kGruInput], int count,
+void gru_step(const GruCell& cell, std::int8_t (*inputs)[kGruInput], int count, GruScratch& scratch,
               std::int16_t (*states)[kHidden]) {
-  std::int16_t gates[kMaxBatch][2 * kHidden];
-  std::int16_t from_input[kMaxBatch][kHidden];
-  std::int16_t from_state[kMaxBatch][kHidden];
+  auto& [gates, from_input, from_state] = scratch;
   for (int b = 0; b < count; ++b) {
     for (int c = 0; c < kHidden; ++c)
       inputs[b][kEmbed + c] = static_cast<std::int8_t>(saturate8((states[b][c] + 128) >> 8));

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "algo/satp/kernels.hpp"
 #include "algo/satp/weight_image.hpp"
 
 namespace s4tp::satp {
@@ -17,10 +18,17 @@ struct GruCell {
 };
 [[nodiscard]] GruCell gru_at(const Weights& weights);
 
+/// Room for one call of gru_step.
+struct GruScratch {
+  std::int16_t gates[kMaxBatch][2 * kHidden];
+  std::int16_t from_input[kMaxBatch][kHidden];
+  std::int16_t from_state[kMaxBatch][kHidden];
+};
+
 /// states = (1 - z) n + z states, with n = tanh(input x + r (state h)), (r, z) = sigmoid(gates [x, h]).
 /// SATP-026 States stay in -32767 .. 32767. \param inputs  [x, room for h]; h is filled in here
 /// \param states  2^-15 \pre 1 <= count <= kMaxBatch
-void gru_step(const GruCell& cell, std::int8_t (*inputs)[kGruInput], int count,
+void gru_step(const GruCell& cell, std::int8_t (*inputs)[kGruInput], int count, GruScratch& scratch,
               std::int16_t (*states)[kHidden]);
 
 }  // namespace s4tp::satp

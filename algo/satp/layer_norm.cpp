@@ -12,9 +12,10 @@ constexpr int kOutputBits = 20;  // gain 2^8, normalized value 2^12
 // sqrt(kWidth) * 2^28, for the compiler only.
 constexpr std::uint32_t root_of_width() {
   constexpr double kScale = 268435456.0;
+  constexpr double kHalf = 0.5;
   double root = kWidth;
   for (int i = 0; i < 40; ++i) root = 0.5 * (root + kWidth / root);
-  return static_cast<std::uint32_t>(root * kScale + 0.5);
+  return static_cast<std::uint32_t>(root * kScale + kHalf);
 }
 
 constexpr std::uint32_t kRootOfWidth = root_of_width();

@@ -70,9 +70,10 @@ void SatpPredictor::believe(int index, AgentPrediction& result) const {
   }
 }
 
-void SatpPredictor::decode_one(const satp::PlanInput* plan, int index, satp::Futures& futures,
-                               AgentPrediction& result) const {
-  satp::decode(weights_, encoded_, index, plan == nullptr ? nullptr : plan->step[index], futures);
+void SatpPredictor::decode_one(const satp::PlanInput* plan, int index, AgentPrediction& result) const {
+  satp::Futures& futures = room_.decoding.futures;
+  satp::decode(weights_, encoded_, index, plan == nullptr ? nullptr : plan->step[index],
+               room_.decoding.scratch, futures);
   work_ += kNetworkAgentWork;
   result.agent = static_cast<std::uint8_t>(index);
   result.modes.clear();
@@ -105,7 +106,8 @@ void SatpPredictor::decode(const Trajectory* plan, int allowance, PredictionSet&
   prediction.conditioned = plan != nullptr;
   prediction.agents.clear();
   new (&room_.decoding) Decoding;
-  auto& [plan_input, futures, result, kinematic] = room_.decoding;
+  satp::PlanInput& plan_input = room_.decoding.plan;
+  AgentPrediction& result = room_.decoding.result;
   if (plan != nullptr)
     build_plan_input(*plan, *parameters_, encoded_.hdvs, encoded_.anchor, encoded_.pair, plan_input);
   const EgoMotion ego(*scene_, *parameters_, lead_s_, plan);
@@ -116,8 +118,8 @@ void SatpPredictor::decode(const Trajectory* plan, int allowance, PredictionSet&
     if (trust < kNoTrust) {
       kinematic_.decode_one(ego, i, result);
     } else {
-      decode_one(plan == nullptr ? nullptr : &plan_input, i, futures, result);
-      if (trust < kFullTrust) blend(ego, i, trust, kinematic, result);
+      decode_one(plan == nullptr ? nullptr : &plan_input, i, result);
+      if (trust < kFullTrust) blend(ego, i, trust, room_.decoding.kinematic, result);
       likeliest_first(result);
     }
     (void)prediction.agents.push(result);

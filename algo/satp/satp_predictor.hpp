@@ -35,8 +35,7 @@ class SatpPredictor {
   [[nodiscard]] bool learned() const { return weights_.present(); }
 
  private:
-  void decode_one(const satp::PlanInput* plan, int index, satp::Futures& futures,
-                  AgentPrediction& result) const;
+  void decode_one(const satp::PlanInput* plan, int index, AgentPrediction& result) const;
   void blend(const EgoMotion& ego, int index, float trust, AgentPrediction& kinematic,
              AgentPrediction& result) const;
   void believe(int index, AgentPrediction& result) const;
@@ -54,6 +53,7 @@ class SatpPredictor {
   struct Decoding {
     satp::PlanInput plan;
     satp::Futures futures;
+    satp::DecoderScratch scratch;
     AgentPrediction result;
     AgentPrediction kinematic;
   };

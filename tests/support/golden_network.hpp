@@ -15,7 +15,8 @@ inline constexpr std::uint32_t kGoldenNetwork = 0x8B245C64U;
 /// Hash of everything the network says of the golden scenes, with and without plan.
 inline std::uint32_t golden_network(const satp::Weights& weights, satp::NetworkInput& input,
                                     satp::PlanInput& plan, satp::EncoderScratch& scratch,
-                                    satp::Encoded& encoded, satp::Futures& futures) {
+                                    satp::Encoded& encoded, satp::DecoderScratch& decoding,
+                                    satp::Futures& futures) {
   std::uint32_t value = 2166136261U;
   for (int scene = 0; scene < kGoldenScenes; ++scene) {
     const int hdvs = scene % (kMaxAgents + 1);
@@ -26,7 +27,7 @@ inline std::uint32_t golden_network(const satp::Weights& weights, satp::NetworkI
       value = hash_bytes(encoded.start[i], sizeof encoded.start[i], value);
       value = hash_bytes(&encoded.gate[i], sizeof encoded.gate[i], value);
       for (int planned = 0; planned < 2; ++planned) {
-        decode(weights, encoded, i, planned == 1 ? plan.step[i] : nullptr, futures);
+        decode(weights, encoded, i, planned == 1 ? plan.step[i] : nullptr, decoding, futures);
         value = hash_bytes(futures.probability, sizeof futures.probability, value);
         value = hash_bytes(futures.poses, sizeof futures.poses, value);
       }

@@ -19,6 +19,7 @@ satp::NetworkInput input;
 satp::PlanInput plan;
 satp::EncoderScratch scratch;
 satp::Encoded encoded;
+satp::DecoderScratch decoding;
 satp::Futures futures;
 
 constexpr int kMost = 128;
@@ -103,7 +104,7 @@ void print_cost(const satp::Weights& weights) {
   const std::uint32_t began = counts_now();
   encode(weights, input, scratch, encoded);
   const std::uint32_t between = counts_now();
-  for (int i = 0; i < kMaxAgents; ++i) decode(weights, encoded, i, plan.step[i], futures);
+  for (int i = 0; i < kMaxAgents; ++i) decode(weights, encoded, i, plan.step[i], decoding, futures);
   const std::uint32_t ended = counts_now();
   Text line;
   line << "network counts: encode " << between - began << ", a decode " << ended - between << ", stack "
@@ -124,7 +125,7 @@ int run(const char*, bool) {
     print(": the random image is refused\n");
     return 1;
   }
-  const std::uint32_t bits = test::golden_network(weights, input, plan, scratch, encoded, futures);
+  const std::uint32_t bits = test::golden_network(weights, input, plan, scratch, encoded, decoding, futures);
   print_cost(weights);
   Text line;
   line << "network bits ";

@@ -23,6 +23,7 @@ struct RandomNetwork {
   PlanInput plan;
   EncoderScratch scratch;
   Encoded encoded;
+  DecoderScratch decoding;
   Futures futures;
 
   RandomNetwork() {
@@ -35,7 +36,7 @@ struct RandomNetwork {
 TEST(SatpNetwork, GivesTheGoldenVector) {
   RandomNetwork network;
   EXPECT_EQ(test::golden_network(network.weights, network.input, network.plan, network.scratch,
-                                 network.encoded, network.futures),
+                                 network.encoded, network.decoding, network.futures),
             test::kGoldenNetwork);
 }
 
@@ -89,7 +90,7 @@ TEST(SatpNetwork, PredictsFinitePoses) {
     }
     encode(network.weights, network.input, network.scratch, network.encoded);
     for (int i = 0; i < kMaxAgents; ++i) {
-      decode(network.weights, network.encoded, i, network.plan.step[i], network.futures);
+      decode(network.weights, network.encoded, i, network.plan.step[i], network.decoding, network.futures);
       float sum = 0.0F;
       for (const float probability : network.futures.probability) {
         EXPECT_GE(probability, 0.0F);
@@ -114,7 +115,8 @@ TEST(SatpNetwork, NoPlanEntersWithoutPlan) {
   test::make_random_plan(12, 2, network.plan);
   encode(network.weights, network.input, network.scratch, network.encoded);
   const auto decoded = [&](bool planned) {
-    decode(network.weights, network.encoded, 1, planned ? network.plan.step[1] : nullptr, network.futures);
+    decode(network.weights, network.encoded, 1, planned ? network.plan.step[1] : nullptr, network.decoding,
+           network.futures);
     return std::vector<Pose>(&network.futures.poses[0][0], &network.futures.poses[0][0] + 3 * kHorizonSteps);
   };
   const auto same = [](const std::vector<Pose>& a, const std::vector<Pose>& b) {
@@ -174,6 +176,7 @@ TEST(SatpNetwork, IntegersFollowTheFloatNetwork) {
 
   EncoderScratch scratch;
   Encoded encoded;
+  DecoderScratch decoding;
   Futures futures;
   double squares = 0.0;
   double spread = 0.0;
@@ -193,7 +196,7 @@ TEST(SatpNetwork, IntegersFollowTheFloatNetwork) {
         start_error = std::max(
             start_error, std::fabs(encoded.start[i][1][c] / 32768.0 - real.start[i][kMcuShape.hidden + c]));
       const train::FloatFutures expected = network.decode(real, input, i, planned ? &plan : nullptr);
-      decode(weights, encoded, i, planned ? plan.step[i] : nullptr, futures);
+      decode(weights, encoded, i, planned ? plan.step[i] : nullptr, decoding, futures);
       for (int k = 0; k < kMaxModes; ++k) {
         const Pose& end = futures.poses[k][kHorizonSteps - 1];
         const float(&real_end)[3] = expected.pose[k][kHorizonSteps - 1];
