@@ -108,7 +108,7 @@ Status Planner::plan(const PlannerInput& input, Plan& plan, Explanation& explana
   start_ms_ = input.start_ms;
 
   conditioned_.set.agents.clear();
-  refined_in_force_ = false;
+  risk_outdated_ = false;
   refining_ = false;
 
   const bool running_valid = valid(running_, parameters_);
@@ -185,7 +185,7 @@ void Planner::explain_risk(Status status, Explanation& explanation) {
   const StageScope scope(probe, Stage::kExactRisk);
   // What the optimizer or the clip changed, or the minimum-risk manoeuvre, is felt anew while the allowance
   // lasts.
-  const bool changed = status != Status::kOk || refined_in_force_ || explanation.rss_clipped;
+  const bool changed = status != Status::kOk || risk_outdated_ || explanation.rss_clipped;
   if (changed && explanation.work[static_cast<int>(Stage::kExactRisk)] < allowance.exact_risks) {
     const PredictionSet& prediction = status == Status::kOk ? conditioned_.set : unconditioned_;
     exact_risk(scene_, drivable_, prediction, keep_going_, chosen_, parameters_, explanation.risk);
@@ -321,28 +321,44 @@ const RefinementProblem* Planner::last_refinement() const {
 
 void Planner::refine(const Candidate& candidate, Explanation& explanation) {
   const int passes = to_int(parameters_.refinement.passes, 0, allowance.optimizer_iterations);
+  // In the field the exact risk decides.
+  const bool can_decide = explanation.work[static_cast<int>(Stage::kExactRisk)] < allowance.exact_risks;
+  const int feelings = can_decide && parameters_.scoring.risk > 0.0F ? allowance.field_feelings : 0;
   refined_ = chosen_;
-  IlqrResult result;
+  RefinementResult result;
   {
     const StageScope scope(probe, Stage::kOptimize);
-    const Surroundings surroundings{scene_, unconditioned_, conditioned_.set, keep_going_};
     new (&arena_.optimizer) Optimizer;
     refining_ = passes > 0;
-    result = arena_.optimizer.refine(lines_[candidate.path], candidate.start_s_m, surroundings, parameters_,
-                                     passes, refined_);
+    result = arena_.optimizer.refine(lines_[candidate.path], candidate.start_s_m, surroundings(), parameters_,
+                                     {passes, feelings}, refined_);
     count(explanation, Stage::kOptimize, result.passes);
   }
   if (!result.improved) return;
-  const StageScope scope(probe, Stage::kCheck);
-  count(explanation, Stage::kCheck, 1);
-  // A refinement that does not pass is dropped: what it started from has passed.
-  const bool passes_check =
-      feasible(refined_, parameters_) && (!guarded || guard_.judge(candidate.path, refined_).safe());
-  // A start is not postponed: the next cycle would begin at rest again, for ever.
-  const bool postpones = refined_.points[1].speed_mps < 0.5F * chosen_.points[1].speed_mps;
-  if (!passes_check || postpones) return;
+  {
+    const StageScope scope(probe, Stage::kCheck);
+    count(explanation, Stage::kCheck, 1);
+    // A refinement that does not pass is dropped: what it started from has passed.
+    const bool passes_check =
+        feasible(refined_, parameters_) && (!guarded || guard_.judge(candidate.path, refined_).safe());
+    // A start is not postponed: the next cycle would begin at rest again, for ever.
+    const bool postpones = refined_.points[1].speed_mps < 0.5F * chosen_.points[1].speed_mps;
+    if (!passes_check || postpones) return;
+  }
+  if (result.feelings > 0 && !is_better(result, explanation)) return;
+  risk_outdated_ = result.feelings == 0;
   chosen_ = refined_;
-  refined_in_force_ = true;
+}
+
+bool Planner::is_better(const RefinementResult& result, Explanation& explanation) {
+  const StageScope scope(probe, Stage::kExactRisk);
+  RiskProfile profile;
+  exact_risk(scene_, drivable_, conditioned_.set, keep_going_, refined_, parameters_, profile);
+  count(explanation, Stage::kExactRisk, 1);
+  const float felt = risk_integral(profile, parameters_) - risk_integral(explanation.risk, parameters_);
+  if (result.own_after - result.own_before + parameters_.scoring.risk * felt > 0.0F) return false;
+  explanation.risk = profile;
+  return true;
 }
 
 }  // namespace s4tp

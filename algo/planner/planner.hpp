@@ -44,6 +44,7 @@ struct WorkAllowance {
   int decisions = kMaxDecisions;  ///< conditioned predictions; without one the best ranked is chosen
   int exact_risks = kMaxExactRisk;  ///< exact risk profiles; beyond, the ranking's risk stands
   int optimizer_iterations = 16;    ///< passes of the optimizer
+  int field_feelings = 0;           ///< times it feels the risk field, at most 3; 0: it smooths only
 };
 
 class Planner {
@@ -68,6 +69,10 @@ class Planner {
 
   /// What the optimizer was asked in the last cycle, for benchmarks; null when it was not asked.
   [[nodiscard]] const RefinementProblem* last_refinement() const;
+  /// And what it felt there.
+  [[nodiscard]] Surroundings surroundings() const {
+    return {scene_, unconditioned_, conditioned_.set, keep_going_};
+  }
 
   WorkAllowance allowance;
   Probe* probe = nullptr;  ///< optional; not owned
@@ -101,6 +106,8 @@ class Planner {
   /// Drives the fail-safe of the plan in force.
   void give_up(Status status, Plan& plan);
   void refine(const Candidate& candidate, Explanation& explanation);
+  /// Whether refined_ costs no more than chosen_, by the exact risk; then explanation.risk is of it.
+  [[nodiscard]] bool is_better(const RefinementResult& result, Explanation& explanation);
 
   bool initialized_ = false;
   Parameters parameters_;
@@ -141,7 +148,7 @@ class Planner {
   Trajectory chosen_;
   Trajectory refined_;
   FailSafe fail_safe_;
-  bool refined_in_force_ = false;  ///< chosen_ is refined_
+  bool risk_outdated_ = false;  ///< chosen_ is refined_, explanation.risk not of it
 
   /// Scratch of stages that never need it at once: the predictor's ways have served when the optimizer
   /// begins.

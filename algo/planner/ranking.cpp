@@ -61,10 +61,15 @@ class Planner::Ranking final : public CandidateVisitor {
     // Risk only adds to the score: who is beaten without it needs none computed. The plan's own decision
     // stays anyway.
     const bool stays = planner_.keeps_plan_ && key == planner_.plan_key_;
-    if (!decisions.open_to(key, cost.total(), stays ? kMaxCandidates : planner_.shortlisted())) return;
-    cost.risk = parameters.scoring.risk * rank_risk(scene, planner_.drivable_, planner_.unconditioned_,
-                                                    planner_.keep_going_, rolled_out, parameters) +
-                planner_.crash_cost(planner_.unconditioned_) + planner_.hard_[index];
+    const int places = stays ? kMaxCandidates : planner_.shortlisted();
+    if (!decisions.open_to(key, cost.total(), places)) return;
+    cost.risk = planner_.crash_cost(planner_.unconditioned_) + planner_.hard_[index];
+    if (!decisions.open_to(key, cost.total(), places)) return;
+    cost.risk +=
+        parameters.scoring.risk *
+        rank_risk_of_vehicles(scene, planner_.unconditioned_, planner_.keep_going_, rolled_out, parameters);
+    if (!decisions.open_to(key, cost.total(), places)) return;
+    cost.risk += parameters.scoring.risk * rank_risk_of_road(planner_.drivable_, rolled_out, parameters);
     decisions.offer(key, index, cost.total());
   }
 

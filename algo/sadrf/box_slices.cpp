@@ -163,7 +163,7 @@ const GaussRule& rule_for(float half_m) {
 
 /// Where the lines' sum is cut into pieces: at the corners, and where an edge enters or leaves the middle of
 /// the field; from one to the other what is summed is smooth.
-using Breaks = BoundedVector<float, 12>;
+using Breaks = BoundedVector<float, 13>;
 
 void insert(float s_m, Breaks& breaks) {
   if (!breaks.push(s_m)) return;
@@ -199,6 +199,7 @@ Breaks find_breaks(const Field& field, const LocalBox& box) {
     add_crossing(field, from, to, -1.0F, breaks);
     add_crossing(field, from, to, 1.0F, breaks);
   }
+  if (breaks[0] < field.ramp_m && field.ramp_m < breaks[breaks.size() - 1]) insert(field.ramp_m, breaks);
   return breaks;
 }
 
@@ -220,6 +221,23 @@ void for_slices(const Field& field, const LocalBox& box, const Add& add) {
       }
     }
   }
+}
+
+/// The field along its path, and how it changes with s and with the look-ahead distance.
+struct Height {
+  float value;
+  float by_s;
+  float by_look_ahead;
+};
+
+Height height_at(const Field& field, float s_m) {
+  const float left_m = field.look_ahead_m - s_m;
+  const float whole = field.steepness * square(left_m);
+  const float fall = 2.0F * field.steepness * left_m;
+  if (s_m >= field.ramp_m) return {whole, -fall, fall};
+  const float x = s_m / field.ramp_m;
+  const float ramp = square(x) * (3.0F - 2.0F * x);
+  return {ramp * whole, 6.0F * x * (1.0F - x) / field.ramp_m * whole - ramp * fall, ramp * fall};
 }
 
 /// What the gradient is made of, in the field's frame.
@@ -293,9 +311,9 @@ Half half_of(const Slice& slice, bool left_side, const Field& field) {
 void add_slice(const Field& field, float weight, const Slice& slice, Sums& sums) {
   const AllRates rate = rates(field, slice);
   const float kappa = field.curvature_1pm;
-  const float left_m = field.look_ahead_m - slice.s_m;
-  const float height = weight * field.steepness * square(left_m);
-  const float fall = -2.0F * weight * field.steepness * left_m;  // of the height by s
+  const Height at = height_at(field, slice.s_m);
+  const float height = weight * at.value;
+  const float by_s = weight * at.by_s;
   for (int side = 0; side < 2; ++side) {
     const Half half = half_of(slice, side == 0, field);
     const Moments& j = half.j;
@@ -303,7 +321,7 @@ void add_slice(const Field& field, float weight, const Slice& slice, Sums& sums)
     const float per_variance = 1.0F / square(half.sigma_m);
     const float spread = height * per_variance / half.sigma_m;
     const auto by = [&](const Rates& r) {
-      return fall * (r.s0 * j.m0 + r.s1 * j.m1) + spread * half.widening * (r.s0 * j.m2 + r.s1 * j.m3) -
+      return by_s * (r.s0 * j.m0 + r.s1 * j.m1) + spread * half.widening * (r.s0 * j.m2 + r.s1 * j.m3) -
              height * per_variance * r.e0 * (j.m1 - kappa * j.m2);
     };
     sums.value += height * (j.m0 - kappa * j.m1);
@@ -311,7 +329,7 @@ void add_slice(const Field& field, float weight, const Slice& slice, Sums& sums)
     sums.left += by(rate.left);
     sums.heading += by(rate.heading);
     sums.curvature += by(rate.curvature);
-    sums.look_ahead -= fall * (j.m0 - kappa * j.m1);
+    sums.look_ahead += weight * at.by_look_ahead * (j.m0 - kappa * j.m1);
     (side == 0 ? sums.widening_left : sums.widening_right) += spread * slice.s_m * (j.m2 - kappa * j.m3);
   }
 }
@@ -337,12 +355,15 @@ FieldSlopes field_slopes(const FieldParams& params, float speed_mps, float curva
                          float wheelbase_m) {
   const bool moving = speed_mps * params.look_ahead_s > kShortestLookAheadM;
   // |delta| has no derivative at 0; 0 lies between those of both sides.
-  const float left = steering_rad > 0.0F ? params.widening_inner : -params.widening_outer;
-  const float right = steering_rad > 0.0F ? params.widening_outer : -params.widening_inner;
-  const bool straight = steering_rad == 0.0F;
+  const float blend_rad = params.smoothing.steering_rad;
+  const float sign = steering_rad > 0.0F ? 1.0F : (steering_rad < 0.0F ? -1.0F : 0.0F);
+  const float by_steering =
+      blend_rad > 0.0F ? steering_rad / sqrt(square(steering_rad) + square(blend_rad)) : sign;
+  const float left = steering_rad > 0.0F ? params.widening_inner : params.widening_outer;
+  const float right = steering_rad > 0.0F ? params.widening_outer : params.widening_inner;
   return {moving ? params.look_ahead_s : 0.0F,
           1.0F / wheelbase_m + wheelbase_m * square(curvature_1pm),  // d tan = 1 + tan^2
-          straight ? 0.0F : left, straight ? 0.0F : right};
+          by_steering * left, by_steering * right};
 }
 
 float field_over_slices(const Field& field, const Box& box) {
@@ -358,7 +379,7 @@ float field_over_slices(const Field& field, const Box& box, const FieldSlopes& s
   const LocalBox local = in_frame(field, box);
   Sums sums;
   for_slices(field, local, [&](float weight, const Slice& slice) { add_slice(field, weight, slice, sums); });
-  add_step(field, local, 0.0F, 1.0F, sums);
+  if (field.ramp_m <= 0.0F) add_step(field, local, 0.0F, 1.0F, sums);
   const float end_m = longest_arc_m(field);
   if (end_m < field.look_ahead_m) add_step(field, local, end_m, -1.0F, sums);
   gradient.x = field.ahead.x_m * sums.ahead - field.ahead.y_m * sums.left;

@@ -6,17 +6,22 @@
 namespace s4tp {
 
 FieldParams paper_preset(float vehicle_width_m) {
-  return {0.0064F, 3.5F, 0.05F, 0.5F, 1.38F, 0.25F * vehicle_width_m};
+  return {0.0064F, 3.5F, 0.05F, 0.5F, 1.38F, 0.25F * vehicle_width_m, {}};
 }
 
 FieldParams kolekar2020_preset(float vehicle_width_m) {
-  return {0.0064F, 3.5F, 0.001F, 0.0F, 1.3823F, 0.25F * vehicle_width_m};
+  return {0.0064F, 3.5F, 0.001F, 0.0F, 1.3823F, 0.25F * vehicle_width_m, {}};
 }
 
 FieldParams field_params(const Parameters& parameters, float vehicle_width_m) {
   const auto& risk = parameters.risk;
-  return {risk.steepness,      risk.look_ahead_s,   risk.widening,
-          risk.widening_inner, risk.widening_outer, 0.25F * vehicle_width_m};
+  return {risk.steepness,
+          risk.look_ahead_s,
+          risk.widening,
+          risk.widening_inner,
+          risk.widening_outer,
+          0.25F * vehicle_width_m,
+          {}};
 }
 
 float look_ahead_at(float look_ahead_s, bool shrinks, float t_s) {
@@ -26,7 +31,9 @@ float look_ahead_at(float look_ahead_s, bool shrinks, float t_s) {
 
 Field prepare_field(const FieldParams& params, Point rear_axle, Point ahead, float speed_mps,
                     float curvature_1pm, float steering_rad) {
-  const float steering = abs(steering_rad);
+  const float blend_rad = params.smoothing.steering_rad;
+  const float steering =
+      blend_rad > 0.0F ? sqrt(square(steering_rad) + square(blend_rad)) - blend_rad : abs(steering_rad);
   const float inner = params.widening + params.widening_inner * steering;
   const float outer = params.widening + params.widening_outer * steering;
   const bool to_left = steering_rad > 0.0F;
@@ -39,6 +46,7 @@ Field prepare_field(const FieldParams& params, Point rear_axle, Point ahead, flo
   field.widening_left = to_left ? inner : outer;
   field.widening_right = to_left ? outer : inner;
   field.base_width_m = params.base_width_m;
+  field.ramp_m = params.smoothing.ramp_m;
   // The path itself leaves the tangent by at most kappa d^2 / 2.
   field.lateral_reach_m = 0.5F * abs(curvature_1pm) * square(field.look_ahead_m) +
                           kFieldReach * (params.base_width_m + max(inner, outer) * field.look_ahead_m);

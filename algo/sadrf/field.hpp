@@ -13,6 +13,14 @@
 
 namespace s4tp {
 
+/// What rounds off the field's step at the car and its kink at zero steering, for who follows its slopes.
+struct FieldSmoothing {
+  float ramp_m = 0.0F;        ///< the field begins over this length; 0: with a step
+  float steering_rad = 0.0F;  ///< b: |delta| is sqrt(delta^2 + b^2) - b
+};
+/// As METHOD 4.8 asks for it.
+inline constexpr FieldSmoothing kSmoothField = {1.0F, 0.01F};
+
 struct FieldParams {
   float steepness;       ///< p, 1/m^2 per (unit risk); > 0
   float look_ahead_s;    ///< t_la; 0.5 .. 8
@@ -20,6 +28,7 @@ struct FieldParams {
   float widening_inner;  ///< k1, extra growth per rad of steering inside the turn
   float widening_outer;  ///< k2, the same outside
   float base_width_m;    ///< c, sigma at the car = vehicle width / 4
+  FieldSmoothing smoothing = {};
 };
 
 /// A driver: rear-axle pose, speed >= 0, road-wheel angle, wheelbase > 0.
@@ -40,6 +49,7 @@ struct Field {
   float widening_left;    ///< growth of sigma per metre to the left of the path
   float widening_right;   ///< and to the right
   float base_width_m;     ///< c
+  float ramp_m;           ///< FieldSmoothing's; heeded where a gradient is asked for
   float lateral_reach_m;  ///< no point of the field beyond kFieldReach sigma has a larger |y|
 };
 

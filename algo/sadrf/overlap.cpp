@@ -46,13 +46,29 @@ class OwnBoxes {
     // However it is turned, it reaches no further along our axes than its half diagonal.
     const float along_m = abs(dot(ahead, offset)) - 0.5F * vehicle_.length_m;
     const float across_m = abs(cross(ahead, offset)) - 0.5F * vehicle_.width_m;
-    const float least_m = max(along_m, across_m) - half_diagonal_m - kRoundingM;
+    float least_m = max(along_m, across_m) - half_diagonal_m - kRoundingM;
+    if (least_m > enough_m) return least_m;
+    least_m = separation_bound(along_m, across_m, other, trajectory_.points[point].rear_axle.heading_rad);
     if (least_m > enough_m) return least_m;
     const Box own = {{centre.x_m, centre.y_m, 0.0F}, vehicle_.length_m, vehicle_.width_m};
     return separation(own, ahead, other, direction(other.centre.heading_rad));
   }
 
  private:
+  /// What the boxes are apart at least along our axes, without a sine: sin x <= x is all but equal where the
+  /// boxes are nearly parallel or at right angles, which boxes of cars mostly are.
+  static float separation_bound(float along_m, float across_m, const Box& other, float heading_rad) {
+    const float turned_rad = abs(wrap_angle(other.centre.heading_rad - heading_rad));
+    const float from_parallel_rad = min(turned_rad, kPi - turned_rad);
+    const float sine = min(from_parallel_rad, 1.0F);
+    const float cosine = min(0.5F * kPi - from_parallel_rad, 1.0F);
+    const float half_length_m = 0.5F * other.length_m;
+    const float half_width_m = 0.5F * other.width_m;
+    const float reach_along_m = half_length_m * cosine + half_width_m * sine;
+    const float reach_across_m = half_length_m * sine + half_width_m * cosine;
+    return max(along_m - reach_along_m, across_m - reach_across_m) - kRoundingM;
+  }
+
   const Trajectory& trajectory_;
   const decltype(Parameters::vehicle)& vehicle_;
   float centre_m_;

@@ -8,6 +8,9 @@
 namespace s4tp {
 namespace {
 
+constexpr int kRankStride = 3;
+constexpr int kRankMiddle = 1;  // of three steps: their sum is three times it to first order
+
 float instant(float obstacle, float road, float social, const Parameters& parameters) {
   return obstacle + road + parameters.risk.weight_social * social +
          parameters.scoring.risk_excess * max(obstacle - parameters.risk.threshold, 0.0F);
@@ -46,40 +49,54 @@ void exact_risk(const Scene& scene, const DrivableArea& area, const PredictionSe
   }
 }
 
-void risk_slopes(const Scene& scene, const PredictionSet& prediction, const KinematicSet& others,
+void smooth_risk(const Scene& scene, const PredictionSet& prediction, const KinematicSet& others,
                  const Trajectory& trajectory, const Parameters& parameters, int first, int stride,
-                 FieldGradient (&slopes)[kHorizonSteps]) {
+                 SmoothRisk (&risks)[kHorizonSteps]) {
+  constexpr float kBlend = 0.1F;  // of the threshold: where the excess goes over into a straight line
   const Futures futures = all_modes(scene, prediction, others);
-  const StepInputs inputs = step_inputs(scene, futures, trajectory, parameters, Precision::kLines);
+  StepInputs inputs = step_inputs(scene, futures, trajectory, parameters, Precision::kLines);
+  inputs.params.smoothing = kSmoothField;
+  const float threshold = parameters.risk.threshold;
+  const float blend = kBlend * threshold;
+  const float at_none = 0.5F * (sqrt(square(threshold) + square(blend)) - threshold);
   CostBoxes felt;
   for (int i = first; i < kHorizonSteps; i += stride) {
-    const StepSlope slope = slope_at(inputs, i, felt);
-    const bool excess = slope.obstacle_risk > parameters.risk.threshold;
-    const float of_obstacles = 1.0F + (excess ? parameters.scoring.risk_excess : 0.0F);
+    const StepSlope step = slope_at(inputs, i, felt);
+    const float over = step.obstacle_risk - threshold;
+    const float root = sqrt(square(over) + square(blend));
+    const float excess_slope = root > 0.0F ? 0.5F * (1.0F + over / root) : 0.0F;
+    const float of_obstacles = 1.0F + parameters.scoring.risk_excess * excess_slope;
     const float of_social = parameters.risk.weight_social;
-    slopes[i] = {of_obstacles * slope.obstacle.x + of_social * slope.social.x,
-                 of_obstacles * slope.obstacle.y + of_social * slope.social.y,
-                 of_obstacles * slope.obstacle.heading + of_social * slope.social.heading,
-                 of_obstacles * slope.obstacle.speed, of_obstacles * slope.obstacle.steering};
+    risks[i].value = step.obstacle_risk + of_social * step.social_risk +
+                     parameters.scoring.risk_excess * (0.5F * (over + root) - at_none);
+    risks[i].slope = {of_obstacles * step.obstacle.x + of_social * step.social.x,
+                      of_obstacles * step.obstacle.y + of_social * step.social.y,
+                      of_obstacles * step.obstacle.heading + of_social * step.social.heading,
+                      of_obstacles * step.obstacle.speed, of_obstacles * step.obstacle.steering};
   }
 }
 
-float rank_risk(const Scene& scene, const DrivableArea& area, const PredictionSet& prediction,
-                const KinematicSet& others, const Trajectory& trajectory, const Parameters& parameters) {
-  constexpr int kStride = 3;
-  constexpr int kMiddle = 1;  // of three steps: their sum is three times it to first order
+float rank_risk_of_vehicles(const Scene& scene, const PredictionSet& prediction, const KinematicSet& others,
+                            const Trajectory& trajectory, const Parameters& parameters) {
   Futures futures = all_modes(scene, prediction, others);
   keep_likeliest(futures);
-  float road[kHorizonSteps] = {};
-  road_risk(area, trajectory, parameters, kMiddle + 1, kStride, road);
   const StepInputs inputs = step_inputs(scene, futures, trajectory, parameters, Precision::kLines);
   CostBoxes felt;
   float sum = 0.0F;
-  for (int i = kMiddle; i < kHorizonSteps; i += kStride) {
+  for (int i = kRankMiddle; i < kHorizonSteps; i += kRankStride) {
     const StepRisk risk = risk_at(inputs, i, felt);
-    sum += instant(risk.obstacle, road[i], risk.social, parameters);
+    sum += instant(risk.obstacle, 0.0F, risk.social, parameters);
   }
-  return static_cast<float>(kStride) * kStepS * sum;
+  return static_cast<float>(kRankStride) * kStepS * sum;
+}
+
+float rank_risk_of_road(const DrivableArea& area, const Trajectory& trajectory,
+                        const Parameters& parameters) {
+  float road[kHorizonSteps] = {};
+  road_risk(area, trajectory, parameters, kRankMiddle + 1, kRankStride, road);
+  float sum = 0.0F;
+  for (int i = kRankMiddle; i < kHorizonSteps; i += kRankStride) sum += road[i];
+  return static_cast<float>(kRankStride) * kStepS * sum;
 }
 
 }  // namespace s4tp

@@ -34,19 +34,27 @@ void exact_risk(const Scene& scene, const DrivableArea& area, const PredictionSe
                 RiskProfile& profile);
 
 /// CORE-063 Cheap approximation of risk_integral for ranking: likeliest mode, every third step, culled by
-/// distance.
-[[nodiscard]] float rank_risk(const Scene& scene, const DrivableArea& area, const PredictionSet& prediction,
-                              const KinematicSet& others, const Trajectory& trajectory,
-                              const Parameters& parameters);
+/// distance. In two parts, both >= 0: of the vehicles, and of the road.
+[[nodiscard]] float rank_risk_of_vehicles(const Scene& scene, const PredictionSet& prediction,
+                                          const KinematicSet& others, const Trajectory& trajectory,
+                                          const Parameters& parameters);
+[[nodiscard]] float rank_risk_of_road(const DrivableArea& area, const Trajectory& trajectory,
+                                      const Parameters& parameters);
 
-/// CORE-070 How each step's share of risk_integral (over dt, without the road part) changes with the
-/// trajectory's point there: both sides, the excess over C_t, all modes. Steps `first`, `first` + `stride`,
-/// ... are written. The road part follows the whole path and has no slope of one point. \param slopes  index
-/// i: point i + 1; by curvature instead of the road-wheel angle: times
-///                L / (1 + (L kappa)^2)
-/// Work: about 6,000 instructions a box in reach.
-void risk_slopes(const Scene& scene, const PredictionSet& prediction, const KinematicSet& others,
+/// The risk at one point of a trajectory, and how it changes with that point.
+struct SmoothRisk {
+  float value = 0.0F;
+  FieldGradient slope = {};  ///< by curvature instead of the road-wheel angle: times L / (1 + (L kappa)^2)
+};
+
+/// CORE-070 Each step's share of risk_integral (over dt, without the road part), made smooth, with its slopes
+/// by the trajectory's point there: both sides, the excess over C_t, all modes. The field begins with a ramp
+/// and widens smoothly (kSmoothField); the excess x is (x + sqrt(x^2 + (C_t / 10)^2)) / 2, less what that
+/// is where there is no risk. Steps `first`, `first` + `stride`, ... are written. The road part follows the
+/// whole path and has no slope of one point. \param risks  index i: point i + 1 Work: about 6,000
+/// instructions a box in reach.
+void smooth_risk(const Scene& scene, const PredictionSet& prediction, const KinematicSet& others,
                  const Trajectory& trajectory, const Parameters& parameters, int first, int stride,
-                 FieldGradient (&slopes)[kHorizonSteps]);
+                 SmoothRisk (&risks)[kHorizonSteps]);
 
 }  // namespace s4tp

@@ -9,7 +9,7 @@ namespace {
 
 /// Below, a fifth of a risk off (the worst of two lines) is nothing beside a threshold of many thousands.
 constexpr float kWorthSlices = 200.0F;
-constexpr float kWorthSlope = 1.0F;
+constexpr float kWorthSlope = 20.0F;  // for a second, a hundredth of a metre of progress
 
 float radius(float length_m, float width_m) {
   return 0.5F * (length_m + width_m);

@@ -49,7 +49,7 @@ struct StepSlope {
 };
 
 /// CORE-069 Values and slopes at step `step` + 1; what covers what counts as fixed. Boxes whose risk is below
-/// 1 have no slope. Work: about 6,000 instructions a box in reach.
+/// 20 have no slope. Work: about 6,000 instructions a box in reach.
 [[nodiscard]] StepSlope slope_at(const StepInputs& inputs, int step, CostBoxes& felt);
 
 }  // namespace s4tp

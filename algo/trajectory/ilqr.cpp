@@ -7,7 +7,6 @@ namespace s4tp {
 namespace {
 
 constexpr float kShares[] = {1.0F, 0.4F, 0.1F};  // of a correction, tried in this order
-constexpr int kTrialsPerPass = 6;                // trials that fail cost as much as a pass
 constexpr float kEnough = 0.05F;                 // of the promised decrease
 constexpr float kSettledShare = 1e-3F;           // of the merit: a decrease that is not worth a pass,
 constexpr float kSettled = 1e-6F;                // nor is one of this size, however small the merit
@@ -78,15 +77,15 @@ void Ilqr::keep_if_best(const RefinementProblem& problem, Motion& best, IlqrResu
                         float& violation) const {
   const Judgement judgement = judge_motion(problem, nominal_);
   violation = judgement.violation;
-  if (judgement.violation > kTolerance || judgement.cost >= result.cost_after) return;
+  if (judgement.violation > kTolerance || judgement.cost() >= result.cost_after) return;
   best = nominal_;
-  result.cost_after = judgement.cost;
+  result.cost_after = judgement.cost();
   result.improved = true;
 }
 
 IlqrResult Ilqr::solve(const RefinementProblem& problem, int allowance, Motion& motion) {
   IlqrResult result;
-  result.cost_before = judge_motion(problem, motion).cost;
+  result.cost_before = judge_motion(problem, motion).cost();
   result.cost_after = result.cost_before;
   if (allowance <= 0) return result;
 
@@ -98,11 +97,11 @@ IlqrResult Ilqr::solve(const RefinementProblem& problem, int allowance, Motion& 
   float merit = merit_of_nominal(problem);
   float damping = 0.0F;
   int since_penalty = 0;
-  while (result.passes + (result.failed_trials + kTrialsPerPass - 1) / kTrialsPerPass < allowance) {
+  while (passes_spent(result.passes, result.failed_trials) < allowance) {
     ++result.passes;
     ++since_penalty;
     const float promised = backward_pass(problem, bounds_, nominal_, damping, corrections_);
-    bool settled = promised <= max(kSettled, kSettledShare * merit);
+    bool settled = promised <= max(kSettled, kSettledShare * (merit - problem.field_constant));
     if (!settled) {
       const float before = merit;
       for (const float share : kShares) {
@@ -118,7 +117,7 @@ IlqrResult Ilqr::solve(const RefinementProblem& problem, int allowance, Motion& 
       if (merit < before) {
         damping = 0.0F;
         keep_if_best(problem, motion, result, violation);
-        settled = before - merit <= kSettledShare * merit;
+        settled = before - merit <= kSettledShare * (merit - problem.field_constant);
       } else {
         damping = max(kFirstDamping, kDampingGrowth * damping);
         settled = damping > kMostDamping || promised <= kFutile;

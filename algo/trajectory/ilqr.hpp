@@ -16,6 +16,13 @@ struct InputCorrection {
   float feedback[2 * kMotionStates];  ///< a column for each state
 };
 
+inline constexpr int kTrialsPerPass = 6;  ///< trials that fail cost as much as a pass
+
+/// Work done, in passes.
+[[nodiscard]] constexpr int passes_spent(int passes, int failed_trials) {
+  return passes + (failed_trials + kTrialsPerPass - 1) / kTrialsPerPass;
+}
+
 struct IlqrResult {
   int passes = 0;
   int failed_trials = 0;  ///< shares of corrections rolled out in vain

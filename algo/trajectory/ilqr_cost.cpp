@@ -22,6 +22,7 @@ struct Residuals {
   float across_m;
   float heading_rad;
   float lateral_mps2;
+  float field;
   float gap_m[kMaxHalfPlanes];
   float gap_by_heading[kMaxHalfPlanes];
 };
@@ -44,17 +45,22 @@ void find_gaps(const RefinementProblem& problem, const RefinementStep& step, con
   }
 }
 
+float field_at(const FieldResidual& field, const MotionState& state) {
+  return field.offset + field.by_x * state.x_m + field.by_y * state.y_m +
+         field.by_heading * state.heading_rad + field.by_speed * state.speed_mps +
+         field.by_curvature * state.curvature_1pm;
+}
+
 Residuals find_residuals(const RefinementProblem& problem, const RefinementStep& step,
                          const MotionState& state) {
   Residuals residuals;
-  const float dx = state.x_m - step.reference.x_m;
-  const float dy = state.y_m - step.reference.y_m;
-  residuals.along_m = step.along_x * dx + step.along_y * dy;
-  residuals.across_m = (step.along_x * dy - step.along_y * dx) -
-                       0.5F * step.reference.curvature_1pm * square(residuals.along_m);
+  const Deviation deviation = deviation_of(step, state);
+  residuals.along_m = deviation.along_m;
+  residuals.across_m = deviation.across_m;
   residuals.heading_rad =
       state.heading_rad - step.reference.heading_rad - step.reference.curvature_1pm * residuals.along_m;
   residuals.lateral_mps2 = square(state.speed_mps) * state.curvature_1pm;
+  residuals.field = field_at(step.field, state);
   find_gaps(problem, step, state, residuals);
   return residuals;
 }
@@ -69,6 +75,14 @@ struct Pull {
     cost += 0.5F * weight * square(residual);
     slope += weight * residual;
     stiffness += weight;
+  }
+  /// Only what is negative costs: its square up to `blend`, then evenly.
+  void shortfall_of(float residual, float blend, float weight) {
+    if (residual >= 0.0F || weight <= 0.0F) return;
+    const float lacking = min(-residual, blend);
+    cost += weight * (lacking * lacking / (2.0F * blend) + (-residual - lacking));
+    slope -= weight * lacking / blend;
+    if (lacking < blend) stiffness += weight / blend;
   }
   /// Only what is positive costs.
   void excess_of(float residual, float weight) {
@@ -103,16 +117,30 @@ constexpr float per_square(float unit) {
 /// the gaps.
 enum Kind { kAlong = 0, kAcross, kAcceleration, kCurvature, kLateral, kGap };
 
+struct Range {
+  float low;
+  float high;
+};
+
+/// What both bounds leave.
+Range trusted(float centre, float trust, float low, float high) {
+  return {max(centre - trust, low), min(centre + trust, high)};
+}
+
 Bound bound_of(const RefinementProblem& problem, const RefinementStep& step,
                const BoundMultipliers& multipliers, float penalty, Kind kind, int gap = 0) {
   namespace units = bound_units;
   switch (kind) {
-    case kAlong:
-      return {-step.along_bound_m, step.along_bound_m, multipliers.along,
-              penalty * per_square(units::kAlongM)};
-    case kAcross:
-      return {-problem.across_bound_m, problem.across_bound_m, multipliers.across,
-              penalty * per_square(units::kAcrossM)};
+    case kAlong: {
+      const Range range =
+          trusted(step.trusted_along_m, problem.trust_m, -step.along_bound_m, step.along_bound_m);
+      return {range.low, range.high, multipliers.along, penalty * per_square(units::kAlongM)};
+    }
+    case kAcross: {
+      const Range range =
+          trusted(step.trusted_across_m, problem.trust_m, step.across_low_m, step.across_high_m);
+      return {range.low, range.high, multipliers.across, penalty * per_square(units::kAcrossM)};
+    }
     case kAcceleration:
       return {problem.acceleration_low_mps2, problem.acceleration_high_mps2, multipliers.acceleration,
               penalty * per_square(units::kAccelerationMps2)};
@@ -153,6 +181,9 @@ inline float pull_all(const RefinementProblem& problem, const BoundState& bounds
     return bound_of(problem, step, multipliers, penalty, kind, gap);
   };
   pulls.along.square_of(residuals.along_m, importance * weights.along);
+  if (index == kHorizonSteps - 1) {
+    pulls.along.shortfall_of(residuals.along_m, kBehindBlendM, weights.behind);
+  }
   bound(kAlong).add_to(residuals.along_m, pulls.along);
   pulls.across.square_of(residuals.across_m, importance * weights.across);
   pulls.across.square_of(step.lane_offset_m + residuals.across_m, weights.lane);
@@ -199,9 +230,10 @@ float outside(float value, float low, float high, float unit) {
 float worst_violation(const RefinementProblem& problem, const RefinementStep& step,
                       const Residuals& residuals, const MotionState& state) {
   namespace units = bound_units;
-  float worst = outside(residuals.along_m, -step.along_bound_m, step.along_bound_m, units::kAlongM);
-  worst = max(worst,
-              outside(residuals.across_m, -problem.across_bound_m, problem.across_bound_m, units::kAcrossM));
+  const Range along = trusted(step.trusted_along_m, problem.trust_m, -step.along_bound_m, step.along_bound_m);
+  const Range across = trusted(step.trusted_across_m, problem.trust_m, step.across_low_m, step.across_high_m);
+  float worst = outside(residuals.along_m, along.low, along.high, units::kAlongM);
+  worst = max(worst, outside(residuals.across_m, across.low, across.high, units::kAcrossM));
   worst = max(worst, outside(state.acceleration_mps2, problem.acceleration_low_mps2,
                              problem.acceleration_high_mps2, units::kAccelerationMps2));
   worst = max(worst, outside(state.curvature_1pm, -problem.curvature_bound_1pm, problem.curvature_bound_1pm,
@@ -216,6 +248,14 @@ float worst_violation(const RefinementProblem& problem, const RefinementStep& st
 
 }  // namespace
 
+Deviation deviation_of(const RefinementStep& step, const MotionState& state) {
+  const float dx = state.x_m - step.reference.x_m;
+  const float dy = state.y_m - step.reference.y_m;
+  const float along_m = step.along_x * dx + step.along_y * dy;
+  return {along_m,
+          (step.along_x * dy - step.along_y * dx) - 0.5F * step.reference.curvature_1pm * square(along_m)};
+}
+
 void reference_motion(const RefinementProblem& problem, Motion& motion) {
   motion.states[0] = problem.start;
   for (int i = 0; i < kHorizonSteps; ++i) {
@@ -227,6 +267,10 @@ void reference_motion(const RefinementProblem& problem, Motion& motion) {
   }
 }
 
+float Judgement::cost() const {
+  return own + field;
+}
+
 Judgement judge_motion(const RefinementProblem& problem, const Motion& motion) {
   static constexpr BoundState kNoBounds{};
   Judgement judgement;
@@ -235,18 +279,21 @@ Judgement judge_motion(const RefinementProblem& problem, const Motion& motion) {
     const MotionState& state = motion.states[i + 1];
     const Residuals residuals = find_residuals(problem, step, state);
     StepPulls pulls;
-    judgement.cost += pull_all(problem, kNoBounds, i, residuals, state, pulls) +
-                      cost_of_input(problem, step, motion.inputs[i]);
+    judgement.own += pull_all(problem, kNoBounds, i, residuals, state, pulls) +
+                     cost_of_input(problem, step, motion.inputs[i]);
+    judgement.field += 0.5F * square(residuals.field);
     judgement.violation = max(judgement.violation, worst_violation(problem, step, residuals, state));
   }
+  judgement.field -= problem.field_constant;
   return judgement;
 }
 
 float step_merit(const RefinementProblem& problem, const BoundState& bounds, int index,
                  const MotionInput& input, const MotionState& state) {
   const RefinementStep& step = problem.steps[index];
+  const Residuals residuals = find_residuals(problem, step, state);
   StepPulls pulls;
-  return pull_all(problem, bounds, index, find_residuals(problem, step, state), state, pulls) +
+  return pull_all(problem, bounds, index, residuals, state, pulls) + 0.5F * square(residuals.field) +
          cost_of_input(problem, step, input);
 }
 
@@ -273,6 +320,13 @@ void add_step_cost(const RefinementProblem& problem, const BoundState& bounds, i
   add_pull<kV>(pulls.speed, Vector<1>(1.0F), cost);
   add_pull<kA>(pulls.acceleration, Vector<1>(1.0F), cost);
   add_pull<kKappa>(pulls.curvature, Vector<1>(1.0F), cost);
+  if (residuals.field != 0.0F) {
+    const FieldResidual& field = step.field;
+    const StateVector slope =
+        (StateVector() << field.by_x, field.by_y, field.by_heading, field.by_speed, 0.0F, field.by_curvature)
+            .finished();
+    add_pull<0>(Pull{0.0F, residuals.field, 1.0F}, slope, cost);
+  }
 }
 
 InputCost input_cost(const RefinementProblem& problem, int index, const MotionInput& input) {

@@ -27,6 +27,17 @@ struct HalfPlane {
   float least_gap_m = 0.0F;  ///< that our box has to keep from it
 };
 
+/// Root of what the risk field costs at a step, linear about the motion along which it was last felt:
+/// r = offset + slope . state, and r^2 / 2 is w_r (R + R_0). Weighted already.
+struct FieldResidual {
+  float offset = 0.0F;
+  float by_x = 0.0F;
+  float by_y = 0.0F;
+  float by_heading = 0.0F;
+  float by_speed = 0.0F;
+  float by_curvature = 0.0F;
+};
+
 /// Weights of the residuals; each step's share, so that a residual of 1 all along costs half the sum.
 struct RefinementWeights {
   float jerk = 0.0F;
@@ -40,7 +51,13 @@ struct RefinementWeights {
   float speed = 0.0F;
   float over_cap = 0.0F;   ///< speed over what limit and curves allow
   float clearance = 0.0F;  ///< gap short of comfort_gap_m
+  float behind = 0.0F;     ///< linear, per metre that the last step falls behind by more than kBehindBlendM
 };
+
+/// Across bound of steps on the way to or from another lane.
+inline constexpr float kOnTheWayM = 1.0F;
+/// So far behind the cost grows with the square of it, from there on evenly.
+inline constexpr float kBehindBlendM = 0.3F;
 
 /// What is wanted of states[i], i = 1 .. kHorizonSteps.
 struct RefinementStep {
@@ -50,11 +67,18 @@ struct RefinementStep {
   float lane_offset_m = 0.0F;  ///< of the reference from the lane centre, left positive
   float speed_cap_mps = 0.0F;
   float along_bound_m = 1.0F;          ///< |along| at most
+  float across_low_m = -1.0F;          ///< across at least
+  float across_high_m = 1.0F;          ///< and at most
   float curvature_rate_weight = 0.0F;  ///< of the input that leads here, lateral jerk included
   MotionInput input_bound;             ///< |input| at most, of the input that leads here
   int half_plane_count = 0;
   HalfPlane half_planes[kMaxHalfPlanes];
+  FieldResidual field;
+  float trusted_along_m = 0.0F;  ///< where the field was felt: of the state there, as along and across are
+  float trusted_across_m = 0.0F;
 };
+
+inline constexpr float kTrustAll = 1e6F;
 
 /// Lagrange multipliers of the bounds of one step, signed: positive at the upper one.
 struct BoundMultipliers {
@@ -69,7 +93,6 @@ struct BoundMultipliers {
 struct RefinementProblem {
   RefinementWeights weights;
   float end_importance = 1.0F;  ///< factor, at the last step, on the weights that tie us to the reference
-  float across_bound_m = 1.0F;
   float acceleration_low_mps2 = 0.0F;
   float acceleration_high_mps2 = 0.0F;
   float curvature_bound_1pm = 0.0F;
@@ -78,6 +101,8 @@ struct RefinementProblem {
   float centre_m = 0.0F;  ///< rear axle to the centre of our box
   float half_length_m = 0.0F;
   float half_width_m = 0.0F;
+  float trust_m = kTrustAll;    ///< nor further along or across from where the field was felt
+  float field_constant = 0.0F;  ///< what R_0 adds to the sum of field residuals
   MotionState start;
   RefinementStep steps[kHorizonSteps];  ///< steps[i] is of states[i + 1]
 };
@@ -95,12 +120,22 @@ struct BoundState {
 /// Cost of a motion, without bounds; and by how much it breaks the worst of them, in units of what matters
 /// (BoundUnits in the .cpp): 0 when it keeps all.
 struct Judgement {
-  float cost = 0.0F;
+  float own = 0.0F;    ///< without the field
+  float field = 0.0F;  ///< as its residuals have it, R_0 taken off
+  [[nodiscard]] float cost() const;
   float violation = 0.0F;
 };
 [[nodiscard]] Judgement judge_motion(const RefinementProblem& problem, const Motion& motion);
 
-/// Cost and the bounds' augmented Lagrangian terms (up to a constant) of inputs[index] and states[index + 1].
+/// Deviation of a state from the step's reference, as its bounds mean it.
+struct Deviation {
+  float along_m = 0.0F;
+  float across_m = 0.0F;  ///< from the bent path, left positive
+};
+[[nodiscard]] Deviation deviation_of(const RefinementStep& step, const MotionState& state);
+
+/// Cost and the bounds' augmented Lagrangian terms (up to a constant, R_0's included) of inputs[index] and
+/// states[index + 1].
 [[nodiscard]] float step_merit(const RefinementProblem& problem, const BoundState& bounds, int index,
                                const MotionInput& input, const MotionState& state);
 

@@ -10,8 +10,12 @@ constexpr float kOrdinaryJerkMps3 = 12.0F;  // allowed everywhere; more only whe
 constexpr float kBoundShare = 0.98F;        // of a limit: the check must pass the result
 constexpr float kEndImportance = 5.0F;      // beyond the horizon lies what the candidate was chosen for
 constexpr float kInLaneM = 1.0F;            // further from its centre we are on the way to or from it
+constexpr float kShiftSlackM = 0.02F;       // so that a candidate further out is not at its bound
 constexpr float kComfortGapM = 1.0F;        // nearer than this somebody costs something
 constexpr float kStandingM = 0.02F;         // a stop may move this far
+constexpr float kTrustM = 0.5F;             // of where the field was felt
+constexpr float kTrustShare = 0.3F;         // of it, after it led astray
+constexpr float kLittleGain = 2e-3F;        // of the cost: not worth feeling the field again
 constexpr float kAtRestMps = 0.01F;         // the smooth clamp's last creep is standstill
 
 void set_weights(const Parameters& parameters, RefinementWeights& weights) {
@@ -28,12 +32,12 @@ void set_weights(const Parameters& parameters, RefinementWeights& weights) {
   weights.speed = kPerStep * parameters.refinement.speed;
   weights.over_cap = kPerStep * parameters.refinement.over_cap;
   weights.clearance = kPerStep * parameters.refinement.clearance;
+  weights.behind = parameters.scoring.progress;
 }
 
 /// Limits, but never narrower than what the trajectory itself asks for.
 void set_bounds(const Parameters& parameters, const Trajectory& trajectory, RefinementProblem& problem) {
   const auto& vehicle = parameters.vehicle;
-  problem.across_bound_m = kRefinedWithinM;
   problem.acceleration_low_mps2 = -kBoundShare * vehicle.braking_max_mps2;
   problem.acceleration_high_mps2 = kBoundShare * vehicle.acceleration_max_mps2;
   problem.curvature_bound_1pm = kBoundShare * curvature_for(vehicle.steering_max_rad, vehicle.wheelbase_m);
@@ -71,7 +75,7 @@ void set_reference(const Parameters& parameters, const MotionState& before, cons
   step.reference = reference;
   step.along_x = heading.cos;
   step.along_y = heading.sin;
-  step.along_bound_m = min(kRefinedWithinM, kRefinedWithinS * reference.speed_mps + kStandingM);
+  step.along_bound_m = min(kRefinedAlongM, kRefinedWithinS * reference.speed_mps + kStandingM);
   // d(atan(L kappa))/dt = L kappa' / (1 + L^2 kappa^2)
   const float bend = vehicle.wheelbase_m * before.curvature_1pm;
   const float steering_1pms = vehicle.steering_rate_max_radps * (1.0F + square(bend)) / vehicle.wheelbase_m;
@@ -79,6 +83,16 @@ void set_reference(const Parameters& parameters, const MotionState& before, cons
       max(kOrdinaryJerkMps3, abs(reference.acceleration_mps2 - before.acceleration_mps2) / kStepS);
   step.input_bound.curvature_rate_1pms =
       max(steering_1pms, abs(reference.curvature_1pm - before.curvature_1pm) / kStepS);
+}
+
+/// The field pushes us aside from whoever drives beside us, for as long as he does. In the lane it may do so
+/// a little, and never further out than the candidate is: else each plan would begin where the last one
+/// pushed. On the way to another lane or back the decision stands.
+void set_across_bounds(float offset_m, RefinementStep& step) {
+  const bool in_lane = abs(offset_m) < kInLaneM;
+  const float most_m = max(kRefinedInLaneM, abs(offset_m)) + kShiftSlackM;
+  step.across_low_m = in_lane ? -most_m - offset_m : -kOnTheWayM;
+  step.across_high_m = in_lane ? most_m - offset_m : kOnTheWayM;
 }
 
 void write_back(const Motion& motion, Point origin, Trajectory& trajectory) {
@@ -106,6 +120,7 @@ void build_refinement(const ReferenceLine& line, float start_s_m, const Surround
   const Point origin = position(start.rear_axle);
   set_weights(parameters, problem.weights);
   set_bounds(parameters, trajectory, problem);
+  without_field(problem);
   problem.start = state_of(start, origin, start.rear_axle.heading_rad);
   ReferenceCoordinates where = locate_on(line, origin, start_s_m);
   for (int i = 0; i < kHorizonSteps; ++i) {
@@ -116,21 +131,89 @@ void build_refinement(const ReferenceLine& line, float start_s_m, const Surround
     where = locate_on(line, position(point.rear_axle), where.s_m + kStepS * point.speed_mps);
     const float offset_m = where.d_m - line.aside_m;
     step.lane_offset_m = abs(offset_m) < kInLaneM ? offset_m : 0.0F;
+    set_across_bounds(offset_m, step);
     step.speed_cap_mps = max(reference_at(line, where.s_m).speed_cap_mps, point.speed_mps);
     step.curvature_rate_weight =
         problem.weights.curvature_rate + problem.weights.lateral_jerk * square(square(point.speed_mps));
   }
   problem.end_importance = kEndImportance;
-  find_half_planes(surroundings, trajectory, origin, kComfortGapM + kRefinedWithinM, parameters, problem);
+  find_half_planes(surroundings, trajectory, origin, kComfortGapM + kRefinedAlongM, parameters, problem);
 }
 
-IlqrResult Optimizer::refine(const ReferenceLine& line, float start_s_m, const Surroundings& surroundings,
-                             const Parameters& parameters, int allowance, Trajectory& trajectory) {
-  if (allowance <= 0) return {};
+bool Optimizer::solve(const RefinementProblem& problem, RefinementAllowance allowance, Motion& motion,
+                      RefinementResult& result) {
+  const int left = allowance.passes - passes_spent(result.passes, result.failed_trials);
+  if (left <= 0) return false;
+  const IlqrResult found = ilqr_.solve(problem, left, motion);
+  result.passes += found.passes;
+  result.failed_trials += found.failed_trials;
+  return found.improved;
+}
+
+void Optimizer::improve_in_field(const Surroundings& surroundings, const Parameters& parameters, Point origin,
+                                 RefinementAllowance allowance, RefinementProblem& problem, Motion& motion,
+                                 RefinementResult& result) {
+  float cost = result.own_before + result.field_before;
+  float trust_m = kTrustM;
+  best_ = motion;
+  for (int round = 0; round < allowance.passes; ++round) {
+    put_field(field_, best_, trust_m, parameters, problem);
+    if (!solve(problem, allowance, motion, result)) break;
+    const Judgement judgement = judge_motion(problem, motion);
+    const bool last = result.feelings >= allowance.feelings;
+    float field = judgement.field;
+    if (!last) {
+      field = feel_field(surroundings, problem, origin, motion, parameters, felt_);
+      ++result.feelings;
+    }
+    const float gain = cost - (judgement.own + field);
+    if (gain <= 0.0F) {
+      motion = best_;
+      trust_m *= kTrustShare;
+      if (last) break;
+      continue;
+    }
+    best_ = motion;
+    field_ = felt_;
+    trust_m = kTrustM;
+    cost -= gain;
+    result.own_after = judgement.own;
+    result.field_after = field;
+    result.improved = true;
+    if (last || gain <= kLittleGain * cost) break;
+  }
+}
+
+RefinementResult Optimizer::improve(const Surroundings& surroundings, const Parameters& parameters,
+                                    Point origin, RefinementAllowance allowance, RefinementProblem& problem,
+                                    Motion& motion) {
+  RefinementResult result;
+  if (allowance.passes <= 0) return result;
+  result.own_before = judge_motion(problem, motion).own;
+  result.own_after = result.own_before;
+  if (allowance.feelings > 0) {
+    result.field_before = feel_field(surroundings, problem, origin, motion, parameters, field_);
+    result.field_after = result.field_before;
+  }
+  if (result.field_before > 0.0F) {
+    result.feelings = 1;
+    improve_in_field(surroundings, parameters, origin, allowance, problem, motion, result);
+  } else if (solve(problem, allowance, motion, result)) {
+    result.improved = true;
+    result.own_after = judge_motion(problem, motion).own;
+  }
+  return result;
+}
+
+RefinementResult Optimizer::refine(const ReferenceLine& line, float start_s_m,
+                                   const Surroundings& surroundings, const Parameters& parameters,
+                                   RefinementAllowance allowance, Trajectory& trajectory) {
+  if (allowance.passes <= 0) return {};
   build_refinement(line, start_s_m, surroundings, parameters, trajectory, problem_);
   reference_motion(problem_, motion_);
-  const IlqrResult result = ilqr_.solve(problem_, allowance, motion_);
-  if (result.improved) write_back(motion_, position(trajectory.points[0].rear_axle), trajectory);
+  const Point origin = position(trajectory.points[0].rear_axle);
+  const RefinementResult result = improve(surroundings, parameters, origin, allowance, problem_, motion_);
+  if (result.improved) write_back(motion_, origin, trajectory);
   return result;
 }
 

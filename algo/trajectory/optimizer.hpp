@@ -1,40 +1,78 @@
 #pragma once
-/// Refinement of the chosen candidate (METHOD 4.5): smoother, within the vehicle's limits, clear of the
-/// predicted boxes, and near enough to the candidate for its prediction to hold.
+/// Refinement of the chosen candidate in the risk field (METHOD 4.8): less felt and feared, smoother, within
+/// the vehicle's limits, clear of the predicted boxes, and near enough to the candidate for its prediction to
+/// hold.
 
 #include "algo/core/parameters.hpp"
 #include "algo/core/trajectory.hpp"
 #include "algo/trajectory/clearance.hpp"
 #include "algo/trajectory/ilqr.hpp"
 #include "algo/trajectory/reference_line.hpp"
+#include "algo/trajectory/refinement_field.hpp"
 
 namespace s4tp {
 
-inline constexpr float kRefinedWithinM = 1.0F;  ///< of the candidate, along and across
+inline constexpr float kRefinedAlongM = 2.0F;   ///< of the candidate
 inline constexpr float kRefinedWithinS = 0.5F;  ///< of it in time: a stop stays where it is
-
+inline constexpr float kRefinedInLaneM = 0.3F;  ///< of the lane's centre, if the candidate is as near
 /// Writes what refining `trajectory` means.
 /// \param line  the reference line of its path. \param start_s_m  where on it the trajectory starts
 void build_refinement(const ReferenceLine& line, float start_s_m, const Surroundings& surroundings,
                       const Parameters& parameters, const Trajectory& trajectory, RefinementProblem& problem);
 
+/// Units of work of a refinement.
+struct RefinementAllowance {
+  int passes = 0;
+  int feelings = 0;  ///< times the field is felt along a motion; 0: it is left out
+};
+
+struct RefinementResult {
+  int passes = 0;
+  int failed_trials = 0;
+  int feelings = 0;         ///< 0: there was no field, or nothing in it
+  bool improved = false;    ///< false: the trajectory is as it was, to the bit
+  float own_before = 0.0F;  ///< cost without the field
+  float own_after = 0.0F;
+  float field_before = 0.0F;  ///< what the field adds, smooth and linear between every third step
+  float field_after = 0.0F;   ///< as its last linear model has it
+};
+
 class Optimizer {
  public:
-  /// CAND-011 Never worse than its start: the result costs no more than `trajectory` did, or is
-  /// `trajectory` itself, to the bit. CAND-013 Standing still stays standing still, to the bit.
-  /// CAND-014 Within kRefinedWithinM and kRefinedWithinS of it, and where it kept its distance from a
-  /// predicted box, so does the result. \param trajectory  in: the chosen candidate; out: the refined one,
-  /// same start \param allowance   most passes
-  [[nodiscard]] IlqrResult refine(const ReferenceLine& line, float start_s_m,
-                                  const Surroundings& surroundings, const Parameters& parameters,
-                                  int allowance, Trajectory& trajectory);
+  /// CAND-011 Never worse than its start: by the model that it works with the result costs no more than
+  /// `trajectory` did, or is `trajectory` itself, to the bit; in the field, who asks compares the exact risk.
+  /// CAND-020 It feels the field at most allowance.feelings times, and keeps within 0.5 m of where it did.
+  /// CAND-013 Standing still stays standing still, to the bit.
+  /// CAND-014 Within kRefinedAlongM and kRefinedWithinS of it, across within kRefinedInLaneM of the lane's
+  /// centre or no further out than it, on its way to a lane within kOnTheWayM of it; and where it kept
+  /// its distance from a predicted box, so does the result. \param trajectory  in: the chosen candidate; out:
+  /// the refined one, same start
+  [[nodiscard]] RefinementResult refine(const ReferenceLine& line, float start_s_m,
+                                        const Surroundings& surroundings, const Parameters& parameters,
+                                        RefinementAllowance allowance, Trajectory& trajectory);
+
+  /// The same of a problem that is stated already. \param origin  what its positions are relative to.
+  /// \param problem  out: with the field as last put into it. \param motion  in: the start; out: the best
+  [[nodiscard]] RefinementResult improve(const Surroundings& surroundings, const Parameters& parameters,
+                                         Point origin, RefinementAllowance allowance,
+                                         RefinementProblem& problem, Motion& motion);
 
   /// Of the last refine() with an allowance.
   [[nodiscard]] const RefinementProblem& problem() const { return problem_; }
 
  private:
+  void improve_in_field(const Surroundings& surroundings, const Parameters& parameters, Point origin,
+                        RefinementAllowance allowance, RefinementProblem& problem, Motion& motion,
+                        RefinementResult& result);
+  /// With what is left of the passes. \return whether anything better was found
+  [[nodiscard]] bool solve(const RefinementProblem& problem, RefinementAllowance allowance, Motion& motion,
+                           RefinementResult& result);
+
   RefinementProblem problem_;
   Motion motion_;
+  Motion best_;
+  FieldAlong field_;
+  FieldAlong felt_;  ///< along the motion just found
   Ilqr ilqr_;
 };
 

@@ -38,7 +38,7 @@ class RecordingPlanner : public Planner {
   static void keep(const RefinementProblem& problem) {
     Motion start;
     reference_motion(problem, start);
-    if (judge_motion(problem, start).cost < kNothingToGain) {
+    if (judge_motion(problem, start).cost() < kNothingToGain) {
       ++recorder.recorded.left_out;
     } else if (recorder.seen++ % recorder.stride == 0) {
       recorder.recorded.problems.push_back(problem);

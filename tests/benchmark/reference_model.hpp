@@ -96,6 +96,16 @@ T smooth_cost(const RefinementProblem& problem, int index, const Input<T>& u, co
   sum = sum + tie * (double{w.along} * square(d.along) + double{w.across} * square(d.across) +
                      double{w.heading} * square(d.heading) +
                      double{w.speed} * square(s[3] - T(step.reference.speed_mps)));
+  if (index == kHorizonSteps - 1 && d.along < 0.0) {
+    const double blend = kBehindBlendM;
+    const T lacking = T(0.0) - d.along;
+    const double twice = 2.0 * double{w.behind};
+    if (lacking < blend) {
+      sum = sum + (0.5 * twice / blend) * square(lacking);
+    } else {
+      sum = sum + twice * (lacking - T(0.5 * blend));
+    }
+  }
   sum = sum + double{w.lane} * square(T(step.lane_offset_m) + d.across);
   sum = sum + double{w.lateral} * square(d.lateral);
   return 0.5 * sum;
@@ -136,10 +146,9 @@ std::vector<Row<T>> bounded_rows(const RefinementProblem& problem, const Refinem
                                  const State<T>& s) {
   const Deviations<T> d = deviations(step, s);
   const double along = step.along_bound_m;
-  const double across = problem.across_bound_m;
   const double lateral = problem.lateral_bound_mps2;
   std::vector<Row<T>> rows = {{d.along, -along, along},
-                              {d.across, -across, across},
+                              {d.across, double{step.across_low_m}, double{step.across_high_m}},
                               {d.lateral, -lateral, lateral},
                               {s[3], -kUnbounded, double{step.speed_cap_mps}, 0, -1.0}};
   for (int k = 0; k < step.half_plane_count; ++k) {

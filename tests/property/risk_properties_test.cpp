@@ -103,8 +103,9 @@ TEST(RiskProperties, NeverNegative) {
     }
     DrivableArea area;
     build_drivable(&world->map, area);
-    const float rank =
-        rank_risk(world->scene, area, world->prediction, world->others, world->trajectory, world->parameters);
+    const float rank = rank_risk_of_vehicles(world->scene, world->prediction, world->others,
+                                             world->trajectory, world->parameters) +
+                       rank_risk_of_road(area, world->trajectory, world->parameters);
     RC_ASSERT(is_finite(rank) && rank >= 0.0F);
   }));
 }

@@ -31,9 +31,9 @@ std::unique_ptr<RefinementScene> braking(float acceleration_mps2, float speed_mp
   return scene;
 }
 
-IlqrResult refine(RefinementScene& scene, int passes) {
+RefinementResult refine(RefinementScene& scene, int passes) {
   return std::make_unique<Optimizer>()->refine(scene.line, scene.candidate.start_s_m, scene.surroundings(),
-                                               scene.parameters, passes, scene.trajectory);
+                                               scene.parameters, {passes, 0}, scene.trajectory);
 }
 
 float mean_squared_jerk(const Trajectory& trajectory) {
@@ -58,9 +58,9 @@ TEST(Optimizer, GivesBackTheCandidateWhenThereIsNoAllowance) {
 TEST(Optimizer, SmoothsTheOnsetOfBraking) {
   const auto scene = braking(-3.0F);
   const Trajectory before = scene->trajectory;
-  const IlqrResult result = refine(*scene, 16);
+  const RefinementResult result = refine(*scene, 16);
   EXPECT_TRUE(result.improved);
-  EXPECT_LT(result.cost_after, 0.7F * result.cost_before);
+  EXPECT_LT(result.own_after, 0.7F * result.own_before);
   EXPECT_GT(mean_squared_jerk(before), 8.0F);
   EXPECT_LT(mean_squared_jerk(scene->trajectory), 0.67F * mean_squared_jerk(before));
   const TrajectoryPoint& end = scene->trajectory.points[kHorizonSteps];

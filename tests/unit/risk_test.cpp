@@ -81,7 +81,10 @@ struct Stage {
     return profile;
   }
 
-  float rank() { return rank_risk(scene, area, prediction, others, trajectory, parameters); }
+  float rank() {
+    return rank_risk_of_vehicles(scene, prediction, others, trajectory, parameters) +
+           rank_risk_of_road(area, trajectory, parameters);
+  }
 };
 
 /// Our lane along x with an opposite one to its left, both 3.2 m wide.

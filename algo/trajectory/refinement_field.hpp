@@ -1,0 +1,52 @@
+#pragma once
+/// The risk field in the optimizer (METHOD 4.8): felt along a motion at every third step, linear between, as
+/// one residual a step. Covering (a place never costs twice) counts as fixed where it is felt.
+///
+/// \code
+///   w R(t)     o           w = w_r dt, R with both sides and the excess over C_t, made smooth
+///            /   '-o       o: felt, with its slope by the state (pose, speed, curvature)
+///          o        '-o    r = sqrt(2 w (R + R_0)), linear about the motion: r^2 / 2 is w (R + R_0)
+///   -------------------------> t
+/// \endcode
+
+#include "algo/core/parameters.hpp"
+#include "algo/core/trajectory.hpp"
+#include "algo/trajectory/clearance.hpp"
+#include "algo/trajectory/ilqr_problem.hpp"
+
+namespace s4tp {
+
+inline constexpr int kFieldStride = 3;                            ///< steps from one place felt to the next
+inline constexpr int kFieldKnots = kHorizonSteps / kFieldStride;  ///< the last one is the last step
+static_assert(kHorizonSteps % kFieldStride == 0);
+
+/// The field at one step: R, and its slopes along and across the reference there.
+struct FieldKnot {
+  float risk = 0.0F;
+  float by_along = 0.0F;
+  float by_across = 0.0F;
+  float by_heading = 0.0F;
+  float by_speed = 0.0F;
+  float by_curvature = 0.0F;
+};
+
+struct FieldAlong {
+  FieldKnot knots[kFieldKnots];  ///< of steps[kFieldStride - 1], ...
+};
+
+/// CAND-019 Feels the field along a motion, with its slopes by pose, speed and curvature. \param origin  what
+/// the problem's positions are relative to \return w_r times the integral of R, linear between the knots; 0:
+/// there is no risk Work: at most kFieldKnots * (kMaxAgents * kMaxModes + kMaxTracks) boxes, on each side.
+[[nodiscard]] float feel_field(const Surroundings& surroundings, const RefinementProblem& problem,
+                               Point origin, const Motion& motion, const Parameters& parameters,
+                               FieldAlong& field);
+
+/// Takes the field out of a problem again.
+void without_field(RefinementProblem& problem);
+
+/// On the way to or from another lane the field has no say across: the decision stands.
+/// Makes `field`, felt along `motion`, the problem's residuals, trusted within `trust_m` of it.
+void put_field(const FieldAlong& field, const Motion& motion, float trust_m, const Parameters& parameters,
+               RefinementProblem& problem);
+
+}  // namespace s4tp
