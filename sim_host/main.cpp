@@ -10,9 +10,10 @@ int main(int argc, char** argv) {
   using namespace s4tp::commands;
   CLI::App tool{"s4tp: drives a virtual vehicle over CAN frames"};
   tool.require_subcommand(1);
-  const std::vector<Command> commands{
-      add_demo(tool),     add_eval(tool),   add_run(tool),  add_record(tool), add_traffic(tool),
-      add_coupling(tool), add_faults(tool), add_risk(tool), add_roads(tool),  add_train(tool)};
+  const std::vector<Command> commands{add_demo(tool),   add_eval(tool),    add_run(tool),
+                                      add_record(tool), add_traffic(tool), add_coupling(tool),
+                                      add_faults(tool), add_risk(tool),    add_roads(tool),
+                                      add_train(tool),  add_predict(tool)};
   try {
     tool.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

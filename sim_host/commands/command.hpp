@@ -38,6 +38,7 @@ struct Command {
 [[nodiscard]] Command add_risk(CLI::App& tool);
 [[nodiscard]] Command add_roads(CLI::App& tool);
 [[nodiscard]] Command add_train(CLI::App& tool);
+[[nodiscard]] Command add_predict(CLI::App& tool);
 
 /// What `--roads` names: the scenario folders in a folder, by name; or, as "N:K", roads N to N + K - 1, drawn
 /// into `out`. \throws std::invalid_argument when it is neither, std::runtime_error as roads::write_road()

@@ -1,0 +1,116 @@
+#include "sim_host/clips/figures.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "sim_host/world/box.hpp"
+
+namespace s4tp::clips {
+namespace {
+
+constexpr int kBetweenWindows = 5;
+constexpr double kMoves_m = 1.0;
+constexpr double kMiss_m = 2.0;
+constexpr double kManoeuvre_mps = 2.0;
+constexpr double kManoeuvre_rad = 15.0 / 180.0 * std::numbers::pi;
+// Spread around a future's places, the same for all predictors: as wide at 3 s as a miss is.
+constexpr double kSpread_m = 0.2;
+constexpr double kSpread_mps = 0.6;
+
+double apart_m(world::Vec2 a, world::Vec2 b) {
+  return std::hypot(a.x - b.x, a.y - b.y);
+}
+
+double ade_m(const ClipFuture& future, const ClipFuture& truth) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < truth.places.size(); ++i) sum += apart_m(future.places[i], truth.places[i]);
+  return sum / static_cast<double>(truth.places.size());
+}
+
+/// Mean over the steps of -log of the mixture's density at the truth [log 1/m^2].
+double nll_of(const std::vector<ClipFuture>& futures, const ClipFuture& truth) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < truth.places.size(); ++i) {
+    const double spread_m =
+        kSpread_m + kSpread_mps * static_cast<double>(kStepS) * static_cast<double>(i + 1);
+    double density = 1e-12;  // of a surprise nobody counts on
+    for (const ClipFuture& future : futures) {
+      const double off = apart_m(future.places[i], truth.places[i]) / spread_m;
+      density +=
+          future.probability * std::exp(-0.5 * off * off) / (2.0 * std::numbers::pi * spread_m * spread_m);
+    }
+    sum -= std::log(density);
+  }
+  return sum / static_cast<double>(truth.places.size());
+}
+
+/// The traffic of a window, whichever clip shows it: frames differ, ids and speeds do not.
+std::string key_of(const std::string& family, const ClipVehicle& vehicle, int step) {
+  std::string key = family + '/' + vehicle.id;
+  for (int k = step - kPastSteps; k <= step + kHorizonSteps; ++k) {
+    char speed[16];
+    std::snprintf(speed, sizeof speed, ",%.3f", vehicle.states.at(k).speed_mps);
+    key += speed;
+  }
+  return key;
+}
+
+}  // namespace
+
+void WindowSums::add(const std::vector<ClipFuture>& futures, const ClipFuture& truth) {
+  ++windows;
+  ade_m += clips::ade_m(futures.front(), truth);
+  fde_m += apart_m(futures.front().places.back(), truth.places.back());
+  double least_m = std::numeric_limits<double>::infinity();
+  bool hit = false;
+  for (const ClipFuture& future : futures) {
+    least_m = std::min(least_m, clips::ade_m(future, truth));
+    hit = hit || apart_m(future.places.back(), truth.places.back()) <= kMiss_m;
+  }
+  min_ade_m += least_m;
+  missed += hit ? 0 : 1;
+  nll += nll_of(futures, truth);
+}
+
+nlohmann::json WindowSums::figures() const {
+  const double n = std::max(1, windows);
+  return {{"windows", windows},         {"ade_3s", ade_m / n},        {"fde_3s", fde_m / n},
+          {"min_ade_3", min_ade_m / n}, {"miss_rate_2m", missed / n}, {"nll", nll / n}};
+}
+
+void ClipFigures::add(const Clip& clip) {
+  const std::string family = family_of(clip.id);
+  std::set<std::string> here;  // within a clip nothing is shown twice
+  for (std::size_t i = 0; i < clip.vehicles.size(); ++i) {
+    const ClipVehicle& vehicle = clip.vehicles[i];
+    if (!vehicle.motor || vehicle.states.empty()) continue;
+    const int last = vehicle.states.rbegin()->first - kHorizonSteps;
+    for (int step = vehicle.states.begin()->first + kPastSteps; step <= last; ++step) {
+      const bool due = (step - vehicle.states.begin()->first) % kBetweenWindows == 0;
+      if (!due || !vehicle.seen(step - kPastSteps, step + kHorizonSteps)) continue;
+      const ClipState& now = vehicle.states.at(step);
+      const ClipState& end = vehicle.states.at(step + kHorizonSteps);
+      if (apart_m(vehicle.states.at(step - kPastSteps).centre, end.centre) < kMoves_m) continue;
+      const std::string key = key_of(family, vehicle, step);
+      if (seen_.count(key) != 0) continue;
+      here.insert(key);
+      ClipFuture truth;
+      for (int k = 0; k < kHorizonSteps; ++k) {
+        truth.places[static_cast<std::size_t>(k)] = vehicle.states.at(step + k + 1).centre;
+      }
+      const std::vector<ClipFuture> futures = forecaster_.forecast(clip, i, step);
+      families_[family].all.add(futures, truth);
+      const bool turns = std::abs(world::wrap_angle(end.heading_rad - now.heading_rad)) > kManoeuvre_rad;
+      if (turns || std::abs(end.speed_mps - now.speed_mps) > kManoeuvre_mps) {
+        families_[family].manoeuvre.add(futures, truth);
+      }
+    }
+  }
+  seen_.merge(here);
+}
+
+}  // namespace s4tp::clips

@@ -1,0 +1,66 @@
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "sim_host/campaign/results.hpp"
+#include "sim_host/clips/figures.hpp"
+#include "sim_host/commands/command.hpp"
+
+namespace s4tp::commands {
+namespace {
+
+struct PredictOptions {
+  std::filesystem::path clips;
+  std::vector<std::string> predictors{clips::forecaster_names()};
+  std::filesystem::path json;
+};
+
+void print(const nlohmann::json& run) {
+  const nlohmann::json& manoeuvre = run.at("manoeuvre");
+  std::printf("%-22s %-12s %7d %6.2f / %.2f %8.2f %7.1f %% %6.2f   %6d %6.2f / %.2f\n",
+              run.at("predictor").get<std::string>().c_str(), run.at("family").get<std::string>().c_str(),
+              run.at("windows").get<int>(), run.at("ade_3s").get<double>(), run.at("fde_3s").get<double>(),
+              run.at("min_ade_3").get<double>(), 100.0 * run.at("miss_rate_2m").get<double>(),
+              run.at("nll").get<double>(), manoeuvre.at("windows").get<int>(),
+              manoeuvre.at("ade_3s").get<double>(), manoeuvre.at("fde_3s").get<double>());
+}
+
+int run(const PredictOptions& options) {
+  const std::vector<std::filesystem::path> files = clips::clip_files(options.clips);
+  nlohmann::json runs = nlohmann::json::array();
+  std::printf("%-22s %-12s %7s  ADE / FDE 3 s  minADE  miss 2 m    NLL   of them manoeuvres, ADE / FDE\n",
+              "predictor", "family", "windows");
+  for (const std::string& name : options.predictors) {
+    const std::unique_ptr<clips::Forecaster> forecaster = clips::make_forecaster(name);
+    clips::ClipFigures figures(*forecaster);
+    for (std::size_t i = 0; i < files.size(); ++i) {
+      std::cerr << '\r' << name << ": clip " << i + 1 << " of " << files.size() << ' ' << std::flush;
+      figures.add(clips::load_clip(files[i]));
+    }
+    std::cerr << '\r' << std::string(60, ' ') << '\r';
+    for (const auto& [family, sums] : figures.families()) {
+      nlohmann::json run = sums.all.figures();
+      run["predictor"] = name;
+      run["family"] = family;
+      run["manoeuvre"] = sums.manoeuvre.figures();
+      print(run);
+      runs.push_back(std::move(run));
+    }
+  }
+  if (!options.json.empty()) campaign::write_json(options.json, {{"runs", runs}});
+  return kDone;
+}
+
+}  // namespace
+
+Command add_predict(CLI::App& tool) {
+  CLI::App* predict = tool.add_subcommand("predict", "predictors measured on recorded clips of real drivers");
+  const auto options = std::make_shared<PredictOptions>();
+  predict->add_option("--clips", options->clips, "folder of clips (docs/recorded_clips.md)")->required();
+  predict->add_option("--predictor,--predictors", options->predictors, "which (default: all)")
+      ->delimiter(',')
+      ->check(CLI::IsMember(clips::forecaster_names()));
+  predict->add_option("--json", options->json, "write the figures here");
+  return {predict, [options] { return run(*options); }};
+}
+
+}  // namespace s4tp::commands

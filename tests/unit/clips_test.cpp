@@ -1,0 +1,95 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+
+#include "sim_host/clips/figures.hpp"
+#include "tests/support/networks.hpp"
+
+namespace s4tp::clips {
+namespace {
+
+/// A straight lane of 300 m and one car, 5 s long, from 20 m on at 10 m/s with `mps2`; a parked one beside.
+std::string made_up(double mps2) {
+  std::ostringstream car;
+  std::ostringstream parked;
+  for (int k = 0; k <= 50; ++k) {
+    const double t = 0.1 * k;
+    car << (k > 0 ? "," : "") << '[' << k << ',' << 20.0 + 10.0 * t + 0.5 * mps2 * t * t << ",0.5,0,"
+        << 10.0 + mps2 * t << ']';
+    parked << (k > 0 ? "," : "") << '[' << k << ",100,6,0,0]";
+  }
+  return R"({"id": "XYZ_Made-1", "dt": 0.1, "lanelets": {"7": {"left": [[0, 1.75], [300, 1.75]],
+    "right": [[0, -1.75], [300, -1.75]], "pred": [], "succ": [], "adj_left": null, "adj_right": null,
+    "speed_limit": 13.9}}, "obstacles": [
+    {"id": "1", "role": "dynamic", "type": "car", "length": 4.5, "width": 1.8, "states": [)" +
+         car.str() + R"(]}, {"id": "2", "role": "dynamic", "type": "car", "states": [)" + parked.str() +
+         "]}]}";
+}
+
+class Clips : public testing::Test {
+ protected:
+  Clip clip(double mps2) const { return load_clip(folder_.write("made.json", made_up(mps2))); }
+  world::test::Folder folder_;
+};
+
+// CLIP-003 5 s give windows at 1.0, 1.5 and 2.0 s; the parked car gives none; the same clip again adds none.
+TEST_F(Clips, CountsWindowsOnce) {
+  const auto forecaster = make_forecaster("constant_velocity");
+  ClipFigures figures(*forecaster);
+  figures.add(clip(0.0));
+  figures.add(clip(0.0));
+  ASSERT_EQ(figures.families().size(), 1U);
+  EXPECT_EQ(figures.families().begin()->first, "XYZ_Made-");
+  const FamilySums& sums = figures.families().begin()->second;
+  EXPECT_EQ(sums.all.windows, 3);
+  EXPECT_EQ(sums.manoeuvre.windows, 0);
+  EXPECT_NEAR(sums.all.figures().at("fde_3s").get<double>(), 0.0, 1e-3);
+}
+
+// CLIP-002 At 1 m/s^2 constant velocity ends 0.5 * 1 * 9 = 4.5 m short, which is a miss and a manoeuvre (3
+// m/s); constant acceleration is right.
+TEST_F(Clips, FloorsAreWhatTheySay) {
+  for (const auto& [name, fde_m] : {std::pair{"constant_velocity", 4.5},
+                                    {"lane_following", 4.5},
+                                    {"constant_turn_rate", 4.5},
+                                    {"constant_acceleration", 0.0}}) {
+    const auto forecaster = make_forecaster(name);
+    ClipFigures figures(*forecaster);
+    figures.add(clip(1.0));
+    const FamilySums& sums = figures.families().begin()->second;
+    EXPECT_NEAR(sums.all.figures().at("fde_3s").get<double>(), fde_m, 0.02) << name;
+    EXPECT_EQ(sums.all.missed, fde_m > 2.0 ? 3 : 0) << name;
+    EXPECT_EQ(sums.manoeuvre.windows, 3) << name;
+  }
+  EXPECT_THROW((void)make_forecaster("crystal_ball"), std::invalid_argument);
+}
+
+// The firmware's predictor sees the lane and the speed: at 10 m/s it is nearer than 6 m after 3 s (it may
+// expect speeding up to the limit), and keeps to the lane.
+TEST_F(Clips, TheFirmwaresPredictorDrivesAlongTheLane) {
+  const Clip straight = clip(0.0);
+  const std::vector<ClipFuture> futures = make_forecaster("kinematic")->forecast(straight, 0, 15);
+  ASSERT_FALSE(futures.empty());
+  const world::Vec2 truth = straight.vehicles[0].states.at(45).centre;
+  EXPECT_NEAR(futures.front().places.back().x, truth.x, 6.0);
+  EXPECT_NEAR(futures.front().places.back().y, 0.0, 1.0);
+}
+
+// CLIP-001 Another time step, or a lane without bounds, is refused with the file's name.
+TEST_F(Clips, RefusesWhatItDoesNotKnow) {
+  for (const auto& [from, to] : {std::pair{"\"dt\": 0.1", "\"dt\": 0.2"}, {"\"left\"", "\"links\""}}) {
+    const auto file = folder_.write("bad.json", world::test::replaced(made_up(0.0), from, to));
+    try {
+      (void)load_clip(file);
+      ADD_FAILURE() << to << " was accepted";
+    } catch (const std::runtime_error& error) {
+      EXPECT_NE(std::string(error.what()).find("bad.json"), std::string::npos) << error.what();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace s4tp::clips
