@@ -1,0 +1,48 @@
+#pragma once
+/// Samples side by side, as the network reads them: divided by their units, held within the input range, and
+/// of vehicles and lane paths only those that are there.
+
+#include <torch/types.h>
+
+#include <cstddef>
+#include <vector>
+
+#include "algo/satp/network_shape.hpp"
+#include "sim_host/train/sample.hpp"
+
+namespace s4tp::train {
+
+/// B scenes with V vehicles in all and L lane paths of theirs; masks are 1 where something is there.
+struct Batch {
+  torch::Tensor ego_history;       ///< [B, samples, features]
+  torch::Tensor ego_history_mask;  ///< [B, samples]
+  torch::Tensor place;             ///< [B, 1 + agents, features]
+  torch::Tensor present;           ///< [B, 1 + agents]
+  torch::Tensor scene;             ///< [V] scene of a vehicle
+  torch::Tensor slot;              ///< [V] of a vehicle among all B (1 + agents)
+  torch::Tensor history;           ///< [V, samples, features]
+  torch::Tensor history_mask;      ///< [V, samples]
+  torch::Tensor pair;              ///< [V, features]
+  torch::Tensor rule;              ///< [V, 3] zone, yields, has priority
+  torch::Tensor speed_mps;         ///< [V]
+  torch::Tensor lane;              ///< [L, points, features]
+  torch::Tensor lane_mask;         ///< [L, points]
+  torch::Tensor lane_vehicle;      ///< [L] vehicle of a lane path
+  torch::Tensor lane_slot;         ///< [L] of a lane path among all V paths-per-agent
+  torch::Tensor route_mask;        ///< [V, paths]
+  torch::Tensor plan;              ///< [V, steps, values], in metres, radians, m/s
+  torch::Tensor target;            ///< [V, horizon, 3] x, y, heading
+  torch::Tensor target_mask;       ///< [V, horizon]
+  torch::Tensor route;             ///< [V] lane path it took, -1 unknown
+
+  [[nodiscard]] std::int64_t vehicles() const { return pair.size(0); }
+  [[nodiscard]] Batch to(const torch::Device& device) const;
+};
+
+/// \param samples  at least one with a vehicle
+[[nodiscard]] Batch make_batch(const std::vector<const Sample*>& samples);
+
+/// Random scenes of any shape, for tests of a size that no sample file has.
+[[nodiscard]] Batch random_batch(const satp::NetworkShape& shape, std::int64_t scenes);
+
+}  // namespace s4tp::train

@@ -1,0 +1,23 @@
+#pragma once
+/// What the training makes small (METHOD section 2).
+
+#include <torch/types.h>
+
+#include "sim_host/train/network.hpp"
+
+namespace s4tp::train {
+
+/// Means over vehicles that were seen for at least one step.
+struct Loss {
+  torch::Tensor total;
+  torch::Tensor position;  ///< smooth L1 of the mode nearest to what happened: x, y [m], heading [rad]
+  torch::Tensor mode;      ///< cross-entropy of the choice of that mode
+  torch::Tensor route;     ///< cross-entropy of the attention over lane paths, where the one taken is known
+};
+
+[[nodiscard]] Loss loss_of(const Batch& batch, const Encoded& encoded, const Decoded& decoded);
+
+/// Mean distance over the steps seen, of each mode [V, K]; 0 where nothing was seen.
+[[nodiscard]] torch::Tensor mean_distance_m(const Batch& batch, const Decoded& decoded);
+
+}  // namespace s4tp::train

@@ -1,0 +1,245 @@
+#include "sim_host/train/network.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace s4tp::train {
+namespace {
+
+using satp::LayerInfo;
+using satp::LayerKind;
+using torch::Tensor;
+
+// Names of torch's parameters have no dots.
+std::string parameter_name(std::string name, const char* what) {
+  std::replace(name.begin(), name.end(), '.', '/');
+  return name + "/" + what;
+}
+
+// Position j of the history: sin and cos of j / 10000^(2 i / d) in turn (Vaswani et al. 2017).
+Tensor sinusoids(int samples, int width) {
+  Tensor table = torch::zeros({samples, width});
+  auto value = table.accessor<float, 2>();
+  for (int j = 0; j < samples; ++j) {
+    for (int i = 0; i < width; ++i) {
+      const double angle = j / std::pow(10000.0, (i / 2 * 2) / static_cast<double>(width));
+      value[j][i] = static_cast<float>(i % 2 == 0 ? std::sin(angle) : std::cos(angle));
+    }
+  }
+  return table;
+}
+
+Tensor heads_of_features(int width, int heads) {
+  Tensor table = torch::zeros({width, heads});
+  for (int i = 0; i < width; ++i) table[i][i / (width / heads)] = 1.0F;
+  return table;
+}
+
+Tensor in_units(const std::vector<Tensor>& columns, const float* unit) {
+  const Tensor values = torch::stack(columns, 1);
+  const Tensor units = torch::from_blob(const_cast<float*>(unit), {values.size(1)}, torch::kFloat32);
+  return (values / units.to(values.device())).clamp(-satp::kInputRange, satp::kInputRange);
+}
+
+// Where the decoding of each future stands: [R] each.
+struct Front {
+  Tensor x, y, heading, velocity_x, velocity_y;
+};
+
+Tensor own_features(const Front& front, const Tensor& speed_mps, int step, int steps_per_decode) {
+  const Tensor time = torch::full_like(speed_mps, kStepS * static_cast<float>(step * steps_per_decode));
+  return in_units({front.x, front.y, front.heading.sin(), front.heading.cos(), front.velocity_x,
+                   front.velocity_y, speed_mps, time},
+                  satp::kOwnUnit);
+}
+
+// \param plan [R, values] \param rule [R, 3]
+Tensor plan_features(const Front& front, const Tensor& plan, const Tensor& rule) {
+  const Tensor cos = front.heading.cos();
+  const Tensor sin = front.heading.sin();
+  const auto value = plan.unbind(1);
+  const auto ahead = [&](int column) {
+    return (value[column] - front.x) * cos + (value[column + 1] - front.y) * sin;
+  };
+  const auto left = [&](int column) {
+    return (value[column + 1] - front.y) * cos - (value[column] - front.x) * sin;
+  };
+  const Tensor turn = value[5] - front.heading;
+  return in_units({ahead(0), left(0), ahead(3), left(3), turn.sin(), turn.cos(), value[6], value[7], value[8],
+                   rule.select(1, 0), rule.select(1, 1), rule.select(1, 2)},
+                  satp::kPlanUnit);
+}
+
+}  // namespace
+
+Network::Network(const satp::NetworkShape& shape)
+    : shape_(shape), weight_(satp::kLayerCount), bias_(satp::kLayerCount) {
+  for (int layer = 0; layer < satp::kLayerCount; ++layer) {
+    const LayerInfo info = satp::layer_info(shape, layer);
+    const auto even = [&](std::vector<std::int64_t> sizes, float bound) {
+      return torch::rand(sizes).mul(2.0F * bound).sub(bound);
+    };
+    switch (info.kind) {
+      case LayerKind::kLinear: {
+        const float bound = 1.0F / std::sqrt(static_cast<float>(info.columns));
+        // The network begins near constant velocity.
+        const float share = layer == satp::kIncrements ? 0.1F : 1.0F;
+        weight_[layer] = register_parameter(parameter_name(info.name, "weight"),
+                                            even({info.rows, info.columns}, share * bound));
+        bias_[layer] =
+            register_parameter(parameter_name(info.name, "bias"), even({info.rows}, share * bound));
+        break;
+      }
+      case LayerKind::kLayerNorm:
+        weight_[layer] = register_parameter(parameter_name(info.name, "gain"), torch::ones({info.rows}));
+        bias_[layer] = register_parameter(parameter_name(info.name, "bias"), torch::zeros({info.rows}));
+        break;
+      case LayerKind::kVector:
+        weight_[layer] = register_parameter(parameter_name(info.name, "vector"), torch::rand({info.rows}));
+        break;
+      case LayerKind::kAdd:
+      case LayerKind::kScores:
+        break;
+    }
+  }
+  mode_ = register_parameter("start/mode", torch::randn({shape.modes, shape.hidden}).mul(0.3F));
+  position_ = register_buffer("position", sinusoids(kHistorySamples, shape.width));
+  head_of_ = register_buffer("head_of", heads_of_features(shape.width, shape.heads));
+}
+
+Tensor Network::linear(int layer, const Tensor& x) const {
+  return torch::linear(x, weight_[layer], bias_[layer]);
+}
+
+Tensor Network::normalize(int layer, const Tensor& x) const {
+  return torch::layer_norm(x, {shape_.width}, weight_[layer], bias_[layer], 1e-5);
+}
+
+Tensor Network::attend(int block, const Tensor& query, const Tensor& keys, const Tensor& mask,
+                       Tensor* weights) const {
+  const Tensor q = linear(block + satp::kQuery, query).unsqueeze(2);
+  const Tensor k = linear(block + satp::kKey, keys).unsqueeze(1);
+  const Tensor v = linear(block + satp::kValue, keys).unsqueeze(1);
+  const float scale = 1.0F / std::sqrt(static_cast<float>(shape_.width / shape_.heads));
+  const Tensor score = torch::matmul(q * k, head_of_) * scale;  // [R, Q, N, heads]
+  const Tensor there = mask.unsqueeze(1).unsqueeze(3);
+  const Tensor share = torch::softmax(score + (there - 1.0F) * 1e9F, 2) * there;
+  if (weights != nullptr) *weights = share.mean(3);
+  const Tensor o = (torch::matmul(share, head_of_.t()) * v).sum(2);
+  const Tensor y = normalize(block + satp::kNorm1, query + linear(block + satp::kOutput, o));
+  const Tensor inner = torch::relu(linear(block + satp::kExpand, y));
+  return normalize(block + satp::kNorm2, y + linear(block + satp::kContract, inner));
+}
+
+Tensor Network::history(int embed, int block, const Tensor& samples, const Tensor& mask) const {
+  const Tensor features = linear(embed + 1, torch::relu(linear(embed, samples))) + position_;
+  const Tensor present = features.slice(1, kHistorySamples - 1, kHistorySamples);
+  return attend(block, present, features, mask).squeeze(1);
+}
+
+Encoded Network::encode(const Batch& batch) {
+  const std::int64_t scenes = batch.place.size(0);
+  const std::int64_t agents = batch.place.size(1);
+  const std::int64_t width = shape_.width;
+  const Tensor ego =
+      history(satp::kEgoEmbed1, satp::kEgoAttention, batch.ego_history, batch.ego_history_mask);
+  const Tensor hdv = history(satp::kHdvEmbed1, satp::kHdvAttention, batch.history, batch.history_mask);
+  const Tensor all = torch::zeros({scenes * agents, width}, ego.options());
+  const Tensor ego_slot = torch::arange(scenes, batch.slot.options()) * agents;
+  const Tensor slots = torch::cat({ego_slot, batch.slot});
+  const Tensor read = all.index_copy(0, slots, torch::cat({ego, hdv})).view({scenes, agents, width});
+  const Tensor token = read + linear(satp::kPlaceEmbed, batch.place);
+  const Tensor first = attend(satp::kAgent1, token, token, batch.present);
+  const Tensor both = token + first;
+  const Tensor second = attend(satp::kAgent2, both, both, batch.present);
+  const Tensor agent = second.reshape({scenes * agents, width}).index_select(0, batch.slot);
+
+  const Tensor point =
+      torch::relu(linear(satp::kMapPoint2, torch::relu(linear(satp::kMapPoint1, batch.lane))));
+  const Tensor driver = agent.index_select(0, batch.lane_vehicle).unsqueeze(1);
+  const Tensor path = attend(satp::kLane, driver, point, batch.lane_mask).squeeze(1);
+  const std::int64_t vehicles = batch.vehicles();
+  const std::int64_t paths = batch.route_mask.size(1);
+  const Tensor no_path = torch::zeros({vehicles * paths, width}, ego.options());
+  const Tensor paths_of = no_path.index_copy(0, batch.lane_slot, path).view({vehicles, paths, width});
+  Encoded encoded;
+  const Tensor map =
+      attend(satp::kRoute, agent.unsqueeze(1), paths_of, batch.route_mask, &encoded.route).squeeze(1);
+  encoded.route = encoded.route.squeeze(1);
+
+  const Tensor pair = torch::relu(linear(satp::kPair2, torch::relu(linear(satp::kPair1, batch.pair))));
+  const Tensor gate_input = torch::cat({ego.index_select(0, batch.scene), hdv, pair}, 1);
+  encoded.gate = torch::sigmoid(linear(satp::kGate2, torch::relu(linear(satp::kGate1, gate_input))));
+  const Tensor state = linear(satp::kStart, torch::cat({agent, map, pair}, 1));
+  encoded.start = torch::tanh(state.unsqueeze(1) + mode_);
+  return encoded;
+}
+
+Decoded Network::decode(const Batch& batch, const Encoded& encoded, const Tensor& has_plan) {
+  const std::int64_t vehicles = batch.vehicles();
+  const std::int64_t modes = shape_.modes;
+  const std::int64_t increments = shape_.steps_per_decode;
+  const auto per_mode = [&](const Tensor& x) { return x.repeat_interleave(modes, 0); };
+  const Tensor gate = per_mode(encoded.gate);
+  const Tensor planned = per_mode(has_plan.unsqueeze(1));
+  const Tensor plan = per_mode(batch.plan);
+  const Tensor rule = per_mode(batch.rule);
+  const Tensor speed = per_mode(batch.speed_mps);
+  const Tensor null_plan = torch::relu(weight_[satp::kNullPlan]);
+  const Tensor unit = torch::tensor(
+      {satp::kIncrementUnit[0], satp::kIncrementUnit[1], satp::kIncrementUnit[2]}, speed.options());
+  const Tensor start = encoded.start.reshape({vehicles * modes, shape_.hidden});
+  const Tensor zero = torch::zeros_like(speed);
+  Front front{zero, zero, zero, speed, zero};
+  Tensor hidden = start;
+  std::vector<Tensor> poses;
+  for (int step = 0; step < shape_.decoder_steps; ++step) {
+    const Tensor own =
+        torch::relu(linear(satp::kOwnEmbed, own_features(front, speed, step, shape_.steps_per_decode)));
+    const Tensor ego =
+        torch::relu(linear(satp::kPlanEmbed, plan_features(front, plan.select(1, step), rule)));
+    const Tensor x = own + gate * (planned * ego + (1.0F - planned) * null_plan);
+    const auto gates = torch::sigmoid(linear(satp::kGruGates, torch::cat({x, hidden}, 1))).chunk(2, 1);
+    const Tensor news =
+        torch::tanh(linear(satp::kGruFromInput, x) + gates[0] * linear(satp::kGruState, hidden));
+    hidden = (1.0F - gates[1]) * news + gates[1] * hidden;
+    const Tensor moved = linear(satp::kIncrements, hidden).view({-1, increments, 3}) * unit;
+    const Tensor steady = torch::stack({speed * kStepS, zero, zero}, 1).unsqueeze(1);
+    const Tensor last = torch::stack({front.x, front.y, front.heading}, 1).unsqueeze(1);
+    const Tensor pose = last + (moved + steady).cumsum(1);
+    const auto end = pose.select(1, increments - 1).unbind(1);
+    const float duration_s = kStepS * static_cast<float>(increments);
+    front = {end[0], end[1], end[2], (end[0] - front.x) / duration_s, (end[1] - front.y) / duration_s};
+    poses.push_back(pose);
+  }
+  Decoded decoded;
+  decoded.pose = torch::cat(poses, 1).view({vehicles, modes, -1, 3});
+  decoded.score = linear(satp::kHeadScore, torch::cat({start, hidden}, 1)).view({vehicles, modes});
+  return decoded;
+}
+
+std::int64_t Network::size() const {
+  std::int64_t count = 0;
+  for (const Tensor& parameter : parameters()) count += parameter.numel();
+  return count;
+}
+
+std::map<std::string, std::vector<float>> Network::arrays() const {
+  std::map<std::string, std::vector<float>> result;
+  const auto keep = [&](const std::string& name, const Tensor& tensor) {
+    const Tensor values = tensor.detach().to(torch::kCPU).contiguous();
+    result[name].assign(values.data_ptr<float>(), values.data_ptr<float>() + values.numel());
+  };
+  for (int layer = 0; layer < satp::kLayerCount; ++layer) {
+    const LayerInfo info = satp::layer_info(shape_, layer);
+    const std::string name = info.name;
+    if (info.kind == LayerKind::kVector) keep(name, torch::relu(weight_[layer]));
+    if (info.kind == LayerKind::kLinear) keep(name + ".weight", weight_[layer]);
+    if (info.kind == LayerKind::kLayerNorm) keep(name + ".gain", weight_[layer]);
+    if (bias_[layer].defined()) keep(name + ".bias", bias_[layer]);
+  }
+  keep("start.mode", mode_);
+  return result;
+}
+
+}  // namespace s4tp::train

@@ -1,0 +1,64 @@
+#pragma once
+/// The predictor's network in libtorch, for all its sizes: parameters from the one table of layers, the
+/// forward pass as METHOD section 2 has it.
+
+#include <torch/nn/module.h>
+#include <torch/types.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "algo/satp/network_shape.hpp"
+#include "sim_host/train/batch.hpp"
+
+namespace s4tp::train {
+
+/// A scene's vehicles, read once.
+struct Encoded {
+  torch::Tensor start;  ///< [V, K, hidden] hidden state of each mode
+  torch::Tensor gate;   ///< [V, 1] how much our plan matters to it, 0 .. 1
+  torch::Tensor route;  ///< [V, paths] attention over its lane paths
+};
+
+/// What they will do.
+struct Decoded {
+  torch::Tensor pose;   ///< [V, K, horizon, 3] x, y [m], heading [rad] in the own frame
+  torch::Tensor score;  ///< [V, K] softmax of score / temperature: probabilities
+};
+
+class Network : public torch::nn::Module {
+ public:
+  /// Parameters drawn from torch's generator: seed it first.
+  explicit Network(const satp::NetworkShape& shape);
+
+  [[nodiscard]] const satp::NetworkShape& shape() const { return shape_; }
+  [[nodiscard]] Encoded encode(const Batch& batch);
+  /// \param has_plan  [V], 1 where batch.plan is our plan, 0 where nothing is known of it
+  [[nodiscard]] Decoded decode(const Batch& batch, const Encoded& encoded, const torch::Tensor& has_plan);
+
+  /// Number of parameters.
+  [[nodiscard]] std::int64_t size() const;
+  /// TRAIN-003 Everything the ECU needs, by the names of the table: NAME.weight, NAME.bias, NAME.gain, and
+  /// for what is added by mode start.mode; row-major.
+  [[nodiscard]] std::map<std::string, std::vector<float>> arrays() const;
+
+ private:
+  [[nodiscard]] torch::Tensor linear(int layer, const torch::Tensor& x) const;
+  [[nodiscard]] torch::Tensor normalize(int layer, const torch::Tensor& x) const;
+  /// \param query [R, Q, d] \param keys [R, N, d] \param mask [R, N] \param weights  of the softmax, mean
+  /// over heads [R, Q, N], when asked for \return [R, Q, d]
+  [[nodiscard]] torch::Tensor attend(int block, const torch::Tensor& query, const torch::Tensor& keys,
+                                     const torch::Tensor& mask, torch::Tensor* weights = nullptr) const;
+  [[nodiscard]] torch::Tensor history(int embed, int block, const torch::Tensor& samples,
+                                      const torch::Tensor& mask) const;
+
+  satp::NetworkShape shape_;
+  std::vector<torch::Tensor> weight_;  ///< by satp::Layer; for a vector the vector itself
+  std::vector<torch::Tensor> bias_;
+  torch::Tensor mode_;      ///< [K, hidden]
+  torch::Tensor position_;  ///< [samples, d], constant
+  torch::Tensor head_of_;   ///< [d, heads], 1 where a feature belongs to a head
+};
+
+}  // namespace s4tp::train

@@ -1,0 +1,293 @@
+// The training's program (./s4tp train): apart from the host tool, as only it needs torch.
+
+#include <torch/cuda.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "sim_host/train/conditioning.hpp"
+#include "sim_host/train/figures.hpp"
+#include "sim_host/train/image_export.hpp"
+#include "sim_host/train/learning_curve.hpp"
+#include "sim_host/train/predict.hpp"
+#include "sim_host/train/random_number.hpp"
+#include "sim_host/train/trainer.hpp"
+
+namespace s4tp::train {
+namespace {
+
+constexpr int kDone = 0;
+constexpr int kWrongUse = 2;
+constexpr int kInterrupted = 130;
+constexpr double kMinutesBetweenCheckpoints = 2.0;
+
+std::atomic<bool> stop{false};
+
+double now_s() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+const satp::NetworkShape& shape_named(const std::string& size) {
+  return size == "teacher" ? satp::kTeacherShape : satp::kMcuShape;
+}
+
+struct RunOptions {
+  std::filesystem::path data;
+  std::filesystem::path out;
+  std::string size = "mcu";
+  int threads = 1;
+  TrainingOptions training;
+};
+
+int run(const RunOptions& options) {
+  use_threads(options.threads);
+  const SampleSet set(options.data);
+  std::filesystem::create_directories(options.out);
+  const std::filesystem::path checkpoint = options.out / "checkpoint.pt";
+  Trainer trainer(shape_named(options.size), options.training, set);
+  if (std::filesystem::exists(checkpoint)) trainer.load(checkpoint);
+  std::printf(
+      "%s: %lld parameters, %zu samples, %lld steps of %lld from step %lld, seed %llu, %d threads, on %s\n",
+      options.size.c_str(), static_cast<long long>(trainer.network().size()), set.size(),
+      static_cast<long long>(trainer.steps()), static_cast<long long>(options.training.batch),
+      static_cast<long long>(trainer.step()), static_cast<unsigned long long>(options.training.seed),
+      options.threads, torch::cuda::is_available() ? "the GPU" : "the CPU");
+  const double begin_s = now_s();
+  const std::int64_t begin_step = trainer.step();
+  double saved_s = begin_s;
+  trainer.run(stop, [&](const CurvePoint& point) {
+    const double step_s = (now_s() - begin_s) / static_cast<double>(trainer.step() - begin_step);
+    std::printf(
+        "step %6lld of %lld  loss %.3f (position %.3f mode %.3f route %.3f)  validation %.3f  "
+        "likeliest %.3f m  nearest %.3f m  %.0f ms a step, %.0f min left\n",
+        static_cast<long long>(point.step), static_cast<long long>(trainer.steps()),
+        point.position + point.mode + point.route, point.position, point.mode, point.route, point.validation,
+        point.top_1_m, point.best_of_modes_m, 1000.0 * step_s,
+        step_s * static_cast<double>(trainer.steps() - trainer.step()) / 60.0);
+    std::fflush(stdout);
+    write_curve(trainer.curve(), options.out / "curve.json");
+    draw_curve(trainer.curve(), options.out / "curve.svg");
+    if (now_s() - saved_s > 60.0 * kMinutesBetweenCheckpoints) {
+      trainer.save(checkpoint);
+      saved_s = now_s();
+    }
+  });
+  trainer.save(checkpoint);
+  if (!trainer.finished()) {
+    std::printf("stopped at step %lld; the same command goes on from there\n",
+                static_cast<long long>(trainer.step()));
+    return kInterrupted;
+  }
+  std::printf("%s\n", checkpoint.c_str());
+  return kDone;
+}
+
+void add_run(CLI::App& tool, RunOptions& options) {
+  CLI::App& command = *tool.add_subcommand("run", "train a network, or go on with an interrupted training");
+  command.add_option("--data", options.data, "folder of samples (./s4tp train data)")->required();
+  command.add_option("--out", options.out, "folder of checkpoint and learning curve")->required();
+  command.add_option("--size", options.size, "mcu or teacher")->check(CLI::IsMember({"mcu", "teacher"}));
+  TrainingOptions& training = options.training;
+  command.add_option("--seed", training.seed, "of everything random")->capture_default_str();
+  command.add_option("--steps", training.steps, "gradient steps; fewer where the data runs out")
+      ->capture_default_str();
+  command.add_option("--batch", training.batch, "scenes a step")
+      ->check(CLI::Range(1, 4096))
+      ->capture_default_str();
+  command.add_option("--rate", training.rate, "of Adam at the start")->capture_default_str();
+  command.add_option("--decay-steps", training.decay_steps, "steps in which the rate falls to 0.9 of itself")
+      ->capture_default_str();
+  command.add_option("--passes", training.passes, "times a scene is seen at most")->capture_default_str();
+  command.add_option("--validate-every", training.validate_every, "steps between points of the curve")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
+  command.add_option("--threads", options.threads, "results are the same for the same number only")
+      ->check(CLI::Range(1, 64))
+      ->capture_default_str();
+}
+
+struct FiguresOptions {
+  std::filesystem::path data;
+  std::filesystem::path fresh;
+  std::filesystem::path checkpoint;
+  std::filesystem::path image;
+  std::filesystem::path json;
+  std::string size = "mcu";
+  int threads = 1;
+};
+
+// One predictor's line of the table, and its figures for the file.
+nlohmann::ordered_json judge(const char* name, const std::vector<VehicleErrors>& calibration,
+                             const std::vector<VehicleErrors>& errors,
+                             const std::vector<VehicleErrors>& reference) {
+  nlohmann::ordered_json figures = figures_by_scenario(errors, fitted_sigma_m(calibration), reference);
+  for (const auto& [scenario, of] : figures.items()) {
+    const auto mean = [&](const char* figure) { return of[figure]["mean"].get<double>(); };
+    const auto half = [&](const char* figure) { return of[figure]["half_width"].get<double>(); };
+    std::printf("%-22s %-12s %8zu %6.3f +- %.3f %9.3f %7.3f %7.3f %7.3f %7.3f   %+.3f +- %.3f\n", name,
+                scenario.c_str(), of["vehicles"].get<std::size_t>(), mean("top_1_ade"), half("top_1_ade"),
+                mean("weighted_ade"), mean("min_ade"), mean("top_1_fde"), mean("min_fde"), mean("nll"),
+                mean("top_1_ade_less_reference"), half("top_1_ade_less_reference"));
+  }
+  return figures;
+}
+
+int figures(const FiguresOptions& options) {
+  use_threads(options.threads);
+  const SampleSet set(options.data);
+  const std::vector<std::size_t> calibration = samples_of(set, Part::kCalibration);
+  SampleSet fresh_set;
+  if (!options.fresh.empty()) fresh_set = SampleSet(options.fresh);
+  const SampleSet& judged_set = options.fresh.empty() ? set : fresh_set;
+  std::vector<std::size_t> samples = samples_of(judged_set, Part::kValidation);
+  if (!options.fresh.empty()) {
+    for (const Part part : {Part::kTraining, Part::kCalibration}) {
+      const auto more = samples_of(judged_set, part);
+      samples.insert(samples.end(), more.begin(), more.end());
+    }
+  }
+  const auto network = load_network(shape_named(options.size), options.checkpoint);
+  const double temperature = calibrated_temperature(*network, set, calibration);
+  std::printf(
+      "temperature %.3f, from %zu samples; %zu samples judged\n\n%-22s %-12s %8s %15s %9s %7s %7s %7s %7s   "
+      "%s\n",
+      temperature, calibration.size(), samples.size(), "predictor", "scenario", "vehicles", "top-1 ADE [m]",
+      "weighted", "nearest", "FDE", "nearest", "NLL", "ADE less kinematic");
+  const std::vector<VehicleErrors> kinematic =
+      errors_of(judged_set, samples, kinematic_forecasts(judged_set, samples));
+  nlohmann::ordered_json result{{"temperature", temperature}};
+  const auto add = [&](const char* name, auto&& forecasts_of) {
+    const std::vector<VehicleErrors> calibrated = errors_of(set, calibration, forecasts_of(set, calibration));
+    result["predictors"][name] =
+        judge(name, calibrated, errors_of(judged_set, samples, forecasts_of(judged_set, samples)), kinematic);
+    return fitted_sigma_m(calibrated);
+  };
+  const auto network_of = [&](bool with_plan) {
+    return [&network, temperature, with_plan](const SampleSet& of, const std::vector<std::size_t>& which) {
+      return network_forecasts(*network, of, which, with_plan, temperature);
+    };
+  };
+  add("constant velocity", steady_forecasts);
+  add("kinematic", kinematic_forecasts);
+  add("kinematic, 3 speeds", kinematic_variants);
+  add("satp, no plan", network_of(false));
+  const double sigma_m = add("satp, our plan", network_of(true));
+  if (!options.image.empty()) {
+    const std::vector<std::uint32_t> image = read_image(options.image);
+    for (const bool with_plan : {false, true}) {
+      add(with_plan ? "image, our plan" : "image, no plan",
+          [&image, with_plan](const SampleSet& of, const std::vector<std::size_t>& which) {
+            return image_forecasts(image, of, which, with_plan);
+          });
+    }
+  }
+  const Forecasts planned = network_of(true)(judged_set, samples);
+  result["conditioning"] = conditioning_figures(judged_set, samples, planned, sigma_m);
+  result["yields"] = yield_figures(judged_set, samples, planned);
+  std::printf("\nconditioning %s\nyields %s\n", result["conditioning"].dump().c_str(),
+              result["yields"].dump().c_str());
+  if (!options.json.empty()) {
+    std::ofstream out(options.json);
+    out << result.dump(1) << '\n';
+    if (!out) throw std::runtime_error(options.json.string() + " cannot be written");
+  }
+  return kDone;
+}
+
+struct ExportOptions {
+  std::filesystem::path data;
+  std::filesystem::path checkpoint;
+  std::filesystem::path image;
+  std::filesystem::path source;
+};
+
+constexpr std::size_t kExportSamples = 512;
+
+int export_network(const ExportOptions& options) {
+  use_threads(1);
+  const SampleSet set(options.data);
+  std::vector<std::size_t> samples = samples_of(set, Part::kCalibration);
+  const auto network = load_network(satp::kMcuShape, options.checkpoint);
+  const double temperature = calibrated_temperature(*network, set, samples);
+  shuffle(samples, 0);
+  samples.resize(std::min(samples.size(), kExportSamples));
+  const TrainedFor trained_for = read_trained_for(options.checkpoint);
+  const Trained trained{network->arrays(), static_cast<float>(temperature),
+                        static_cast<std::uint32_t>(trained_for.steps),
+                        static_cast<std::uint32_t>(trained_for.seed)};
+  const std::vector<std::uint32_t> image = export_image(trained, set, samples);
+  (void)image_forecasts(image, set, {}, false);  // what an ECU would refuse is not written
+  write_image(image, options.image);
+  if (!options.source.empty()) write_image_words(image, options.source);
+  std::printf("%s: %zu bytes, temperature %.3f, scales from %zu samples\n", options.image.c_str(),
+              4 * image.size(), temperature, samples.size());
+  return kDone;
+}
+
+void add_export(CLI::App& tool, ExportOptions& options) {
+  CLI::App& command =
+      *tool.add_subcommand("export", "the weight image an ECU takes, out of a trained mcu network");
+  command
+      .add_option("--data", options.data,
+                  "the samples it was trained on: their calibration part gives the scales")
+      ->required();
+  command.add_option("--checkpoint", options.checkpoint, "of ./s4tp train run")->required();
+  command.add_option("--image", options.image, "file for the image")->required();
+  command.add_option("--source", options.source,
+                     "file for the same as a C++ constant: algo/satp/shipped_weights.inc");
+}
+
+void add_figures(CLI::App& tool, FiguresOptions& options) {
+  CLI::App& command =
+      *tool.add_subcommand("figures", "what a trained network is worth, beside the kinematic predictor");
+  command
+      .add_option("--data", options.data, "the samples it was trained on: their calibration part calibrates")
+      ->required();
+  command.add_option("--fresh", options.fresh, "samples to judge it on; else the validation part of --data");
+  command.add_option("--checkpoint", options.checkpoint, "of ./s4tp train run")->required();
+  command.add_option("--image", options.image, "of ./s4tp train export: judged as well");
+  command.add_option("--json", options.json, "file for all figures");
+  command.add_option("--size", options.size, "mcu or teacher")->check(CLI::IsMember({"mcu", "teacher"}));
+  command.add_option("--threads", options.threads)->check(CLI::Range(1, 64))->capture_default_str();
+}
+
+int main_of(int argc, char** argv) {
+  CLI::App tool{"s4tp train: trains the predictor's network"};
+  tool.require_subcommand(1);
+  RunOptions run_options;
+  FiguresOptions figures_options;
+  add_run(tool, run_options);
+  add_figures(tool, figures_options);
+  ExportOptions export_options;
+  add_export(tool, export_options);
+  try {
+    tool.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return tool.exit(error) == 0 ? kDone : kWrongUse;
+  }
+  std::signal(SIGINT, [](int) { stop = true; });
+  std::signal(SIGTERM, [](int) { stop = true; });
+  try {
+    if (tool.got_subcommand("run")) return run(run_options);
+    if (tool.got_subcommand("export")) return export_network(export_options);
+    return figures(figures_options);
+  } catch (const std::exception& error) {
+    std::cerr << "s4tp train: " << error.what() << '\n';
+  }
+  return kWrongUse;
+}
+
+}  // namespace
+}  // namespace s4tp::train
+
+int main(int argc, char** argv) {
+  return s4tp::train::main_of(argc, argv);
+}

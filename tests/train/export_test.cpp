@@ -1,0 +1,95 @@
+// From torch to the ECU's integers: the same network all the way.
+
+#include <gtest/gtest.h>
+#include <torch/utils.h>
+
+#include <cmath>
+#include <filesystem>
+#include <numeric>
+
+#include "sim_host/train/image_export.hpp"
+#include "sim_host/train/predict.hpp"
+#include "tests/train/synthetic.hpp"
+
+namespace s4tp::train {
+namespace {
+
+class Export : public testing::Test {
+ protected:
+  void SetUp() override {
+    torch::manual_seed(11);
+    network = std::make_unique<Network>(satp::kMcuShape);
+    file = std::filesystem::temp_directory_path() /
+           (std::string("s4tp_") + testing::UnitTest::GetInstance()->current_test_info()->name());
+    write_rule_traffic(file, 5, 8, 2);
+    set = SampleSet(file);
+    samples.resize(set.size());
+    std::iota(samples.begin(), samples.end(), std::size_t{0});
+  }
+  void TearDown() override { std::filesystem::remove(file); }
+
+  std::unique_ptr<Network> network;
+  std::filesystem::path file;
+  SampleSet set;
+  std::vector<std::size_t> samples;
+};
+
+// Torch and the plain float network, written apart from the same equations, agree: positions within 1 mm,
+// probabilities within 1e-4, with plan and without.
+TEST_F(Export, TorchAgreesWithThePlainNetwork) {
+  FloatNetwork plain(satp::kMcuShape, network->arrays());
+  for (const bool with_plan : {false, true}) {
+    const Forecasts forecasts = network_forecasts(*network, set, samples, with_plan, 0.7);
+    for (const std::size_t i : samples) {
+      const FloatEncoded encoded = plain.encode(set[i].input);
+      for (int vehicle = 0; vehicle < set[i].input.hdvs; ++vehicle) {
+        const FloatFutures futures =
+            plain.decode(encoded, set[i].input, vehicle, with_plan ? &set[i].plan : nullptr, 0.7F);
+        const Forecast& forecast = forecasts[i][static_cast<std::size_t>(vehicle)];
+        for (int mode = 0; mode < kMaxModes; ++mode) {
+          EXPECT_NEAR(futures.probability[mode], forecast.probability[mode], 1e-4F);
+          EXPECT_NEAR(futures.pose[mode][kHorizonSteps - 1][0],
+                      forecast.position_m[mode][kHorizonSteps - 1][0], 1e-3F);
+          EXPECT_NEAR(futures.pose[mode][kHorizonSteps - 1][1],
+                      forecast.position_m[mode][kHorizonSteps - 1][1], 1e-3F);
+        }
+      }
+    }
+  }
+}
+
+// TRAIN-005 The image is accepted, is the same each time, survives its file, and forecasts what torch does:
+// within 0.1 m (root mean square) after 3 s.
+TEST_F(Export, TheImageForecastsLikeTorch) {
+  const Trained trained{network->arrays(), 1.0F, 10, 11};
+  const std::vector<std::uint32_t> image = export_image(trained, set, samples);
+  EXPECT_EQ(image, export_image(trained, set, samples));
+  std::filesystem::remove(file);  // the set has it open still
+  write_image(image, file);
+  EXPECT_EQ(read_image(file), image);
+  const Forecasts floats = network_forecasts(*network, set, samples, true, 1.0);
+  const Forecasts integers = image_forecasts(image, set, samples, true);
+  double squares = 0.0;
+  int count = 0;
+  for (const std::size_t i : samples) {
+    for (std::size_t vehicle = 0; vehicle < 2; ++vehicle) {
+      for (int mode = 0; mode < kMaxModes; ++mode) {
+        const float(&a)[2] = floats[i][vehicle].position_m[mode][kHorizonSteps - 1];
+        const float(&b)[2] = integers[i][vehicle].position_m[mode][kHorizonSteps - 1];
+        squares += std::pow(a[0] - b[0], 2) + std::pow(a[1] - b[1], 2);
+        ++count;
+      }
+    }
+  }
+  EXPECT_LT(std::sqrt(squares / count), 0.1);
+}
+
+// A changed image is refused with its reason, not used.
+TEST_F(Export, AChangedImageIsRefused) {
+  std::vector<std::uint32_t> image = export_image({network->arrays(), 1.0F, 10, 11}, set, samples);
+  image[image.size() / 2] ^= 1U;
+  EXPECT_THROW((void)image_forecasts(image, set, samples, true), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace s4tp::train
