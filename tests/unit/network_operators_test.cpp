@@ -259,6 +259,7 @@ TEST(GruCell, StatesStayInRange) {
   test::Random random(31);
   alignas(4) std::int8_t inputs[kMaxBatch][kGruInput] = {};
   std::int16_t states[kMaxBatch][kHidden];
+  GruScratch scratch;
   int most = 0;
   for (auto& state : states) {
     for (std::int16_t& value : state)
@@ -268,7 +269,7 @@ TEST(GruCell, StatesStayInRange) {
     for (auto& input : inputs) {
       for (int c = 0; c < kEmbed; ++c) input[c] = static_cast<std::int8_t>(random.integer(-127, 127));
     }
-    gru_step(cell, inputs, kMaxBatch, states);
+    gru_step(cell, inputs, kMaxBatch, scratch, states);
     for (const auto& state : states) {
       for (const std::int16_t value : state) {
         ASSERT_GE(value, -32767);
