@@ -102,13 +102,15 @@ Forecasts image_forecasts(const std::vector<std::uint32_t>& image, const SampleS
   }
   Forecasts result(samples.size());
   const auto scratch = std::make_unique<satp::EncoderScratch>();
+  const auto work = std::make_unique<satp::DecoderScratch>();
   const auto encoded = std::make_unique<satp::Encoded>();
   satp::Futures futures;
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const Sample& sample = set[samples[i]];
     satp::encode(weights, sample.input, *scratch, *encoded);
     for (int vehicle = 0; vehicle < sample.input.hdvs; ++vehicle) {
-      satp::decode(weights, *encoded, vehicle, with_plan ? sample.plan.step[vehicle] : nullptr, futures);
+      satp::decode(weights, *encoded, vehicle, with_plan ? sample.plan.step[vehicle] : nullptr, *work,
+                   futures);
       Forecast& forecast = result[i][static_cast<std::size_t>(vehicle)];
       for (int mode = 0; mode < kMaxModes; ++mode) {
         forecast.probability[mode] = futures.probability[mode];
