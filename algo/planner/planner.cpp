@@ -146,8 +146,9 @@ Status Planner::plan(const PlannerInput& input, Plan& plan, Explanation& explana
     forget_scene();  // nothing of a broken input may be used
     start_known = start_without_input(ego_valid);
   }
-  plan = Plan{};
+  plan.kind = status == Status::kOk ? PlanKind::kDrive : PlanKind::kNone;
   plan.start_ms = start_ms_;
+  plan.fail_safe = status == Status::kOk ? fail_safe_ : FailSafe{};
   if (!start_known) {
     for (TrajectoryPoint& point : chosen_.points) point = TrajectoryPoint{};
   } else if (status != Status::kOk) {
@@ -162,7 +163,7 @@ Status Planner::plan(const PlannerInput& input, Plan& plan, Explanation& explana
 
   if (status == Status::kOk || status == Status::kNoSafePlan) explain_risk(status, explanation);
 
-  if (status == Status::kOk) plan = {PlanKind::kDrive, start_ms_, chosen_, fail_safe_};
+  plan.trajectory = chosen_;
   explanation.status = status;
   if (probe != nullptr) probe->cycle_done(scene_, conditioned_.set, explanation.risk);
   return status;

@@ -163,7 +163,7 @@ void Optimizer::improve_in_field(const Surroundings& surroundings, const Paramet
     const bool last = result.feelings >= allowance.feelings;
     float field = judgement.field;
     if (!last) {
-      field = feel_field(surroundings, problem, origin, motion, parameters, felt_);
+      field = feel_field(surroundings, problem, origin, motion, parameters, scratch_, felt_);
       ++result.feelings;
     }
     const float gain = cost - (judgement.own + field);
@@ -192,7 +192,7 @@ RefinementResult Optimizer::improve(const Surroundings& surroundings, const Para
   result.own_before = judge_motion(problem, motion).own;
   result.own_after = result.own_before;
   if (allowance.feelings > 0) {
-    result.field_before = feel_field(surroundings, problem, origin, motion, parameters, field_);
+    result.field_before = feel_field(surroundings, problem, origin, motion, parameters, scratch_, field_);
     result.field_after = result.field_before;
   }
   if (result.field_before > 0.0F) {

@@ -72,6 +72,7 @@ class Optimizer {
   Motion motion_;
   Motion best_;
   FieldAlong field_;
+  FieldScratch scratch_;
   FieldAlong felt_;  ///< along the motion just found
   Ilqr ilqr_;
 };

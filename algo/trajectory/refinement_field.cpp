@@ -30,8 +30,9 @@ float step_weight(const Parameters& parameters) {
 }  // namespace
 
 float feel_field(const Surroundings& surroundings, const RefinementProblem& problem, Point origin,
-                 const Motion& motion, const Parameters& parameters, FieldAlong& field) {
-  Trajectory trajectory;
+                 const Motion& motion, const Parameters& parameters, FieldScratch& scratch,
+                 FieldAlong& field) {
+  Trajectory& trajectory = scratch.trajectory;
   for (int i = kFieldStride - 1; i < kHorizonSteps; i += kFieldStride) {
     const MotionState& state = motion.states[i + 1];
     TrajectoryPoint& point = trajectory.points[i + 1];
@@ -39,7 +40,7 @@ float feel_field(const Surroundings& surroundings, const RefinementProblem& prob
     point.speed_mps = state.speed_mps;
     point.curvature_1pm = state.curvature_1pm;
   }
-  SmoothRisk risks[kHorizonSteps];
+  SmoothRisk(&risks)[kHorizonSteps] = scratch.risks;
   smooth_risk(surroundings.scene, surroundings.conditioned, surroundings.keep_going, trajectory, parameters,
               kFieldStride - 1, kFieldStride, risks);
   const float wheelbase_m = parameters.vehicle.wheelbase_m;

@@ -11,6 +11,7 @@
 
 #include "algo/core/parameters.hpp"
 #include "algo/core/trajectory.hpp"
+#include "algo/sadrf/risk.hpp"
 #include "algo/trajectory/clearance.hpp"
 #include "algo/trajectory/ilqr_problem.hpp"
 
@@ -34,12 +35,18 @@ struct FieldAlong {
   FieldKnot knots[kFieldKnots];  ///< of steps[kFieldStride - 1], ...
 };
 
+/// Working memory of feel_field; nothing in it outlives the call.
+struct FieldScratch {
+  Trajectory trajectory;
+  SmoothRisk risks[kHorizonSteps];
+};
+
 /// CAND-019 Feels the field along a motion, with its slopes by pose, speed and curvature. \param origin  what
 /// the problem's positions are relative to \return w_r times the integral of R, linear between the knots; 0:
 /// there is no risk Work: at most kFieldKnots * (kMaxAgents * kMaxModes + kMaxTracks) boxes, on each side.
 [[nodiscard]] float feel_field(const Surroundings& surroundings, const RefinementProblem& problem,
                                Point origin, const Motion& motion, const Parameters& parameters,
-                               FieldAlong& field);
+                               FieldScratch& scratch, FieldAlong& field);
 
 /// Takes the field out of a problem again.
 void without_field(RefinementProblem& problem);

@@ -84,9 +84,10 @@ std::unique_ptr<Driven> in_a_field(unsigned seed) {
   made->scene = test::random_refinement(seed);
   if (made->scene == nullptr) return nullptr;
   made->motion = driven(made->scene->start, {}, 0.0F);
+  FieldScratch scratch;
   made->felt = static_cast<double>(feel_field(made->scene->surroundings(), made->scene->problem,
                                               origin_of(*made->scene), made->motion, made->scene->parameters,
-                                              made->field));
+                                              scratch, made->field));
   return made->felt > 0.1 ? std::move(made) : nullptr;
 }
 
@@ -119,8 +120,9 @@ TEST(RefinementField, KnotSlopesAgreeWithDifferences) {
         if (n == 3) state.speed_mps = max(state.speed_mps + by, 0.0F);
         if (n == 4) state.curvature_1pm += by;
         FieldAlong felt;
+        FieldScratch scratch;
         (void)feel_field(scene.surroundings(), scene.problem, origin_of(scene), moved, scene.parameters,
-                         felt);
+                         scratch, felt);
         return felt.knots[k].risk;
       };
       const float difference = (risk_at(steps[n]) - risk_at(-steps[n])) / (2.0F * steps[n]);
@@ -158,9 +160,10 @@ TEST(RefinementField, SlopesAgreeWithDifferencesThroughTheWholeStage) {
     const auto cost_at = [&](float share) {
       const Motion moved = driven(made->motion, direction, share);
       FieldAlong felt;
+      FieldScratch scratch;
       return static_cast<double>(judge_motion(scene.problem, moved).own) +
              static_cast<double>(feel_field(scene.surroundings(), scene.problem, origin_of(scene), moved,
-                                            scene.parameters, felt));
+                                            scene.parameters, scratch, felt));
     };
     constexpr float kShare = 0.01F;
     const double difference = (cost_at(kShare) - cost_at(-kShare)) / (2.0 * static_cast<double>(kShare));
@@ -203,8 +206,9 @@ TEST(RefinementField, SmoothIsNearExact) {
     if (made == nullptr) continue;
     const test::RefinementScene& scene = *made->scene;
     FieldAlong felt;
+    FieldScratch scratch;
     const double by_knots = static_cast<double>(feel_field(
-        scene.surroundings(), scene.problem, origin_of(scene), scene.start, scene.parameters, felt));
+        scene.surroundings(), scene.problem, origin_of(scene), scene.start, scene.parameters, scratch, felt));
     SmoothRisk risks[kHorizonSteps];
     smooth_risk(scene.scene, scene.prediction, scene.keep_going, scene.trajectory, scene.parameters, 0, 1,
                 risks);
