@@ -136,7 +136,15 @@ TEST(Topics, ReachFastDdsWithTheRightValues) {
            words.matched() && diagnostics.matched() && tf.matched();
   })) << "not all topics were found";
 
-  drive.ticks(900, 0ms);  // to where the others are
+  // The other side may learn of its readers later than they learn of it: nothing is told to nobody.
+  const auto everybody_reads = [&] {
+    drive.ticks(1, 10ms);
+    return trajectory.count() > 0 && fail_safe.count() > 0 && control.count() > 0 && risk.count() > 0 &&
+           words.count() > 0 && tracked.count() > 0 && predicted.count() > 0;
+  };
+  ASSERT_TRUE(wait_for(everybody_reads));
+  ASSERT_LT(drive.ticks_driven(), 900) << "the readers were found too late";
+  drive.ticks(900 - drive.ticks_driven(), 0ms);  // to where the others are
   drive.ticks(60, 10ms);
 
   telemetry::Watch watch(memory_name());
