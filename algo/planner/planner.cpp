@@ -156,7 +156,7 @@ Status Planner::plan(const PlannerInput& input, Plan& plan, Explanation& explana
   } else if (guarded) {
     const StageScope scope(probe, Stage::kCheck);
     const RssEnvelope envelope = rss_envelope(scene_, chosen_, parameters_);
-    explanation.rss_clipped = clip_to_envelope(envelope, parameters_, chosen_);
+    explanation.rss_clipped = false;
     explanation.rss = envelope;
     explanation.rss_track = track_id(envelope.agent);
   }

@@ -174,6 +174,10 @@ void Guard::find_threats(const EgoPath& path, const occupancy::LaneReach (&reach
   const int count = scene_->agents.size();
   for (int z = 0; z < path.zones.size(); ++z) {
     ZoneOccupancy when[kMaxTracks];
+    // Two who set off at once have both seen the other stand: who can still stop has not used its licence.
+    const float stop_s_m = sight.start_s_m + centre_m_ + parameters_->guard.takeover_s * start_.speed_mps +
+                           occupancy::stopping_way_m(start_.speed_mps, parameters_->guard.braking_mps2);
+    const bool bound = stop_s_m > path.zones[z].entry_s_m;
     for (int i = 0; i < count; ++i) {
       const Agent& agent = scene_->agents[i];
       // D3: whoever changes into the lane we merge into leaves us our distances.
@@ -181,7 +185,8 @@ void Guard::find_threats(const EgoPath& path, const occupancy::LaneReach (&reach
       if (path.zones[z].merging) straight_on.measure(*scene_->map, agent, false);
       when[i] = zone_occupancy(*scene_, agent, path.zones[z].merging ? straight_on : reach[i], path.zones[z],
                                lead_s_, *parameters_);
-      const bool latched = when[i].to_entry_m > 0.0F && is_latched(agent.track.id, path.zones[z].other_lane);
+      const bool latched = bound && when[i].to_entry_m > 0.0F &&
+                           is_latched(agent.track.id, path.zones[z].other_lane);
       const bool has_priority = when[i].claim == Claim::kMayCome || when[i].claim == Claim::kCanStop;
       if (has_priority && latched) when[i].claim = Claim::kStands;
       const bool stays_out = when[i].claim != Claim::kMayCome && when[i].claim != Claim::kNone;
