@@ -18,7 +18,7 @@ import sys
 COUNTS_PER_INSTRUCTION = {"m7": 1.6, "m55": 2.048}
 CYCLES_PER_INSTRUCTION = 1.5
 CLOCK_MHZ = 480
-# DESIGN's budget of a cycle [million instructions].
+# The budget of a cycle, docs/budget.md [million instructions].
 BUDGET = json.loads((pathlib.Path(__file__).parent / "budget.json").read_text(encoding="utf-8"))["million_instructions"]
 
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Who may include whom: fails on any include that DESIGN's table does not allow.
+"""Who may include whom: fails on any include that this table does not allow.
 
     check_includes.py [ROOT]
 """

@@ -3,7 +3,7 @@
 
 namespace s4tp {
 
-// Time grid (METHOD: dt, T, T_h).
+// Time grid (method.md: dt, T, T_h).
 inline constexpr float kStepS = 0.1F;     ///< dt, step of every horizon and history [s]
 inline constexpr int kStepMs = 100;       ///< the same in vehicle time [ms]; also the planning period
 inline constexpr int kHorizonSteps = 30;  ///< T, future steps: 3 s
@@ -22,7 +22,7 @@ inline constexpr int kMaxLanePoints = 12;  ///< centre line vertices of one lane
 inline constexpr int kMaxSuccessors = 3;   ///< lanes that continue one lane
 inline constexpr int kMaxConflicts = 128;  ///< pairs of lanes that cross or merge
 inline constexpr int kMaxPathLanes = 10;   ///< lanes strung together into one lane path
-inline constexpr int kPathsPerAgent = 3;   ///< lane paths a vehicle may take (METHOD: 3 lane paths)
+inline constexpr int kPathsPerAgent = 3;   ///< lane paths a vehicle may take
 inline constexpr int kMaxPathZones = 12;   ///< conflict zones along one lane path
 
 // Planning.
@@ -30,7 +30,7 @@ inline constexpr int kMaxCandidates = 24;  ///< candidates scored in one cycle
 inline constexpr int kMaxDecisions = 3;    ///< decisions predicted with our plan in mind
 inline constexpr int kMaxExactRisk = 4;    ///< candidates whose risk is computed exactly
 
-// Memory budget of the whole planner object [bytes] (DESIGN: budgets).
+// Memory budget of the whole planner object [bytes] (docs/budget.md).
 inline constexpr int kPlannerBudgetBytes = 64 * 1024;
 
 }  // namespace s4tp

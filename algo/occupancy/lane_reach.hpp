@@ -1,5 +1,5 @@
 #pragma once
-/// How far a vehicle is from every lane, by the shortest legal way (METHOD 4.9): successors and lane changes,
+/// How far a vehicle is from every lane, by the shortest legal way (method.md 4.9): successors, lane changes,
 /// whatever way is likely. OCC-003 Each lane that successors and lane changes lead to is reached, by the
 /// shortest way there is.
 ///

@@ -1,5 +1,5 @@
 #pragma once
-/// Decisions: which candidates are worth a prediction conditioned on them (METHOD 4.3). A decision is a
+/// Decisions: which candidates are worth a prediction conditioned on them (method.md 4.6). A decision is a
 /// target lane and an order of passing; candidates that share both differ in comfort only.
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 #pragma once
-/// What driving on in each lane promises beyond the horizon: overtaking when it pays (METHOD section 4).
+/// What driving on in each lane promises beyond the horizon: overtaking when it pays (method.md 4.7).
 /// 3 s see a slow car ahead, but not that the lane beside it would have saved 8 s by the goal. The outlook
 /// drives on in thought, in closed form: we at the limit, everybody else as fast as now.
 

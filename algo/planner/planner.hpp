@@ -1,5 +1,5 @@
 #pragma once
-/// One planning cycle: scene -> predict -> risk -> optimize -> check (METHOD section 4).
+/// One planning cycle: scene -> predict -> risk -> optimize -> check (docs/architecture.md).
 /// No heap, no globals, no recursion; every loop bounded; all state in this object.
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 #pragma once
-/// Score of a candidate: a weighted sum, lower is better (METHOD 4.4). No lexicographic rule.
+/// Score of a candidate: a weighted sum, lower is better (method.md 4.7). No lexicographic rule.
 
 #include "algo/core/parameters.hpp"
 #include "algo/core/trajectory.hpp"

@@ -6,7 +6,7 @@
 ///   M_obs(p) = max over vehicles of  sum over modes of  prob * C_obs * g * [p in the mode's box]
 /// \endcode
 /// Modes add as an expectation; vehicles cover each other: one place never costs twice.
-/// Source: METHOD section 3.
+/// Source: method.md 3.
 
 #include "algo/core/parameters.hpp"
 #include "algo/sadrf/field.hpp"

@@ -7,7 +7,7 @@
 ///   opposite:   strips of lanes of kind opposite outside junctions
 ///   off road:   the rest; shoulders are for the minimum-risk manoeuvre only
 /// \endcode
-/// Source: METHOD section 3.
+/// Source: method.md 3.
 
 #include "algo/core/bounded.hpp"
 #include "algo/core/config.hpp"

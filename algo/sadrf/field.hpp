@@ -6,7 +6,7 @@
 ///   car ==>------ path -------->   a(s) falls from p (v t_la)^2 at the car to 0 at the look-ahead distance
 ///          ' - inner sigma_1 - '
 /// \endcode
-/// Source: METHOD section 3 (Kolekar et al. 2020, eq. 1 to 4; the exponent is squared).
+/// Source: method.md 3 (Kolekar et al. 2020, eq. 1 to 4; the exponent is squared).
 
 #include "algo/core/geometry.hpp"
 #include "algo/core/parameters.hpp"
@@ -18,7 +18,7 @@ struct FieldSmoothing {
   float ramp_m = 0.0F;        ///< the field begins over this length; 0: with a step
   float steering_rad = 0.0F;  ///< b: |delta| is sqrt(delta^2 + b^2) - b
 };
-/// As METHOD 4.8 asks for it.
+/// As method.md 4.8 asks for it.
 inline constexpr FieldSmoothing kSmoothField = {1.0F, 0.01F};
 
 struct FieldParams {
@@ -58,7 +58,7 @@ inline constexpr float kFieldReach = 4.0F;
 
 inline constexpr float kShortestLookAheadM = 1.0F;
 
-/// Presets of METHOD section 3; c = width / 4.
+/// Presets of method.md 3; c = width / 4.
 [[nodiscard]] FieldParams paper_preset(float vehicle_width_m);
 [[nodiscard]] FieldParams kolekar2020_preset(float vehicle_width_m);
 /// The field of Parameters::risk.

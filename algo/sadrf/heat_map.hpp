@@ -9,7 +9,7 @@
 ///   row 0   +--------------------------------+   y = -32 m
 ///     column 0                         column 127: x = -32 .. 96 m
 /// \endcode
-/// Source: METHOD section 3.
+/// Source: method.md 3.
 
 #include <cstdint>
 

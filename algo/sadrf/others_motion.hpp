@@ -22,7 +22,7 @@ struct Motion {
 [[nodiscard]] Motion motion_at(const Mode& mode, int step, Point moved);
 
 /// The field of the driver of a vehicle of `length_m`: wheelbase 0.6 x length, rear axle 0.3 x length behind
-/// the box centre (METHOD section 3).
+/// the box centre (method.md 3).
 [[nodiscard]] Field field_of_other(const FieldParams& params, const Pose& centre, const Motion& motion,
                                    float length_m);
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Predicted overlap of boxes: the crash term of a score, apart from the field (METHOD section 3: a vehicle
+/// Predicted overlap of boxes: the crash term of a score, apart from the field (method.md 3: a vehicle
 /// that stands across a lane has no ego-side risk).
 
 #include "algo/core/parameters.hpp"

@@ -10,7 +10,7 @@
 ///             /   |
 ///    path ---'----o rear axle ==>
 /// \endcode
-/// Source: METHOD section 3; smooth through straight driving.
+/// Source: method.md 3; smooth through straight driving.
 
 namespace s4tp {
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Risk of a trajectory: the field of a driver times the cost of what is there, per instant (METHOD section
+/// Risk of a trajectory: the field of a driver times the cost of what is there, per instant (method.md
 /// 3).
 
 #include <cstdint>
@@ -22,7 +22,7 @@ struct RiskProfile {
   std::uint8_t dominating_step = 0;
 };
 
-/// dt * sum_t [R(t) + w_x max(0, R_obs(t) - C_t)], R = R_ego + w_soc R_soc (METHOD 4.4).
+/// dt * sum_t [R(t) + w_x max(0, R_obs(t) - C_t)], R = R_ego + w_soc R_soc (method.md 4.7).
 [[nodiscard]] float risk_integral(const RiskProfile& profile, const Parameters& parameters);
 
 /// CORE-062 All modes and steps, both sides. Modes of one vehicle add by probability; where boxes of several

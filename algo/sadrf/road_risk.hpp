@@ -1,7 +1,7 @@
 #pragma once
 /// The road part of R_ego: the field along the candidate's own remaining path, times what the road costs
 /// across it. The widening is that of `kolekar2020` driven straight: a field that follows its own path needs
-/// no allowance for steering (METHOD section 3).
+/// no allowance for steering (method.md 3).
 
 #include "algo/core/parameters.hpp"
 #include "algo/core/trajectory.hpp"

@@ -1,5 +1,5 @@
 #pragma once
-/// The fail-safe (METHOD 4.9): what is driven when no new plan has passed. It is part of every plan: the plan
+/// The fail-safe (method.md 4.9): what is driven when no new plan has passed. Part of every plan: the plan
 /// itself up to `branch_s`, then braking along its path to a standstill. The guard has shown that it meets
 /// nobody who keeps to the law.
 ///

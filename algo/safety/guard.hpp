@@ -1,5 +1,5 @@
 #pragma once
-/// The guard (METHOD 4.9): a plan is taken only when a fail-safe from its first part meets nobody who keeps
+/// The guard (method.md 4.9): a plan passes only when a fail-safe from its first part meets nobody who keeps
 /// to the law. Knows tracks, map and plan; never predictions, beliefs or manoeuvres.
 /// GUARD-001 A plan passes that can still be stopped before a group of zones and before the road ends;
 /// without map or path nothing does. GUARD-002 Else it goes through when all others are gone, come later, or

@@ -1,5 +1,5 @@
 #pragma once
-/// Legal occupancy (METHOD 4.9): when a vehicle that keeps to the law can be on ground we share with it.
+/// Legal occupancy (method.md 4.9): when a vehicle that keeps to the law can be on ground we share with it.
 /// Knows tracks and map; never predictions, beliefs or manoeuvres.
 /// LEGAL-001 A vehicle is in a zone from when it can be there at the earliest, bends counted, until it has
 /// left at the latest, its own length counted. LEGAL-002 D1: who owes us the way stops before the zone if the

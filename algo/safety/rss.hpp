@@ -1,5 +1,5 @@
 #pragma once
-/// Responsibility-sensitive safety as a response (METHOD 4.6): from tracks and map alone, never predictions.
+/// Responsibility-sensitive safety as a response (method.md 4.10): from tracks and map, never predictions.
 /// Source: Shalev-Shwartz et al. 2017, definitions 1, 6 and the proper response.
 ///
 /// \code

@@ -1,5 +1,5 @@
 #pragma once
-/// What the network sees of a scene, of our plan, and what it is trained against (METHOD section 2).
+/// What the network sees of a scene, of our plan, and what it is trained against (docs/satp.md).
 ///
 /// All in SI units; every vehicle in its own frame: x ahead, y left of its anchor, the place of its box
 /// centre at plan start when it keeps speed and heading. What is missing is 0 and masked; no value is ever a

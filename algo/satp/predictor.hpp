@@ -1,5 +1,5 @@
 #pragma once
-/// Prediction of other drivers (METHOD section 2): encode the scene once, then decode without our plan or for
+/// Prediction of other drivers (method.md 2): encode the scene once, then decode without our plan or for
 /// a plan. The method behind it now is kinematic: each vehicle follows its lane paths by car-following (IDM)
 /// and yields at conflict zones; conditioning makes our planned motion one more vehicle it reacts to.
 

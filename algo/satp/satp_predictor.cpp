@@ -51,7 +51,7 @@ void SatpPredictor::encode(const satp::Weights& weights, const Scene& scene, con
   satp::encode(weights_, room_.input, scratch, encoded_);
 }
 
-// The classes' masses are the belief's, what they look like the network's (METHOD 4.3).
+// The classes' masses are the belief's, what they look like the network's (method.md 4.3).
 void SatpPredictor::believe(int index, AgentPrediction& result) const {
   const float(&pair)[satp::kPairFeatures] = encoded_.pair[index];
   const float entry_m = pair[static_cast<int>(satp::PairFeature::kEntryM)];

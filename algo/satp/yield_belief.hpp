@@ -1,5 +1,5 @@
 #pragma once
-/// Yield beliefs (METHOD 4.3): how each vehicle's driving speaks for "lets us go first" against "goes first".
+/// Yield beliefs (method.md 4.3): how a vehicle's driving speaks for "lets us go first" against "goes first".
 /// Bayes filter on log-odds; the prior is the prediction's own, evidence comes on top of it.
 /// BELIEF-001 Driving speaks for the hypothesis it is nearer to, with at most 1 a cycle and 7 in all; nothing
 /// becomes certain. BELIEF-002 What is not told apart is no evidence, and what is known fades; who stands

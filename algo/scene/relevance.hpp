@@ -1,5 +1,5 @@
 #pragma once
-/// Whom to watch (METHOD 4.0).
+/// Whom to watch (method.md 4.1).
 
 #include "algo/scene/scene.hpp"
 

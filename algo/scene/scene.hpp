@@ -10,7 +10,7 @@
 
 namespace s4tp {
 
-/// The past of one vehicle on the dt grid, oldest first; `valid` is the mask (METHOD 2: never x == 0).
+/// The past of one vehicle on the dt grid, oldest first; `valid` is the mask (never x == 0).
 struct History {
   struct Sample {
     Pose pose;  ///< rear axle for us, box centre for others
@@ -74,7 +74,7 @@ struct Scene {
   bool list_refused = false;    ///< CORE-008 the list lies over 500 ms from the scene, or before the last one
 };
 
-/// Which vehicles SATP watches (METHOD 4.0).
+/// Which vehicles SATP watches (method.md 4.1).
 enum class Relevance : std::uint8_t { kInteraction = 0, kNearest = 1 };
 
 /// Builds scenes; its only state is the tracks' past.

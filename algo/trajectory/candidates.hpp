@@ -1,5 +1,5 @@
 #pragma once
-/// Motions worth considering (METHOD 4.1): target lane x longitudinal intent. Where we drive and how fast are
+/// Motions worth considering (method.md 4.5): target lane x longitudinal intent. Where we go and how fast are
 /// kept apart: a quintic d(s) to the lane centre, and a speed profile along it. So a car at rest has a pose,
 /// a heading and a curvature (CAND-005), and a plan that is re-timed stays on its path. A candidate is kept
 /// as its recipe and rolled out to a trajectory where it is needed.
@@ -60,7 +60,7 @@ using ReferenceLines = ReferenceLine[decltype(Scene::ego_paths)::kCapacity];
 /// Whether `time_ms` lies within the plan's validity. False for a plan of kind none.
 [[nodiscard]] bool plan_covers(const Plan& plan, std::uint32_t time_ms);
 
-/// The state the next plan starts from (METHOD: the state predicted for the next boundary).
+/// The state the next plan starts from (the state predicted for the next boundary).
 /// The running plan's own state there when we are within 0.5 m sideways, 1 m along, 0.15 rad and 1 m/s of it,
 /// so that commands are continuous (CAND-007); else the measured state brought forward (CAND-008).
 [[nodiscard]] TrajectoryPoint plan_start(const EgoState& ego, std::uint32_t now_ms, const Plan& running,

@@ -1,5 +1,5 @@
 #pragma once
-/// Control-limited Gauss-Newton iLQR with an augmented Lagrangian for the bounds (METHOD 4.5): each pass
+/// Control-limited Gauss-Newton iLQR with an augmented Lagrangian for the bounds (method.md 4.8): each pass
 /// linearises about the nominal motion, solves the linear-quadratic problem backwards, and tries its
 /// corrections forwards, whole and in fixed shares. Sources: Tassa et al. 2014 (input bounds), Howell et al.
 /// 2019 (ALTRO).

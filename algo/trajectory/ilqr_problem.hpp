@@ -1,6 +1,6 @@
 #pragma once
 /// What the optimizer minimizes: squares of what is unpleasant, within bounds, near one candidate
-/// (METHOD 4.5). Plain data: whoever has it can compute cost and bounds again, and find the optimum by other
+/// (method.md 4.8). Plain data: whoever has it can compute cost and bounds too, and find the optimum by other
 /// means.
 ///
 /// \code

@@ -1,5 +1,5 @@
 #pragma once
-/// Refinement of the chosen candidate in the risk field (METHOD 4.8): less felt and feared, smoother, within
+/// Refinement of the chosen candidate in the risk field (method.md 4.8): less felt and feared, calmer, within
 /// the vehicle's limits, clear of the predicted boxes, and near enough to the candidate for its prediction to
 /// hold.
 

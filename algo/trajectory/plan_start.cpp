@@ -5,7 +5,7 @@
 namespace s4tp {
 namespace {
 
-// How far we may be from the running plan and still go on from it (METHOD: commands are continuous).
+// How far we may be from the running plan and still go on from it (commands are continuous).
 constexpr float kAlongM = 1.0F;
 constexpr float kSidewaysM = 0.5F;
 constexpr float kSpeedMps = 1.0F;

@@ -1,5 +1,5 @@
 #pragma once
-/// The risk field in the optimizer (METHOD 4.8): felt along a motion at every third step, linear between, as
+/// The risk field in the optimizer (method.md 4.8): felt on a motion at every third step, linear between, as
 /// one residual a step. Covering (a place never costs twice) counts as fixed where it is felt.
 ///
 /// \code

@@ -82,7 +82,7 @@ class Ecu {
   std::uint32_t planner_crc_ = 0;                   ///< of the parameters it has; planning context
 };
 
-/// All static memory but the planner: 128 KiB less planner 64, heat map 8, bus buffers 4 (DESIGN: budgets).
+/// All static memory but the planner: 128 KiB less planner 64, heat map 8, bus buffers 4 (docs/budget.md).
 static_assert(sizeof(EcuCore) <= 52 * 1024, "the ECU's share of static memory is used up");
 
 }  // namespace s4tp::ecu

@@ -1,5 +1,5 @@
 #pragma once
-/// Predictive-Decision (arXiv 2302.03939; METHOD section 4, end): the same candidates and the same predictor
+/// Predictive-Decision (arXiv 2302.03939; method.md 5): the same candidates and the same predictor
 /// as S4TP, asked about every candidate, and a weighted sum of seven features. No risk field.
 ///
 /// \code

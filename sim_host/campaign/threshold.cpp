@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kTicksPerSnapshot = 10;
 constexpr std::size_t kEvery = 10;  // snapshots from one horizon to the next: 1 s
-constexpr std::size_t kWindow = 3;  // steps over which a curvature is taken, as for others (METHOD section 3)
+constexpr std::size_t kWindow = 3;  // steps over which a curvature is taken, as for others (method.md 3)
 constexpr float kReachM = 100.0F;
 
 /// A car's way: its state at each snapshot from the first on.

@@ -1,6 +1,6 @@
 #pragma once
 /// Metrics of an episode in physical units, from the recorded state alone, never from a planner's opinion
-/// (METHOD section 5); the competition's own beside them (comp1.hpp).
+/// (method.md 5); the competition's own beside them (comp1.hpp).
 
 #include <cstdint>
 #include <string>

@@ -24,7 +24,7 @@ struct BoardConsole {
 /// PROC-041 Reads the console, cut off anywhere. \param counts_per_instruction  of the board's counter
 [[nodiscard]] BoardConsole read_console(std::istream& console, double counts_per_instruction);
 
-/// DESIGN's budget by stage [million instructions], "all" for all together.
+/// The budget by stage, docs/budget.md [million instructions], "all" for all together.
 [[nodiscard]] std::map<std::string, double> load_budget(const std::filesystem::path& file);
 
 /// PROC-042 The table of stages: median, maximum, budget. A stage counts in the cycles it ran in.

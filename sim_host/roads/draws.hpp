@@ -16,7 +16,7 @@ template <class Value>
 /// Short ones often.
 [[nodiscard]] double draw_length_m(world::Random& random, double low_m, double high_m);
 
-/// Within WORLD's 5 to 20 vehicles a minute and lane. \param most  of one stream
+/// Within 5 to 20 vehicles a minute and lane. \param most  of one stream
 [[nodiscard]] world::Range draw_rate(world::Random& random, double most = 20.0);
 
 /// How many streams cross the ego's way, and their rate: together at most 24 vehicles a minute. From 20 on a

@@ -89,7 +89,7 @@ struct Family {
 /// In the order in which numbers have them: road number N is of family N modulo their number.
 [[nodiscard]] const std::vector<Family>& families();
 
-// The families, each of any geometry that WORLD's list leaves open: lanes, lengths, angles, limits, rule.
+// The families, each of any geometry that its kind leaves open: lanes, lengths, angles, limits, rule.
 [[nodiscard]] Road draw_crossing_left(world::Random& random);
 [[nodiscard]] Road draw_crossing_straight(world::Random& random);
 [[nodiscard]] Road draw_crossing_right(world::Random& random);

@@ -1,6 +1,6 @@
 #pragma once
 /// Egos for branches: what one might do from here on, chosen without regard to what the others are about to
-/// do (METHOD section 2). A driver of intentions is no planner: it keeps to its lane and, usually, behind who
+/// do (method.md 2). A driver of intentions is no planner: it keeps to its lane and, usually, behind who
 /// drives ahead, but asks nobody whether it may enter a junction or a lane.
 
 #include <cstdint>

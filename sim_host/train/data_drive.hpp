@@ -1,7 +1,7 @@
 #pragma once
 /// Drives an episode with a planner of ours in the loop and makes training samples of it: at intervals the
 /// world is forked, the ego drives several intentions from the same instant, and what the others then do
-/// becomes the target (METHOD section 2).
+/// becomes the target (method.md 2).
 ///
 /// \code
 ///   drive   --------x-----------x-------->      x  a fork: one sample of the drive, one of each branch,

@@ -1,5 +1,5 @@
 #pragma once
-/// What the training makes small (METHOD section 2).
+/// What the training makes small (method.md 2).
 
 #include <torch/types.h>
 

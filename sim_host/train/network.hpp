@@ -1,6 +1,6 @@
 #pragma once
 /// The predictor's network in libtorch, for all its sizes: parameters from the one table of layers, the
-/// forward pass as METHOD section 2 has it.
+/// forward pass as docs/satp.md has it.
 
 #include <torch/nn/module.h>
 #include <torch/types.h>

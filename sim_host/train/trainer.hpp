@@ -17,7 +17,7 @@
 
 namespace s4tp::train {
 
-/// METHOD's values; what changes the result is all here.
+/// Values of docs/training.md; what changes the result is all here.
 struct TrainingOptions {
   std::uint64_t seed = 1;
   std::int64_t steps = 30000;

@@ -1,6 +1,6 @@
 #pragma once
 /// A branch of a world: from one recorded state it runs on with the ego driven another way, all else equal,
-/// the drivers' hidden character and noise included (METHOD section 2: a plan is an intervention).
+/// the drivers' hidden character and noise included (method.md 2: a plan is an intervention).
 ///
 /// \code
 ///                       .---- branch, ego goes    ----> who yields now?

@@ -104,7 +104,7 @@ Seen all_of(const Coverage& coverage, const std::string& what) {
 }
 
 // ROAD-001, ROAD-002 Numbers 0 to 279, twenty of each family: each loads in both flavours, has a way, and
-// traffic of 5 to 20 vehicles a minute and lane. Together they come near the ends of WORLD's ranges: arms
+// traffic of 5 to 20 vehicles a minute and lane. Together they come near the ends of the ranges: arms
 // from 25 m (netconvert may round half a metre off), 1 to 4 lanes, turns of many angles, every rule of way,
 // acceleration lanes of 40 to 200 m (their outer eighths: twenty roads miss one of them in 2 * 0.875^20 = 14
 // % of all blocks of numbers) into 1 to 5 lanes.

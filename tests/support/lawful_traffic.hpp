@@ -1,6 +1,6 @@
 #pragma once
 /// A small world along lines, for properties of the guard: an ego that drives any plan the guard passes, and
-/// others who do the worst that the law leaves them. The law is written here anew, from METHOD 4.9's words.
+/// others who do the worst that the law leaves them. The law is written here again, by method.md 4.9's words.
 
 #include <algorithm>
 #include <cmath>

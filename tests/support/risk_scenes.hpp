@@ -48,7 +48,7 @@ inline FieldAndBox random_field_and_box(std::mt19937& random, float heading_spre
   return one;
 }
 
-/// The field in double, from METHOD's formulas; the support is the half-plane x >= 0 of the driver's frame.
+/// The field in double, by method.md's formulas; the support is the half-plane x >= 0 of the driver's frame.
 inline double density(const Field& field, double x, double y) {
   const double kappa = static_cast<double>(field.curvature_1pm);
   const double u = 1.0 - kappa * y;

@@ -93,7 +93,7 @@ TEST(Field, FallsByTheSquaredExponent) {
   EXPECT_NEAR(field_at(kPaper, driver, {20.0F, -3.0F}) / middle, std::exp(-2.0F), 1e-5F);
 }
 
-// METHOD: sigma at 48.6 m straight is 2.93 m with the paper's preset and 0.55 m with that of 2020.
+// method.md: sigma at 48.6 m straight is 2.93 m with the paper's preset and 0.55 m with that of 2020.
 TEST(Field, PresetsDifferInWidth) {
   for (const auto& [params, sigma] :
        {std::pair{paper_preset(2.0F), 2.93F}, {kolekar2020_preset(2.0F), 0.5486F}}) {

@@ -315,7 +315,7 @@ TEST(Paired, UpperBoundFollowsTheSign) {
   EXPECT_LT(difference_upper({500, 2, 2}), difference_upper({500, 3, 2}));
 }
 
-// METHOD: 500 of 500 only bounds the failure rate below 0.8 %. 16 of 20: 58.4 .. 91.9 % (tabulated).
+// method.md: 500 of 500 only bounds the failure rate below 0.8 %. 16 of 20: 58.4 .. 91.9 % (tabulated).
 TEST(Summary, WilsonInterval) {
   EXPECT_NEAR(wilson(500, 500).low, 0.9924, 5e-4);
   EXPECT_NEAR(wilson(16, 20).low, 0.584, 1e-3);

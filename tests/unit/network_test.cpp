@@ -174,7 +174,7 @@ TEST(Network, ZonesLieOnTheirLanes) {
   }
 }
 
-// The geometry of WORLD's table: arm 29.6 m, exit 42.8 m, a turn of about 16.85 m with a radius of about 10.7
+// The geometry of left_turn: arm 29.6 m, exit 42.8 m, a turn of about 16.85 m with a radius of about 10.7
 // m.
 TEST(Network, TheLeftTurnHasItsPublishedGeometry) {
   const Network network = shipped("left_turn").network;

@@ -17,7 +17,7 @@ TEST(Presets, DefaultIsThePaperShrinking) {
   EXPECT_EQ(parameters_crc(chosen), parameters_crc(Parameters{}));
 }
 
-// CORE-071: kolekar2020 with the fixed look-ahead: m = 0.001, k1 = 0, k2 = 1.3823 (METHOD section 3); costs
+// CORE-071: kolekar2020 with the fixed look-ahead: m = 0.001, k1 = 0, k2 = 1.3823 (method.md 3); costs
 // and the social weight stay as they were. All four pairs are valid, each with a threshold of its own.
 TEST(Presets, EveryPairIsValid) {
   Parameters chosen;

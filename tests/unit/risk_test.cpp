@@ -114,7 +114,7 @@ TEST(Risk, EmptyWorldHasNone) {
   EXPECT_EQ(stage->rank(), 0.0F);
 }
 
-// CORE-062, METHOD: an empty road in lane centre costs about 170 with the full look-ahead of 3.5 s at 13.89
+// CORE-062, method.md: an empty road in its centre costs about 170 with the full look-ahead of 3.5 s at 13.89
 // m/s.
 TEST(Risk, EmptyRoadInLaneCentreCostsLittle) {
   const auto stage = stage_with_straight_drive(13.89F);
@@ -174,7 +174,7 @@ TEST(Risk, TurningInLaneCentreCostsLittle) {
   for (const float road : stage->exact().road) EXPECT_LT(road, 200.0F);
 }
 
-// METHOD: a car followed at 2 s headway, bumper to bumper, gives 20,000 to 30,000 with fixed t_la: at 13.89
+// method.md: a car followed at 2 s headway, bumper to bumper, is 20,000 to 30,000 with fixed t_la: at 13.89
 // m/s its box lies 27.8 m ahead of our front bumper (4 m ahead of the rear axle).
 TEST(Risk, FollowingAtTwoSecondsHeadway) {
   const auto stage = stage_with_straight_drive(13.89F);

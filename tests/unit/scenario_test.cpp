@@ -171,7 +171,7 @@ TEST(Scenario, AFolderNeedsItsScenarioFile) {
   EXPECT_THROW(static_cast<void>(load_scenario("/nowhere")), std::runtime_error);
 }
 
-// The shipped ones, as in WORLD's table: when the ego enters, how many streams there are to draw from and how
+// The shipped ones, as they were set: when the ego enters, how many streams there are to draw from and how
 // many are drawn.
 TEST(Scenario, TheShippedOnesLoad) {
   struct Expected {

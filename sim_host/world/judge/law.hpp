@@ -22,7 +22,7 @@
 ///
 /// A zone is ground that two lanes share (NetworkConflict); a group is all zones between two places where a
 /// car can stand without being on any (standing.hpp). At first-come zones nothing is owed before somebody is
-/// inside. Source: METHOD section 4, point 9; RSS: Shalev-Shwartz, Shammah, Shashua 2017.
+/// inside. Source: method.md 4.9; RSS: Shalev-Shwartz, Shammah, Shashua 2017.
 
 namespace s4tp::world {
 

@@ -1,0 +1,85 @@
+#!/usr/bin/env python3
+"""The pages are whole: no dead link, no file named that is not there, every word of the list in the glossary, a short README.
+
+    check_docs.py [ROOT]
+"""
+
+import pathlib
+import re
+import sys
+
+README_LINES = 120
+LINK = re.compile(r"!?\[[^\]\n]*\]\(([^()\s]+)\)")
+# A file or folder of ours named in backticks; braces, stars and capitals (places to fill in) are no names.
+NAMED = re.compile(r"`((?:algo|hal|firmware|sim_host|tests|toolchain|docs)/[\w./-]*|[\w-]+\.md)(?:[ :][^`]*)?`")
+HEADING = re.compile(r"^#+\s+(.*)$", re.MULTILINE)
+# Made by a build or a run, not kept.
+MADE = ("algo/satp/shipped_weights.inc", "docs/requirements.md")
+# Words that a reader of the pages must find explained.
+WORDS = ("path hypothesis", "right-of-way verdict", "commitment", "yield belief", "lateral offset", "blocking reason", "lane cost-to-go",
+         "merge target", "path context", "overshoot", "ego-side risk", "other-side risk", "marginal prediction",
+         "conditional prediction", "constant-velocity prediction", "ego", "track", "candidate", "decision", "conflict zone", "zone group",
+         "horizon", "boundary", "driving risk field", "look-ahead distance", "cost map", "guard", "fail-safe", "legal occupancy",
+         "minimum-risk manoeuvre", "RSS", "command gate", "end-to-end protection", "lock-step", "bit-exact", "iLQR", "fork", "standing")
+
+
+def pages(root):
+    return [file for folder in (".", "docs", "docs/results", "docs/templates", "sim_host/scenarios") for file in sorted((root / folder).glob("*.md"))]
+
+
+def anchors(page):
+    """The names a link may have behind its #."""
+    return {re.sub(r"[^\w\- ]", "", head.lower()).strip().replace(" ", "-") for head in HEADING.findall(page.read_text(encoding="utf-8"))}
+
+
+def dead(root, page):
+    """What the page names that is not there."""
+    text = re.sub(r"^```.*?^```", "", page.read_text(encoding="utf-8"), flags=re.MULTILINE | re.DOTALL)
+    where = page.relative_to(root).as_posix()
+    for target in LINK.findall(text):
+        if re.match(r"[a-z]+:", target):
+            continue
+        name, _, anchor = target.partition("#")
+        file = page.parent / name if name else page
+        if not file.exists():
+            yield f"{where}: link to {target}: there is no such file"
+        elif anchor and anchor not in anchors(file):
+            yield f"{where}: link to {target}: there is no such heading"
+    for name in NAMED.findall(text):
+        places = (root / name, page.parent / name)
+        if name not in MADE and not any(place.exists() for place in places):
+            yield f"{where}: names {name}, which is not there"
+
+
+def glossary(root):
+    """Words defined, and names of the code given for them."""
+    words, names = set(), []
+    for line in (root / "docs/glossary.md").read_text(encoding="utf-8").splitlines():
+        cells = [cell.strip() for cell in line.strip().strip("|").split("|")]
+        if line.startswith("| ") and len(cells) == 3 and len(cells[1]) > 10:
+            words.update(word.strip() for word in re.split(r",(?! or)|\(", cells[0].replace(")", "")))
+            names += re.findall(r"`(\w+)`", cells[2])
+    return words, names
+
+
+def findings(root):
+    result = [line for page in pages(root) for line in dead(root, page)]
+    words, names = glossary(root)
+    result += [f"docs/glossary.md: {word} is not defined" for word in WORDS if word not in words]
+    code = " ".join(file.read_text(encoding="utf-8") for file in (root / "algo").rglob("*.[hc]pp"))
+    result += [f"docs/glossary.md: there is no {name} in algo any more" for name in names if not re.search(rf"\b{name}\b", code)]
+    lines = len((root / "README.md").read_text(encoding="utf-8").splitlines())
+    if lines > README_LINES:
+        result.append(f"README.md: {lines} lines, at most {README_LINES}")
+    return result
+
+
+def main(arguments):
+    root = pathlib.Path(arguments[0] if arguments else pathlib.Path(__file__).parent.parent).resolve()
+    found = findings(root)
+    print("\n".join(found) if found else f"docs: {len(pages(root))} pages, no dead link")
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
