@@ -211,7 +211,6 @@ void copy_back(const Explanation& from, s4tp_explanation& to) {
   to.dominating_track = from.dominating_track;
   to.dominating_step = from.dominating_step;
   to.id_clashes = from.id_clashes;
-  to.rss_clipped = from.rss_clipped ? 1U : 0U;
   for (int i = 0; i < kStageCount; ++i) to.work[i] = from.work[i];
 }
 

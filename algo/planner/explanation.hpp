@@ -7,7 +7,6 @@
 #include "algo/core/status.hpp"
 #include "algo/sadrf/risk.hpp"
 #include "algo/safety/guard.hpp"
-#include "algo/safety/rss.hpp"
 #include "algo/trajectory/candidates.hpp"
 
 namespace s4tp {
@@ -67,10 +66,7 @@ struct Explanation {
   HeldUp beside;                         ///< in the lanes beside
   std::uint8_t leader_track = 255;       ///< track id of who drives ahead on the way chosen; 255: nobody
   float leader_gap_m = 0.0F;             ///< bumper to bumper
-  RssEnvelope rss{};                     ///< what the proper response allows (rss.hpp)
   std::uint8_t id_clashes = 0;           ///< vehicles whose ids were not their own (CORE-035)
-  std::uint8_t rss_track = 255;          ///< track id of its `agent`
-  bool rss_clipped = false;              ///< the plan wanted more
   std::uint16_t work[kStageCount] = {};  ///< units used per stage
   std::uint32_t parameters_crc = 0;
 };

@@ -7,7 +7,6 @@
 #include "algo/planner/stage_scope.hpp"
 #include "algo/sadrf/overlap.hpp"
 #include "algo/safety/fail_safe.hpp"
-#include "algo/safety/rss.hpp"
 #include "algo/satp/shipped_weights.hpp"
 #include "algo/trajectory/along_path.hpp"
 #include "algo/trajectory/bicycle.hpp"
@@ -56,21 +55,9 @@ bool others_valid(const PlannerInput& input) {
   return true;
 }
 
-/// A vehicle that goes no way is predicted to stay, and to arrive nowhere.
-void let_others_stand(Scene& scene) {
-  for (Agent& agent : scene.agents) {
-    agent.track.speed_mps = 0.0F;
-    agent.track.acceleration_mps2 = 0.0F;
-    agent.track.yaw_rate_radps = 0.0F;
-    agent.lane = kNoLaneIndex;
-    agent.paths.clear();
-    for (History::Sample& sample : agent.history.samples) sample = {agent.track.centre, 0.0F};
-  }
-}
-
 }  // namespace
 
-Status Planner::init(const Parameters& parameters) {
+Status PlanningCycle::init(const Parameters& parameters) {
   initialized_ = false;
   int first_bad = 0;
   Status status = arithmetic_self_test();
@@ -92,7 +79,7 @@ Status Planner::init(const Parameters& parameters) {
   return Status::kOk;
 }
 
-satp::WeightStatus Planner::use_weights(const void* image, std::uint32_t size_bytes) {
+satp::WeightStatus PlanningCycle::use_weights(const void* image, std::uint32_t size_bytes) {
   weights_ = satp::Weights{};
   trust_.reset();
   given_weights_ = true;
@@ -100,7 +87,7 @@ satp::WeightStatus Planner::use_weights(const void* image, std::uint32_t size_by
   return weight_status_;
 }
 
-Status Planner::plan(const PlannerInput& input, Plan& plan, Explanation& explanation) {
+Status PlanningCycle::plan(const PlannerInput& input, Plan& plan, Explanation& explanation) {
   if (!initialized_) return Status::kNotInitialized;
   explanation = Explanation{};
   explanation.parameters_crc = parameters_crc_;
@@ -127,7 +114,7 @@ Status Planner::plan(const PlannerInput& input, Plan& plan, Explanation& explana
       const StageScope scope(probe, Stage::kScene);
       status = scene_builder_.build(input.now_ms, input.ego, input.tracks, input.tracks_ms, input.map,
                                     parameters_, scene_);
-      if (others_stand) let_others_stand(scene_);
+      believe(scene_);
       build_drivable(input.map, drivable_);
       keep_aside(parameters_, scene_);
       explanation.id_clashes = scene_.id_clashes;
@@ -153,12 +140,6 @@ Status Planner::plan(const PlannerInput& input, Plan& plan, Explanation& explana
     for (TrajectoryPoint& point : chosen_.points) point = TrajectoryPoint{};
   } else if (status != Status::kOk) {
     give_up(status, plan);
-  } else if (guarded) {
-    const StageScope scope(probe, Stage::kCheck);
-    const RssEnvelope envelope = rss_envelope(scene_, chosen_, parameters_);
-    explanation.rss_clipped = false;
-    explanation.rss = envelope;
-    explanation.rss_track = track_id(envelope.agent);
   }
 
   if (status == Status::kOk || status == Status::kNoSafePlan) explain_risk(status, explanation);
@@ -169,7 +150,7 @@ Status Planner::plan(const PlannerInput& input, Plan& plan, Explanation& explana
   return status;
 }
 
-void Planner::give_up(Status status, Plan& plan) {
+void PlanningCycle::give_up(Status status, Plan& plan) {
   using safety::drive_fail_safe;
   const float planned_mps2 = running_.fail_safe.braking_mps2;
   const float braking_mps2 = planned_mps2 > 0.0F ? planned_mps2 : parameters_.guard.braking_mps2;
@@ -182,11 +163,10 @@ void Planner::give_up(Status status, Plan& plan) {
   chosen_ = plan.trajectory;
 }
 
-void Planner::explain_risk(Status status, Explanation& explanation) {
+void PlanningCycle::explain_risk(Status status, Explanation& explanation) {
   const StageScope scope(probe, Stage::kExactRisk);
-  // What the optimizer or the clip changed, or the minimum-risk manoeuvre, is felt anew while the allowance
-  // lasts.
-  const bool changed = status != Status::kOk || risk_outdated_ || explanation.rss_clipped;
+  // What the optimizer changed, or the minimum-risk manoeuvre, is felt anew while the allowance lasts.
+  const bool changed = status != Status::kOk || risk_outdated_;
   if (changed && explanation.work[static_cast<int>(Stage::kExactRisk)] < allowance.exact_risks) {
     const PredictionSet& prediction = status == Status::kOk ? conditioned_.set : unconditioned_;
     exact_risk(scene_, drivable_, prediction, keep_going_, chosen_, parameters_, explanation.risk);
@@ -199,14 +179,14 @@ void Planner::explain_risk(Status status, Explanation& explanation) {
       explanation.dominating_track == kNobody ? std::uint8_t{0} : explanation.risk.dominating_step;
 }
 
-void Planner::forget_scene() {
+void PlanningCycle::forget_scene() {
   scene_.ego_paths.clear();
   scene_.agents.clear();
   scene_.watched = 0;
   scene_.map = nullptr;
 }
 
-bool Planner::start_without_input(bool ego_valid) {
+bool PlanningCycle::start_without_input(bool ego_valid) {
   if (!ego_valid && plan_covers(running_, start_ms_)) {
     start_ = sample(running_, start_ms_);
     return true;
@@ -216,7 +196,7 @@ bool Planner::start_without_input(bool ego_valid) {
   return true;
 }
 
-void Planner::predict(Explanation& explanation) {
+void PlanningCycle::predict(Explanation& explanation) {
   const StageScope scope(probe, Stage::kPredict);
   new (&arena_.predictor) SatpPredictor;
   explanation.learned = weights_.present();
@@ -232,21 +212,15 @@ void Planner::predict(Explanation& explanation) {
   count(explanation, Stage::kPredict, arena_.predictor.work());
 }
 
-std::uint8_t Planner::track_id(int agent) const {
+std::uint8_t PlanningCycle::track_id(int agent) const {
   return agent >= 0 && agent < scene_.agents.size() ? scene_.agents[agent].track.id : kNobody;
 }
 
-Rejection Planner::judge(int path, safety::Verdict& verdict) const {
-  if (!guarded) return Rejection::kNone;
-  verdict = guard_.judge(path, chosen_);
-  return verdict.safe() ? Rejection::kNone : Rejection::kRefused;
-}
-
-float Planner::crash_cost(const PredictionSet& prediction) const {
+float PlanningCycle::crash_cost(const PredictionSet& prediction) const {
   return kCrashCost * expected_collisions(scene_, prediction, chosen_, parameters_);
 }
 
-Status Planner::choose(Explanation& explanation) {
+Status PlanningCycle::choose(Explanation& explanation) {
   int best = -1;
   int second = -1;
   int held = -1;  // whose trajectory, prediction and risk the buffers hold
@@ -285,7 +259,7 @@ Status Planner::choose(Explanation& explanation) {
   return Status::kOk;
 }
 
-bool Planner::evaluate(int index, Explanation& explanation) {
+bool PlanningCycle::evaluate(int index, Explanation& explanation) {
   const Candidate& candidate = candidates_[index];
   {
     const StageScope scope(probe, Stage::kCandidates);
@@ -301,10 +275,11 @@ bool Planner::evaluate(int index, Explanation& explanation) {
   }
   {
     const StageScope scope(probe, Stage::kCheck);
-    safety::Verdict verdict;
-    explanation.rejections[index] = judge(candidate.path, verdict);
     count(explanation, Stage::kCheck, 1);
-    if (explanation.rejections[index] != Rejection::kNone) return false;
+    if (!verify(candidate.path, chosen_).safe()) {
+      explanation.rejections[index] = Rejection::kRefused;
+      return false;
+    }
   }
   // Without an allowance left the ranking's risk stands.
   if (explanation.work[static_cast<int>(Stage::kExactRisk)] >= allowance.exact_risks) return true;
@@ -316,11 +291,11 @@ bool Planner::evaluate(int index, Explanation& explanation) {
   return true;
 }
 
-const RefinementProblem* Planner::last_refinement() const {
+const RefinementProblem* PlanningCycle::last_refinement() const {
   return refining_ ? &arena_.optimizer.problem() : nullptr;
 }
 
-void Planner::refine(const Candidate& candidate, Explanation& explanation) {
+void PlanningCycle::refine(const Candidate& candidate, Explanation& explanation) {
   const int passes = to_int(parameters_.refinement.passes, 0, allowance.optimizer_iterations);
   // In the field the exact risk decides.
   const bool can_decide = explanation.work[static_cast<int>(Stage::kExactRisk)] < allowance.exact_risks;
@@ -341,7 +316,7 @@ void Planner::refine(const Candidate& candidate, Explanation& explanation) {
     count(explanation, Stage::kCheck, 1);
     // A refinement that does not pass is dropped: what it started from has passed.
     const bool passes_check =
-        feasible(refined_, parameters_) && (!guarded || guard_.judge(candidate.path, refined_).safe());
+        feasible(refined_, parameters_) && verify(candidate.path, refined_).safe();
     // A start is not postponed: the next cycle would begin at rest again, for ever.
     const bool postpones = refined_.points[1].speed_mps < 0.5F * chosen_.points[1].speed_mps;
     if (!passes_check || postpones) return;
@@ -351,7 +326,7 @@ void Planner::refine(const Candidate& candidate, Explanation& explanation) {
   chosen_ = refined_;
 }
 
-bool Planner::is_better(const RefinementResult& result, Explanation& explanation) {
+bool PlanningCycle::is_better(const RefinementResult& result, Explanation& explanation) {
   const StageScope scope(probe, Stage::kExactRisk);
   RiskProfile profile;
   exact_risk(scene_, drivable_, conditioned_.set, keep_going_, refined_, parameters_, profile);

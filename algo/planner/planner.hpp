@@ -47,7 +47,9 @@ struct WorkAllowance {
   int field_feelings = 0;           ///< times it feels the risk field, at most 3; 0: it smooths only
 };
 
-class Planner {
+/// The cycle. What it is composed with, the guard and the belief that others move as they are seen to, a
+/// planner to compare with replaces (sim_host/baselines); the one for cars is Planner.
+class PlanningCycle {
  public:
   /// Checks the arithmetic and the parameters; forgets all history. \return kOk, kArithmetic,
   /// kInvalidParameter
@@ -76,12 +78,19 @@ class Planner {
 
   WorkAllowance allowance;
   Probe* probe = nullptr;  ///< optional; not owned
-  /// False for comparisons only, never in a car: the score alone decides among feasible candidates; no guard,
-  /// no RSS envelope. The minimum-risk manoeuvre is left for when there is no candidate at all.
-  bool guarded = true;
-  /// True for comparisons only, never in a car: every other vehicle is taken to stand where it is now, as if
-  /// it had always stood there and will for ever.
-  bool others_stand = false;
+
+ protected:
+  PlanningCycle() = default;
+  PlanningCycle(const PlanningCycle&) = default;
+  PlanningCycle& operator=(const PlanningCycle&) = default;
+  ~PlanningCycle() = default;
+
+  /// What is made of the scene before anything is planned in it.
+  virtual void believe(Scene& scene) const { static_cast<void>(scene); }
+  /// Whether a feasible plan may be driven. \param path  index of the ego path it follows
+  [[nodiscard]] virtual safety::Verdict verify(int path, const Trajectory& trajectory) const {
+    return guard_.judge(path, trajectory);
+  }
 
  private:
   void forget_scene();
@@ -99,8 +108,6 @@ class Planner {
   [[nodiscard]] int shortlisted() const;  ///< decisions that get a prediction of their own
   [[nodiscard]] std::uint8_t track_id(int agent) const;
   void explain_risk(Status status, Explanation& explanation);
-  /// \pre chosen_ is feasible
-  [[nodiscard]] Rejection judge(int path, safety::Verdict& verdict) const;
   /// Price of the touches that are to be expected.
   [[nodiscard]] float crash_cost(const PredictionSet& prediction) const;
   /// Drives the fail-safe of the plan in force.
@@ -160,6 +167,9 @@ class Planner {
   Arena arena_;
   bool refining_ = false;  ///< the arena holds the optimizer
 };
+
+/// The planner of the firmware.
+class Planner final : public PlanningCycle {};
 
 static_assert(sizeof(Planner) <= kPlannerBudgetBytes, "the planner object has outgrown its budget");
 

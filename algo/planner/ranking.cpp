@@ -10,9 +10,9 @@ constexpr float kHardStopCost = 60.0F;
 }
 
 /// Looks at each candidate while its roll-out is in chosen_.
-class Planner::Ranking final : public CandidateVisitor {
+class PlanningCycle::Ranking final : public CandidateVisitor {
  public:
-  Ranking(Planner& planner, bool careful, Explanation& explanation)
+  Ranking(PlanningCycle& planner, bool careful, Explanation& explanation)
       : CandidateVisitor(planner.chosen_), planner_(planner), careful_(careful), explanation_(explanation) {
     const std::int32_t lead_ms = static_cast<std::int32_t>(planner.start_ms_ - planner.scene_.time_ms);
     outlook_.look(planner.scene_, planner.keep_going_, 0.001F * static_cast<float>(lead_ms),
@@ -33,8 +33,8 @@ class Planner::Ranking final : public CandidateVisitor {
       rejection = Rejection::kLeftOut;
       return;
     }
-    safety::Verdict verdict;
-    rejection = planner_.judge(candidate.path, verdict);
+    const safety::Verdict verdict = planner_.verify(candidate.path, rolled_out);
+    rejection = verdict.safe() ? Rejection::kNone : Rejection::kRefused;
     planner_.hard_[index] = verdict.hard ? kHardStopCost : 0.0F;
     if (rejection == Rejection::kNone) {
       score(index, candidate, previous);
@@ -82,18 +82,18 @@ class Planner::Ranking final : public CandidateVisitor {
     held_up = {verdict, planner_.track_id(verdict.agent), manoeuvre, way_m};
   }
 
-  Planner& planner_;
+  PlanningCycle& planner_;
   const bool careful_;
   Explanation& explanation_;
   Outlook outlook_;
   int plan_path_ = 0;  ///< where the running plan leads, as far as it can go on; our own lane's path else
 };
 
-int Planner::shortlisted() const {
+int PlanningCycle::shortlisted() const {
   return allowance.decisions > 1 ? allowance.decisions : 1;
 }
 
-void Planner::rank(bool careful, Explanation& explanation) {
+void PlanningCycle::rank(bool careful, Explanation& explanation) {
   decisions_.clear();
   keeps_plan_ = false;
   {

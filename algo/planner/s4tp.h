@@ -51,7 +51,7 @@ const char* s4tp_status_name(s4tp_status status);
 
 /* ---- Versions --------------------------------------------------------------------------------------- */
 
-#define S4TP_API_VERSION 3  ///< of this header; compare with s4tp_get_versions().api once at start
+#define S4TP_API_VERSION 4  ///< of this header; compare with s4tp_get_versions().api once at start
 
 typedef struct s4tp_versions {
   uint8_t api;         ///< of the library linked
@@ -263,7 +263,6 @@ typedef struct s4tp_explanation {
                                            ///< [2] collision, [3] unsafe end, [4] left out
   uint8_t dominating_track;                ///< id of the vehicle whose risk is largest, or S4TP_NOBODY
   uint8_t dominating_step;                 ///< and the plan's point where it is
-  uint8_t rss_clipped;                     ///< 1: the RSS envelope braked harder than the plan wanted
   uint8_t id_clashes;                      ///< vehicles whose ids were not their own: kept, under other ids
   uint16_t work[S4TP_STAGE_COUNT];         ///< work units used: scene, candidates, predict, rank, exact risk,
                                            ///< optimize, check, explain

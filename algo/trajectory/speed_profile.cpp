@@ -1,7 +1,7 @@
 #include "algo/trajectory/speed_profile.hpp"
 
 #include "algo/core/inline.hpp"
-#include "algo/safety/rss.hpp"
+#include "algo/occupancy/safe_distance.hpp"
 
 namespace s4tp {
 namespace {

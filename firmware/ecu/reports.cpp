@@ -88,7 +88,6 @@ void Reporter::plan(hal::Can& can, std::uint32_t sequence, std::uint32_t digest,
   reason.check = at_most<std::uint8_t>(static_cast<std::uint32_t>(explanation.held_up.verdict.cause), 7);
   reason.dominating_track = explanation.dominating_track;
   reason.dominating_step = at_most<std::uint8_t>(explanation.dominating_step, 31);
-  reason.rss_clipped = explanation.rss_clipped ? 1 : 0;
   reason.id_clashes = at_most<std::uint8_t>(explanation.id_clashes, 31);
   send(can, reason, reason_);
 }

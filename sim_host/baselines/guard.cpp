@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "algo/safety/fail_safe.hpp"
-#include "algo/safety/rss.hpp"
 #include "algo/trajectory/bicycle.hpp"
 #include "algo/trajectory/candidates.hpp"
 
@@ -55,11 +54,7 @@ Status Guard::apply(const PlannerInput& input, Status status, Plan& plan, Explan
     }
   }
   explanation.status = status;
-  if (status == Status::kOk) {
-    explanation.rss_clipped =
-        clip_to_envelope(rss_envelope(scene_, plan.trajectory, parameters_), parameters_, plan.trajectory);
-    return status;
-  }
+  if (status == Status::kOk) return status;
   const TrajectoryPoint start = plan_start(input.ego, input.now_ms, running, input.start_ms, parameters_);
   safety::drive_fail_safe(running, start, input.start_ms, parameters_.guard.braking_mps2, parameters_, plan);
   return status;

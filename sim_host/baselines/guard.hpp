@@ -1,9 +1,9 @@
 #pragma once
-/// The guard around somebody else's plan: verdict, RSS envelope, minimum-risk manoeuvre, as the S4TP planner
+/// The guard around somebody else's plan: verdict and fail-safe, as the S4TP planner
 /// has them inside. Every planner is compared with it and without (method.md 4).
 ///
 /// It sees the tracks as they are, whatever its planner makes of them. A plan that does not pass is replaced
-/// by the minimum-risk manoeuvre for this cycle; one that passes is clipped to the RSS envelope. An
+/// by the fail-safe of the last one that did. An
 /// infeasible trajectory does not pass, so a planner that wants its plans driven keeps to feasible()
 /// (bicycle.hpp).
 

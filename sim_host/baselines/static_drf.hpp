@@ -1,12 +1,11 @@
 #pragma once
-/// Static DRF (method.md 5): the S4TP planner, same candidates, risk field, score and optimizer, in
+/// Static DRF (method.md 4, end): the S4TP planner, same candidates, risk field, score and optimizer, in
 /// a world where every other vehicle stands.
 ///
 /// Speed 0 in its tracks would not say that: the predictor lets who stands in a queue or before a junction
-/// start, and the guard counts on it. So the planner itself is told (Planner::others_stand),
-/// once the scene is built: no speed, no past motion, no way to go. Then every prediction of a vehicle,
-/// conditioned or not, is its present pose, and it arrives at no conflict zone. Its present pose is that of
-/// the true track, brought forward to the scene's time.
+/// start, and the guard counts on it. So the scene itself is believed so: no speed, no past motion, no way to
+/// go. Then every prediction of a vehicle, conditioned or not, is its present pose, and it arrives at no
+/// conflict zone. Its present pose is that of the true track, brought forward to the scene's time.
 
 #include "algo/planner/planner.hpp"
 
@@ -16,11 +15,20 @@ namespace s4tp::baselines {
 /// stopped by the guard around it where the same planner has a candidate that passes. The guard sees who
 /// moves.
 template <bool kGuarded>
-class StaticDrfPlanner : public Planner {
- public:
-  StaticDrfPlanner() {
-    guarded = kGuarded;
-    others_stand = true;
+class StaticDrfPlanner final : public PlanningCycle {
+  void believe(Scene& scene) const override {
+    // A vehicle that goes no way is predicted to stay, and to arrive nowhere.
+    for (Agent& agent : scene.agents) {
+      agent.track.speed_mps = 0.0F;
+      agent.track.acceleration_mps2 = 0.0F;
+      agent.track.yaw_rate_radps = 0.0F;
+      agent.lane = kNoLaneIndex;
+      agent.paths.clear();
+      for (History::Sample& sample : agent.history.samples) sample = {agent.track.centre, 0.0F};
+    }
+  }
+  [[nodiscard]] safety::Verdict verify(int path, const Trajectory& trajectory) const override {
+    return kGuarded ? PlanningCycle::verify(path, trajectory) : safety::Verdict{};
   }
 };
 

@@ -26,7 +26,7 @@ struct PlannerEntry {
   std::string name;
   std::string meaning;  ///< one line, for help and reports
   EcuFactory bare;      ///< what it plans goes to the command gate as it is
-  EcuFactory guarded;   ///< with check, RSS envelope and minimum-risk manoeuvre
+  EcuFactory guarded;   ///< with the guard, and the last fail-safe where nothing passes
   /// Not a planner of ours but SUMO's own driver in the ego's place: no ECU, no factories, nothing to guard.
   bool drives_in_sumo = false;
 };

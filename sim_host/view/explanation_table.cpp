@@ -36,7 +36,7 @@ int rejected(const Explanation& explanation, Rejection why) {
 }  // namespace
 
 void print_explanations(std::ostream& out, const campaign::Trace& trace, double pre_roll_s) {
-  out << "  time s  status         plan   v m/s  path intent       a m/s2  cand infeas refused  rss"
+  out << "  time s  status         plan   v m/s  path intent       a m/s2  cand infeas refused"
          "   progress  speed   jerk    lat   lane   risk   total  runner-up  risk from  held up by\n";
   for (const campaign::CycleTrace& cycle : trace.cycles) {
     const Explanation& e = cycle.record.explanation;
@@ -45,7 +45,7 @@ void print_explanations(std::ostream& out, const campaign::Trace& trace, double 
     const float accelerations = plan.trajectory.points[5].acceleration_mps2;
     char line[300];
     std::snprintf(line, sizeof line,
-                  "%8.1f  %-13s  %-5s %6.2f  %4d %-11s %7.2f  %4d %6d %7d  %3s  %8.1f %6.1f %6.2f %6.2f "
+                  "%8.1f  %-13s  %-5s %6.2f  %4d %-11s %7.2f  %4d %6d %7d  %8.1f %6.1f %6.2f %6.2f "
                   "%6.1f %6.1f "
                   "%7.1f  %9.1f  %9d  %s %d\n",
                   plan.start_ms / 1000.0 - pre_roll_s, status_name(e.status),
@@ -53,8 +53,7 @@ void print_explanations(std::ostream& out, const campaign::Trace& trace, double 
                   static_cast<double>(plan.trajectory.points[0].speed_mps), e.chosen.path,
                   e.status == Status::kOk ? intent_name(e.chosen.intent) : "-",
                   static_cast<double>(accelerations), e.candidate_count, rejected(e, Rejection::kInfeasible),
-                  rejected(e, Rejection::kRefused), e.rss_clipped ? "yes" : "",
-                  static_cast<double>(c.progress), static_cast<double>(c.speed), static_cast<double>(c.jerk),
+                  rejected(e, Rejection::kRefused), static_cast<double>(c.progress), static_cast<double>(c.speed), static_cast<double>(c.jerk),
                   static_cast<double>(c.lateral), static_cast<double>(c.lane), static_cast<double>(c.risk),
                   static_cast<double>(c.total()), static_cast<double>(e.runner_up_cost.total()),
                   e.dominating_track, held_up_name(e.held_up.verdict.cause), e.held_up.track);

@@ -118,7 +118,6 @@ Reason driving_reason(const campaign::CycleTrace& cycle, Doing doing) {
   const Explanation& e = cycle.record.explanation;
   const bool slow = doing == Doing::kWaiting || doing == Doing::kHalting || doing == Doing::kSlower ||
                     doing == Doing::kDriving;
-  if (e.rss_clipped) return about(doing, Because::kDistance, e.rss_track);
   if (!slow) return about(doing, Because::kNothing);
   const bool held =
       !e.held_up.verdict.safe() && e.held_up.way_m > way_m(cycle.record.plan.trajectory) + kNoticeableM;
@@ -186,8 +185,6 @@ std::string because_words(const campaign::CycleTrace& cycle, const Reason& reaso
       return "our lane ends ahead";
     case Because::kBehind:
       return who + " would have to brake hard for us";
-    case Because::kDistance:
-      return who + " is too near, and gets more distance";
     case Because::kRisk:
       return "going on faster would feel risky because of " + who;
     case Because::kBend:
@@ -307,11 +304,6 @@ std::string in_numbers(const campaign::CycleTrace& cycle) {
     lines += "\n  R_obs every 0.5 s:";
     for (int i = 4; i < kHorizonSteps; i += 5) lines += format(" %.0f", e.risk.obstacle[i]);
   }
-  if (e.rss.active)
-    lines += format(
-        "\n  RSS:       at most %.1f m/s2, %.1f m/s to the left, %.1f to the right, by track %d (%s)%s",
-        e.rss.acceleration_max_mps2, e.rss.lateral_left_max_mps, e.rss.lateral_right_max_mps, e.rss_track,
-        name_of(cycle, e.rss_track).c_str(), e.rss_clipped ? "; the plan was cut to it" : "");
   static constexpr const char* kStages[] = {"scene",      "candidates", "predict", "rank",
                                             "exact risk", "optimize",   "check",   "explain"};
   lines += "\n  work:     ";

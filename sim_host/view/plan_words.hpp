@@ -26,7 +26,6 @@ enum class Because {
   kNoRoom,     ///< we would have to stand where ways cross
   kRoadEnd,    ///< the road or lane ends
   kBehind,     ///< who comes from behind in the other lane
-  kDistance,   ///< the proper response to a distance somebody has made too short
   kRisk,       ///< the faster way was riskier
   kBend,
   kNoLane,

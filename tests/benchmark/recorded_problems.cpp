@@ -26,10 +26,10 @@ struct Recorder {
 };
 Recorder recorder;  // planners are made by name, in the one thread that drives
 
-class RecordingPlanner : public Planner {
+class RecordingPlanner final : public PlanningCycle {
  public:
   [[nodiscard]] Status plan(const PlannerInput& input, Plan& plan, Explanation& explanation) {
-    const Status status = Planner::plan(input, plan, explanation);
+    const Status status = PlanningCycle::plan(input, plan, explanation);
     if (const RefinementProblem* const problem = last_refinement()) keep(*problem);
     return status;
   }

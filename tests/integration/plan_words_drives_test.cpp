@@ -106,7 +106,7 @@ TEST(PlanWordsOnDrives, FollowsWhoIsAhead) {
     for (const campaign::EpisodeResult& result : drives(name)) {
       for (const CycleTrace& cycle : result.trace->cycles) {
         const Reason reason = reason_of(cycle);
-        if (reason.because != Because::kLeader && reason.because != Because::kDistance) continue;
+        if (reason.because != Because::kLeader) continue;
         ++followed;
         for (const Track& track : cycle.tracks) {
           if (track.id != reason.track) continue;

@@ -1,0 +1,16 @@
+#include "algo/occupancy/safe_distance.hpp"
+
+#include "algo/core/inline.hpp"
+
+namespace s4tp {
+
+float safe_distance_m(float rear_speed_mps, float front_speed_mps, const Parameters& parameters) {
+  const auto& rss = parameters.rss;
+  const float later_mps = rear_speed_mps + rss.response_s * rss.acceleration_mps2;
+  const float response_m =
+      rear_speed_mps * rss.response_s + 0.5F * rss.acceleration_mps2 * square(rss.response_s);
+  const float rear_m = response_m + square(later_mps) / (2.0F * rss.braking_min_mps2);
+  return max(0.0F, rear_m - square(front_speed_mps) / (2.0F * rss.braking_max_mps2));
+}
+
+}  // namespace s4tp
