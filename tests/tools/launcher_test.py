@@ -3,8 +3,10 @@
 import os
 import pathlib
 import re
+import signal
 import subprocess
 import tempfile
+import time
 import unittest
 
 LAUNCHER = pathlib.Path(__file__).resolve().parents[2] / "s4tp"
@@ -58,6 +60,84 @@ class Launcher(unittest.TestCase):
             done = subprocess.run(["bash", "-c", f"{function}progress '{file}'"], check=True, text=True,
                                   stdout=subprocess.PIPE)
             self.assertEqual(done.stdout.strip(), said)
+
+
+    def launch(self, *arguments, program=None, **options):
+        """The launcher in the folder, with this stand-in for a build that works and this one for the program built."""
+        (self.folder / "cmake").write_text("#!/bin/bash\nexit 0\n", encoding="utf-8")
+        for name in ("sim_host/s4tp_tool", "firmware/targets/replay"):
+            file = self.folder / "build/host" / name
+            file.parent.mkdir(parents=True, exist_ok=True)
+            file.write_text(program or '#!/bin/bash\npwd\necho "$@"\n', encoding="utf-8")
+            file.chmod(0o755)
+        options.setdefault("env", {}).setdefault("PATH", f"{self.folder}:{os.environ['PATH']}")
+        options["env"] = {**os.environ, **options["env"]}
+        done = subprocess.run(arguments, check=False, text=True, timeout=60, stdin=subprocess.DEVNULL,
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, **options)
+        return done.stdout
+
+    # A relative path means the caller's folder, not the launcher's: for a scenario, a log, an output, and of replay.
+    def test_paths_are_the_callers(self):
+        here = self.folder / "elsewhere"
+        here.mkdir()
+        launcher = self.folder / "s4tp"
+        for arguments in (("run", "--scenario", "mine", "--log", "a.log", "--out", "b"), ("replay", "a.log")):
+            said = self.launch("bash", launcher, *arguments, cwd=here)
+            self.assertIn(f"\n{here}\n", said)
+
+    # Through a link, also one in PATH, and with CDPATH set, the launcher finds its own tree.
+    def test_links_and_cdpath(self):
+        elsewhere = self.folder / "elsewhere"
+        (elsewhere / "build").mkdir(parents=True)
+        link = elsewhere / "link"
+        link.symlink_to(self.folder / "s4tp")
+        (self.folder / "s4tp").chmod(0o755)
+        path = f"{elsewhere}:{self.folder}:{os.environ['PATH']}"
+        self.assertIn(f"\n{elsewhere}\nrun\n", self.launch("link", "run", cwd=elsewhere, env={"PATH": path}))
+        said = self.launch("bash", "../s4tp", "run", cwd=elsewhere, env={"CDPATH": str(self.folder)})
+        self.assertIn(f"\n{elsewhere}\nrun\n", said)
+        self.assertEqual(list((elsewhere / "build").iterdir()), [])
+        # With CDPATH, cd of a relative name goes elsewhere, and says so on the output of what asks for the folder.
+        (elsewhere / "tree").symlink_to(self.folder)
+        other = self.folder / "other"
+        (other / "tree").mkdir(parents=True)
+        said = self.launch("bash", "tree/s4tp", "run", cwd=elsewhere, env={"CDPATH": str(other)})
+        self.assertIn(f"\n{elsewhere}\nrun\n", said)
+
+    # A tree that cannot be written is named, with what to do, and nothing else is tried.
+    def test_a_tree_that_cannot_be_written(self):
+        (self.folder / "build").write_text("in the way", encoding="utf-8")  # for root, who may write everywhere
+        done = subprocess.run(["bash", self.folder / "s4tp", "run"], check=False, text=True, timeout=60,
+                              stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                              env={**os.environ, "PATH": f"{self.folder}:{os.environ['PATH']}"})
+        self.assertEqual(done.returncode, 2)
+        self.assertEqual(done.stdout.strip(), f"s4tp: {self.folder}/build cannot be written: what is built and logged goes "
+                         f"there; use a copy of {self.folder} that you may write to")
+
+    # A build ends with the launcher, and so does whatever it has started.
+    def test_sigterm_ends_the_build(self):
+        (self.folder / "cmake").write_text('#!/bin/bash\nsleep 300 &\necho $! >"$(dirname "$0")/child"\nwait\n', encoding="utf-8")
+        for number, code in ((signal.SIGTERM, 143), (signal.SIGINT, 130), (signal.SIGHUP, 143)):
+            child = self.folder / "child"
+            child.unlink(missing_ok=True)
+            running = subprocess.Popen(["bash", self.folder / "s4tp", "run"], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                                       stderr=subprocess.DEVNULL,
+                                       env={**os.environ, "PATH": f"{self.folder}:{os.environ['PATH']}"})
+            for _ in range(600):
+                if child.exists() and child.read_text(encoding="utf-8").strip():
+                    break
+                time.sleep(0.05)
+            build = int(child.read_text(encoding="utf-8"))
+            running.send_signal(number)
+            self.assertEqual(running.wait(timeout=30), code)
+            for _ in range(100):
+                state = pathlib.Path(f"/proc/{build}/stat")
+                if not state.exists() or state.read_text(encoding="utf-8").split(") ")[1].startswith("Z"):
+                    break
+                time.sleep(0.05)
+            else:
+                os.kill(build, signal.SIGKILL)
+                self.fail(f"{number.name}: the build goes on")
 
 
 if __name__ == "__main__":

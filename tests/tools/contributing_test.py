@@ -1,0 +1,132 @@
+"""What CONTRIBUTING.md tells to do is done here, word for word, in a copy; and the hook before a commit sees what it should.
+
+S4TP_BUILD names the host's build folder.
+"""
+
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+BUILD = pathlib.Path(os.environ["S4TP_BUILD"])
+PAGE = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
+
+
+def recipe(name):
+    """The block of the page that is headed by this file's name."""
+    return re.search(rf"^```\w+ {re.escape(name)}\n(.*?)^```", PAGE, re.MULTILINE | re.DOTALL)[1]
+
+
+def run(*command, code=0, **options):
+    result = subprocess.run([str(part) for part in command], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                            check=False, stdin=subprocess.DEVNULL, timeout=280, **options)
+    if result.returncode != code:
+        raise AssertionError(f"{' '.join(map(str, command))}\nanswered {result.returncode}, not {code}:\n{result.stdout}")
+    return result.stdout
+
+
+class Recipes(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(prefix="s4tp_recipe_")
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    # A planner's file compiles as it stands, with every warning an error.
+    def test_planner(self):
+        file = self.folder / "half_speed.cpp"
+        file.write_text(recipe("half_speed.cpp"), encoding="utf-8")
+        run("g++", "-std=c++20", "-fsyntax-only", "-Wall", "-Wextra", "-Wpedantic", "-Wshadow", "-Werror", f"-I{ROOT}",
+            f"-I{BUILD}/generated", file)
+
+    # A scenario is driven to its end, and is the one that was asked for.
+    def test_scenario(self):
+        shutil.copy(ROOT / "sim_host/scenarios/cruise/network.net.xml", self.folder)
+        (self.folder / "scenario.toml").write_text(recipe("scenario.toml"), encoding="utf-8")
+        said = run(BUILD / "sim_host/s4tp_tool", "run", "--scenario", self.folder, "--seed", "0", "--out", self.folder / "out")
+        self.assertRegex(said, r": goal after [\d.]+ s")
+
+    # A parameter's row: the core compiles with it, knows its name and its default, and refuses what is outside its range.
+    def test_parameter(self):
+        shutil.copytree(ROOT / "algo", self.folder / "algo")
+        table = self.folder / "algo/core/parameters.def"
+        rows = table.read_text(encoding="utf-8").replace("GROUP_END(comfort)", recipe("parameters.def") + "GROUP_END(comfort)")
+        table.write_text(rows, encoding="utf-8")
+        (self.folder / "main.cpp").write_text("""
+#include <cstdio>
+#include <cstring>
+#include <cstdlib>
+#include "algo/core/parameters.hpp"
+namespace s4tp {
+[[noreturn]] void assertion_failed(const char*, const char*, int) { std::abort(); }
+}
+int main() {
+  s4tp::Parameters parameters;
+  int bad = -1;
+  if (parameters.comfort.example_gap_m != 1.5F || validate(parameters, bad) != s4tp::Status::kOk) return 1;
+  parameters.comfort.example_gap_m = 5.5F;
+  if (validate(parameters, bad) == s4tp::Status::kOk) return 2;
+  std::puts(s4tp::parameter_info(bad).name);
+}
+""", encoding="utf-8")
+        core = [self.folder / f"algo/core/{name}.cpp" for name in ("parameters", "crc32", "math", "status")]
+        run("g++", "-std=c++17", f"-I{self.folder}", self.folder / "main.cpp", *core, "-o", self.folder / "main")
+        self.assertIn("example_gap_m", run(self.folder / "main"))
+
+    # A message: the generated codec has it, the load table counts it, and a version raised in one place only is found.
+    def test_message(self):
+        dbc = self.folder / "firmware/wire/s4tp.dbc"
+        versions = self.folder / "algo/core/versions.hpp"
+        for file in (dbc, versions):
+            file.parent.mkdir(parents=True)
+            shutil.copy(ROOT / file.relative_to(self.folder), file)
+        lines = recipe("s4tp.dbc").splitlines(True)
+        text = dbc.read_text(encoding="utf-8")
+        for begin, kind in (("CM_ BO_ 8", "CM_"), ('BA_ "GenMsgCycleTime" BO_ 8', "BA_")):
+            text = text.replace(begin, "".join(line for line in lines if line.startswith(kind)) + begin, 1)
+        message = "".join(line for line in lines if line.startswith(("BO_", " SG_"))) + "\n"
+        text = text.replace("BO_ 8 ", message + "BO_ 8 ", 1)
+        text = re.sub(r'^VERSION "(\d+)"', lambda match: f'VERSION "{int(match[1]) + 1}"', text)
+        dbc.write_text(text, encoding="utf-8")
+        run(sys.executable, "-B", ROOT / "toolchain/dbc_codec.py", dbc, "--output", self.folder)
+        codec = "".join(file.read_text(encoding="utf-8") for file in self.folder.rglob("s4tp_codec.hpp"))
+        self.assertRegex(codec, r"struct Example\b")
+        self.assertIn("slope_rad", codec)
+        run(sys.executable, "-B", ROOT / "toolchain/bus_load.py", dbc, self.folder / "load.md")
+        self.assertIn("| Example | VEHICLE | 10.0 |", (self.folder / "load.md").read_text(encoding="utf-8"))
+        self.assertIn("kWireVersion", run(sys.executable, "-B", ROOT / "toolchain/check_versions.py", self.folder, code=1))
+
+    # Whatever lists the targets is named by the recipe for a new one.
+    def test_target(self):
+        section = PAGE[PAGE.index("## A target"):]
+        places = [ROOT / "s4tp", ROOT / ".ci/run", ROOT / "CMakePresets.json", *(ROOT / "toolchain").glob("*.py"), *(ROOT / "toolchain").glob("*.sh")]
+        lists = [file.relative_to(ROOT).as_posix() for file in places if re.search(r"\bm55\b", file.read_text(encoding="utf-8"))]
+        self.assertGreater(len(lists), 4)
+        self.assertEqual([name for name in lists if f"`{name}`" not in section], [])
+
+
+class Hook(unittest.TestCase):
+    # A sound tree passes; a requirement nobody tests and a file badly formatted do not.
+    def test_hook_sees_what_it_should(self):
+        with tempfile.TemporaryDirectory(prefix="s4tp_hook_") as folder:
+            tree = pathlib.Path(folder) / "tree"
+            for name in ("algo", "hal", "firmware", "sim_host", "tests", "toolchain", "docs", ".githooks"):
+                shutil.copytree(ROOT / name, tree / name, ignore=shutil.ignore_patterns("__pycache__"))
+            for file in (*ROOT.glob("*.md"), *ROOT.glob(".clang-format"), ROOT / "CMakeLists.txt", ROOT / "LICENSE"):
+                shutil.copy(file, tree)
+            run("git", "init", "--quiet", tree)
+            run(tree / ".githooks/pre-commit")
+            bad = tree / "algo/core/bad.hpp"
+            bad.write_text(f"#pragma once\n/// {'GA'}{'TE'}-999 is promised.\nint   f( );\n", encoding="utf-8")
+            run("git", "add", "algo/core/bad.hpp", cwd=tree)
+            said = run(tree / ".githooks/pre-commit", code=1)
+            self.assertIn("cited by no test", said)
+            self.assertIn("clang-format -i", said)
+
+
+if __name__ == "__main__":
+    unittest.main()
