@@ -187,14 +187,12 @@ void Guard::find_threats(const EgoPath& path, const occupancy::LaneReach (&reach
                                lead_s_, *parameters_);
       const bool latched = bound && when[i].to_entry_m > 0.0F &&
                            is_latched(agent.track.id, path.zones[z].other_lane);
-      const bool has_priority = when[i].claim == Claim::kMayCome || when[i].claim == Claim::kCanStop;
-      if (has_priority && latched) when[i].claim = Claim::kStands;
+      if (when[i].claim == Claim::kMayCome && latched) when[i].claim = Claim::kStands;
       const bool stays_out = when[i].claim != Claim::kMayCome && when[i].claim != Claim::kNone;
       if (stays_out) sight.staying_out[z] |= static_cast<std::uint16_t>(1U << i);
     }
     for (int i = 0; i < count; ++i) {
-      if (when[i].claim != Claim::kMayCome && when[i].claim != Claim::kCanStop) continue;
-      if (when[i].claim == Claim::kMayCome && is_behind(when, i)) continue;
+      if (when[i].claim != Claim::kMayCome || is_behind(when, i)) continue;
       const Threat threat{static_cast<std::uint8_t>(z), static_cast<std::uint8_t>(i), when[i]};
       if (!sight.threats.push(threat)) sight.too_many = true;
     }
@@ -282,22 +280,16 @@ bool Guard::passes_threat(const EgoPath& path, const Sight& sight, const Threat&
                           Verdict& verdict) const {
   const ConflictZone& zone = path.zones[threat.zone];
   const ZoneOccupancy& when = threat.when;
+  if (when.claim != Claim::kMayCome) return true;
   float cap_mps = 0.0F;
-  float leaves_place_s = 0.0F;  // our last one to stand: from then on it is asked to stay out
   for (const ZoneGroup& group : sight.groups) {
-    if (threat.zone < group.first || threat.zone >= group.end) continue;
-    cap_mps = group.cap_mps;
-    leaves_place_s = own.time_at_s(group.stop_s_m, cap_mps);
+    if (threat.zone >= group.first && threat.zone < group.end) cap_mps = group.cap_mps;
   }
   const float in_s = own.time_at_s(zone.entry_s_m, cap_mps);
   const float out_s = own.time_at_s(zone.exit_s_m, cap_mps);
   if (when.until_s < in_s) return true;  // it is certain to have left
   if (!zone.merging && when.from_s > out_s) return true;
   const Agent& agent = scene_->agents[threat.agent];
-  if (when.claim == Claim::kCanStop) {
-    const Pace fastest = fastest_legal(*scene_, agent, zone, *parameters_);
-    if (can_stop_gently(fastest, when.to_entry_m, lead_s_ + leaves_place_s, *parameters_)) return true;
-  }
   if (zone.merging) {
     // Along the common lane: our centre's way and its centre's way to where the zone ends.
     const float half_m = 0.5F * (parameters_->vehicle.length_m + agent.track.length_m);

@@ -37,6 +37,14 @@ bool gives_way(const Agent& agent, float to_entry_m, const Parameters& parameter
   return room_m > 0.0F && occupancy::stopping_way_m(agent.track.speed_mps, law.duty_braking_mps2) <= room_m;
 }
 
+/// L1.
+bool can_stop_gently(const Pace& fastest, float to_entry_m, const Parameters& parameters) {
+  const auto& law = parameters.law;
+  const float room_m = to_entry_m - kShortOfZoneM - occupancy::way_after_m(fastest, law.ask_response_s);
+  const float later_mps = occupancy::speed_after_mps(fastest, law.ask_response_s);
+  return room_m > 0.0F && square(later_mps) <= 2.0F * law.ask_braking_mps2 * room_m;
+}
+
 /// L2.
 bool stands_in_sight(const Scene& scene, const Agent& agent, const Parameters& parameters) {
   return agent.track.speed_mps < kStandingMps && agent.track.acceleration_mps2 < kSetsOffMps2 &&
@@ -44,15 +52,6 @@ bool stands_in_sight(const Scene& scene, const Agent& agent, const Parameters& p
 }
 
 }  // namespace
-
-bool can_stop_gently(const Pace& fastest, float to_entry_m, float asked_after_s,
-                     const Parameters& parameters) {
-  const auto& law = parameters.law;
-  const float responded_s = asked_after_s + law.ask_response_s;
-  const float room_m = to_entry_m - kShortOfZoneM - occupancy::way_after_m(fastest, responded_s);
-  const float later_mps = occupancy::speed_after_mps(fastest, responded_s);
-  return room_m > 0.0F && square(later_mps) <= 2.0F * law.ask_braking_mps2 * room_m;
-}
 
 Pace fastest_legal(const Scene& scene, const Agent& agent, const ConflictZone& zone,
                    const Parameters& parameters) {
@@ -95,7 +94,7 @@ ZoneOccupancy zone_occupancy(const Scene& scene, const Agent& agent, const occup
   }
   if (zone.priority == Priority::kFirstHasPriority) {
     if (gives_way(agent, result.to_entry_m, parameters)) result.claim = Claim::kOwes;
-  } else if (can_stop_gently(fastest, result.to_entry_m, 0.0F, parameters)) {
+  } else if (can_stop_gently(fastest, result.to_entry_m, parameters)) {
     result.claim = Claim::kCanStop;
   } else if (stands_in_sight(scene, agent, parameters)) {
     result.claim = Claim::kStands;

@@ -4,7 +4,7 @@
 /// LEGAL-001 A vehicle is in a zone from when it can be there at the earliest, bends counted, until it has
 /// left at the latest, its own length counted. LEGAL-002 D1: who owes us the way stops before the zone if the
 /// duty's braking does it; its response runs once. LEGAL-003 L1: who has priority stays out if it can stop
-/// gently from as fast as it may be when we come. LEGAL-004 L2: so does who stands, and has seen us stand.
+/// gently from as fast as it may be. LEGAL-004 L2: so does who stands, and has seen us stand.
 ///
 /// \code
 ///   may come        [from ......................... until)    until: only when it cannot stop before
@@ -43,12 +43,6 @@ struct ZoneOccupancy {
 /// Speed, gain and top speed of a vehicle that drives as fast as the law lets it to the zone's lane.
 [[nodiscard]] occupancy::Pace fastest_legal(const Scene& scene, const Agent& agent, const ConflictZone& zone,
                                             const Parameters& parameters);
-
-/// L1: whether the vehicle, driving as fast as it may until it has responded, can still stop gently before a
-/// zone. \param to_entry_m  its way to the zone at the scene's time \param asked_after_s  when we
-/// leave our last place to stand, which is what it responds to, after the scene's time
-[[nodiscard]] bool can_stop_gently(const occupancy::Pace& fastest, float to_entry_m, float asked_after_s,
-                                   const Parameters& parameters);
 
 /// \param reach  measured for the agent
 /// \param lead_s  plan start after the scene's time
