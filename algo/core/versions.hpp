@@ -6,7 +6,7 @@
 namespace s4tp {
 
 inline constexpr std::uint8_t kApiVersion = 3;         ///< planner.hpp and s4tp.h
-inline constexpr std::uint8_t kWireVersion = 3;        ///< s4tp.dbc; checked against the DBC at build time
+inline constexpr std::uint8_t kWireVersion = 4;        ///< s4tp.dbc; checked against the DBC at build time
 inline constexpr std::uint8_t kParametersVersion = 4;  ///< parameters.def
 inline constexpr std::uint8_t kWeightsVersion = 0;     ///< 0: no network on board
 
