@@ -8,9 +8,26 @@ import pathlib
 import re
 import sys
 
+# The core's folders, each with what it may include, in the order in which data flows. A name with .hpp is one header of a
+# folder further on that still has to move down; no other one of it may be included.
+ALGO = {
+    "core": [],
+    "scene": ["core/"],
+    "occupancy": ["core/", "scene/"],
+    "prediction": ["core/", "scene/", "occupancy/"],
+    "satp": ["core/", "scene/", "occupancy/", "prediction/"],
+    "sadrf": ["core/", "scene/", "prediction/", "satp/", "trajectory/bicycle.hpp"],
+    "behavior": ["core/", "scene/", "occupancy/"],
+    "trajectory": ["core/", "scene/", "occupancy/", "prediction/", "satp/", "sadrf/", "behavior/", "safety/rss.hpp"],
+    # Never predictions, beliefs or the field: what protects must not rest on what decides.
+    "safety": ["core/", "scene/", "occupancy/", *(f"trajectory/{name}.hpp" for name in (
+        "along_path", "bicycle", "path_walk", "speed_profile"))],
+    "planner": [""],
+    "api": [],
+}
 # Room (longest prefix wins) -> prefixes of project headers it may include, besides its own.
 ALLOWED = {
-    "algo/": [],
+    **{f"algo/{room}/": [f"algo/{below}" for below in under] for room, under in ALGO.items()},
     "hal/": [],  # the interfaces: the files directly in hal/
     "hal/linux/": ["hal/"],
     "hal/mps/": ["hal/"],

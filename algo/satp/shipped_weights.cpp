@@ -2,7 +2,7 @@
 
 namespace s4tp::satp {
 
-#if __has_include("algo/satp/shipped_weights.inc")
+#if defined(S4TP_LEARNED_PREDICTOR)
 
 namespace {
 [[gnu::section(".weights")]] alignas(8) constexpr std::uint32_t kImage[] = {

@@ -1,8 +1,8 @@
 #pragma once
 /// The weights this build carries, linked as a constant in a section of their own (.weights).
 ///
-/// The training's export writes algo/satp/shipped_weights.inc, the image's words; without that file a build
-/// carries none.
+/// The training's export writes algo/satp/shipped_weights.inc, the image's words; a build configured with
+/// S4TP_LEARNED_PREDICTOR carries them, any other none.
 
 #include <cstdint>
 

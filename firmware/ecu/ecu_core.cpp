@@ -63,6 +63,7 @@ void EcuCore::control_tick() {
   if (!may_command(mode_)) gate_.reset(inputs_.ego().steering_rad);
   record.violations = gate_.apply(may_command(mode_), command);
   gate_denied_ = may_command(mode_) && (record.violations & (gate::kDenied | gate::kMotionStale)) != 0;
+  commanded_ = {command, may_command(mode_)};
   report(command);
   ports_.watchdog->kick();
 
@@ -87,6 +88,7 @@ void EcuCore::take_frames() {
     gate_.observe(frame);
   }
   inputs_.close_tick();
+  plausibility_.update(inputs_.measured(), commanded_, inputs_.map(), parameters_);
 }
 
 bool EcuCore::pass_time() {
@@ -121,6 +123,7 @@ void EcuCore::take_result() {
   plan_late_ = result.start_ms != boundary_ms_;
   if (plan_late_) return;  // its instant has passed
   if (result.plan.kind == PlanKind::kNone || refused_ || !is_finite(result.plan)) return;
+  if ((faults_ & kLyingFaults) != 0) return;
   plan_ = result.plan;
   explanation_ = result.explanation;
   plan_age_.renew();
@@ -142,6 +145,7 @@ void EcuCore::supervise() {
   observed.refused = refused_;
   observed.gate_denied = gate_denied_;
   observed.bus = ports_.can->state();
+  observed.implausible = plausibility_.faults();
   observed.plan_distance_m = tracker_.error().distance_m;
   faults_ = find_faults(observed);
   well_ticks_ = faults_ == 0 ? well_ticks_ + 1 : 0;

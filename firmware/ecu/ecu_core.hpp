@@ -7,6 +7,7 @@
 #include "firmware/ecu/event_ring.hpp"
 #include "firmware/ecu/inputs.hpp"
 #include "firmware/ecu/modes.hpp"
+#include "firmware/ecu/plausibility.hpp"
 #include "firmware/ecu/records.hpp"
 #include "firmware/ecu/reports.hpp"
 #include "firmware/ecu/supervision.hpp"
@@ -57,6 +58,7 @@ class EcuCore {
   [[nodiscard]] Faults faults() const { return faults_; }
   [[nodiscard]] std::uint32_t now_ms() const { return inputs_.now_ms(); }
   [[nodiscard]] const Inputs& inputs() const { return inputs_; }
+  [[nodiscard]] const PlausibilityMonitor& plausibility() const { return plausibility_; }
   [[nodiscard]] const Plan& plan() const { return plan_; }
   [[nodiscard]] const CycleStatistics& statistics() const { return statistics_; }
 
@@ -84,6 +86,8 @@ class EcuCore {
 
   // Of the control context.
   Inputs inputs_;
+  PlausibilityMonitor plausibility_;
+  Commanded commanded_;  ///< in the tick before
   gate::CommandGate gate_{gate::Limits{}};
   Tracker tracker_;
   Reporter reporter_;

@@ -84,6 +84,9 @@ void Inputs::accept_motion(const wire::Frame& frame) {
   ego_.speed_mps = clamp(motion.speed_mps, 0.0F, 60.0F);
   ego_.acceleration_mps2 = clamp(motion.acceleration_mps2, -12.0F, 12.0F);
   ego_.yaw_rate_radps = clamp(motion.yaw_rate_radps, -2.0F, 2.0F);
+  measured_.speed_mps = motion.speed_mps;
+  measured_.acceleration_mps2 = motion.acceleration_mps2;
+  measured_.yaw_rate_radps = motion.yaw_rate_radps;
   motion_new_ = true;
   motion_seen_ = true;
 }
@@ -95,6 +98,7 @@ void Inputs::accept_steering(const wire::Frame& frame) {
     return;
   }
   ego_.steering_rad = clamp(steering.steering_rad, -0.8F, 0.8F);
+  measured_.steering_rad = steering.steering_rad;
   engage_ = steering.engage != 0;
   driver_override_ = steering.driver_override != 0;
   steering_new_ = true;
@@ -160,6 +164,12 @@ void Inputs::close_tick() {
   if (steering_new_) steering_age_.renew();
   if (tracks_new_) take_tracks();
   if (map_confirmed_) map_age_.renew();
+
+  measured_.passed_ms = passed_ms;
+  measured_.rear_axle = ego_.rear_axle;
+  measured_.known = ego_known() && steering_age_.known();
+  measured_.motion = motion_new_;
+  measured_.pose = pose_new_;
 
   motion_receiver_.tick();
   steering_receiver_.tick();

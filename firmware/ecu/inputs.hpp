@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "algo/core/world_state.hpp"
+#include "firmware/ecu/plausibility.hpp"
 #include "firmware/ecu/supervision.hpp"
 #include "firmware/ecu/vehicle_clock.hpp"
 #include "firmware/wire/codec.hpp"
@@ -49,6 +50,8 @@ class Inputs {
   /// ECU-061 Us at now_ms(): each pose is brought forward from its age, and from there on by speed and yaw
   /// rate until the next. ECU-062 Values outside the ranges of world_state.hpp are brought to their bounds.
   [[nodiscard]] const EgoState& ego() const { return ego_; }
+  /// Us as told in this tick, for the plausibility monitor.
+  [[nodiscard]] const Measured& measured() const { return measured_; }
   [[nodiscard]] bool motion_fresh() const { return motion_missing_ticks_ == 0; }  ///< in this tick
   [[nodiscard]] bool ego_known() const { return motion_seen_ && pose_age_.known(); }
 
@@ -94,6 +97,7 @@ class Inputs {
   wire::MapReceiver map_receiver_;
 
   EgoState ego_;
+  Measured measured_;
   TrackList tracks_;
   std::uint32_t tracks_ms_ = 0;
   wire::Pose pose_;

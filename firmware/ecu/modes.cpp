@@ -69,14 +69,26 @@ const char* mode_name(Mode mode) {
 }
 
 const char* fault_name(int index) {
-  static constexpr const char* kNames[kFaultCount] = {"no motion frames", "motion frames early or late",
-                                                      "no pose",          "no steering angle",
-                                                      "track list late",  "no track list",
-                                                      "map late",         "no map",
-                                                      "another version",  "plan late",
-                                                      "no plan",          "self-test refused",
-                                                      "bus off",          "far from the plan",
-                                                      "the gate refused", "the driver took over"};
+  static constexpr const char* kNames[kFaultCount] = {"no motion frames",
+                                                      "motion frames early or late",
+                                                      "no pose",
+                                                      "no steering angle",
+                                                      "track list late",
+                                                      "no track list",
+                                                      "map late",
+                                                      "no map",
+                                                      "another version",
+                                                      "plan late",
+                                                      "no plan",
+                                                      "self-test refused",
+                                                      "bus off",
+                                                      "far from the plan",
+                                                      "the gate refused",
+                                                      "the driver took over",
+                                                      "motion implausible",
+                                                      "steering implausible",
+                                                      "pose implausible",
+                                                      "vehicle time implausible"};
   return index >= 0 && index < kFaultCount ? kNames[index] : "?";
 }
 

@@ -31,7 +31,7 @@ inline constexpr int kModeCount = 7;
 [[nodiscard]] const char* mode_name(Mode mode);
 
 /// Bits of the status frame's fault field. The exact conditions stand in supervision.hpp.
-enum class FaultBit : std::uint16_t {
+enum class FaultBit : std::uint32_t {
   kMotionMissing = 1U << 0,    ///< ECU-010 no valid motion frame for 3 ticks
   kMotionTiming = 1U << 1,     ///< ECU-011 interval outside 8 .. 12 ms for 3 ticks, early or late
   kPoseMissing = 1U << 2,      ///< ECU-012 no valid pose for 100 ms
@@ -48,24 +48,38 @@ enum class FaultBit : std::uint16_t {
   kTracking = 1U << 13,        ///< ECU-023 further than 1.5 m from the plan
   kGateDenied = 1U << 14,      ///< ECU-024 the gate denied a command while driving
   kDriverOverride = 1U << 15,  ///< ECU-025 the driver took over
+  // What the senders say contradicts itself, physics or our commands (plausibility.hpp).
+  kMotionImplausible = 1U << 16,    ///< ECU-096 speed, acceleration or yaw rate
+  kSteeringImplausible = 1U << 17,  ///< ECU-097 steering angle
+  kPoseImplausible = 1U << 18,      ///< ECU-098 pose
+  kClockImplausible = 1U << 19,     ///< ECU-099 vehicle time
 };
 
-using Faults = std::uint16_t;
+using Faults = std::uint32_t;
 constexpr Faults bit(FaultBit fault) {
   return static_cast<Faults>(fault);
 }
 
-inline constexpr int kFaultCount = 16;
+inline constexpr int kFaultCount = 20;
+inline constexpr Faults kAllFaults = (1U << kFaultCount) - 1U;
+/// Number of the requirement that defines fault bit `index`: ECU-010 for bit 0.
+constexpr int fault_requirement(int index) {
+  return index < 16 ? 10 + index : 80 + index;
+}
 /// What fault bit `index` means, in a few words; "?" where there is none.
 [[nodiscard]] const char* fault_name(int index);
 
 /// Faults that let the car drive on, degraded.
-inline constexpr Faults kDegradingFaults =
-    static_cast<Faults>(bit(FaultBit::kMotionTiming) | bit(FaultBit::kTracksStale) |
-                        bit(FaultBit::kMapStale) | bit(FaultBit::kPlanLate));
+inline constexpr Faults kDegradingFaults = bit(FaultBit::kMotionTiming) | bit(FaultBit::kTracksStale) |
+                                           bit(FaultBit::kMapStale) | bit(FaultBit::kPlanLate) |
+                                           bit(FaultBit::kClockImplausible);
 /// Faults that end the drive; all others but the driver's override.
-inline constexpr Faults kEndingFaults =
-    static_cast<Faults>(~(kDegradingFaults | bit(FaultBit::kDriverOverride)) & 0xFFFF);
+inline constexpr Faults kEndingFaults = kAllFaults & ~(kDegradingFaults | bit(FaultBit::kDriverOverride));
+
+/// ECU-100 While one of these stands no new plan takes effect: it was made from what is not believed, and the
+/// minimum-risk manoeuvre goes on along the one before.
+inline constexpr Faults kLyingFaults =
+    bit(FaultBit::kMotionImplausible) | bit(FaultBit::kSteeringImplausible) | bit(FaultBit::kPoseImplausible);
 
 /// What transitions are decided by.
 struct Situation {

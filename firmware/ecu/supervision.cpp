@@ -40,7 +40,7 @@ constexpr float kTrackingLimitM = 1.5F;
 }  // namespace
 
 Faults find_faults(const Observations& observed) {
-  unsigned faults = 0;
+  Faults faults = observed.implausible;
   for (const Limit& row : kLimits) {
     if (observed.*row.observed >= row.limit) faults |= bit(row.fault);
   }
@@ -51,7 +51,7 @@ Faults find_faults(const Observations& observed) {
     faults |= bit(FaultBit::kBusOff);
   }
   if (observed.plan_distance_m > kTrackingLimitM) faults |= bit(FaultBit::kTracking);
-  return static_cast<Faults>(faults);
+  return faults;
 }
 
 }  // namespace s4tp::ecu

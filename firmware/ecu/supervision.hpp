@@ -25,6 +25,7 @@ struct Observations {
   bool driver_override = false;
   hal::CanState bus = hal::CanState::kActive;
   float plan_distance_m = 0.0F;  ///< while following a plan
+  Faults implausible = 0;        ///< what the plausibility monitor found
 };
 
 [[nodiscard]] Faults find_faults(const Observations& observed);

@@ -77,7 +77,7 @@ void print_cycle() {}
 void print_status() {
   Text line;
   line << "tick " << ticks << " mode " << static_cast<std::int32_t>(the_ecu.mode()) << " faults ";
-  line.hex(the_ecu.faults(), 4) << " stack " << hal::mps::stack_used() << " CAN errors "
+  line.hex(the_ecu.faults(), 5) << " stack " << hal::mps::stack_used() << " CAN errors "
                                 << can.counters().errors << " dropped " << bus.counters().dropped << "\n";
   console.print(line.c_str());
 }

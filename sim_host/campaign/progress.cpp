@@ -6,7 +6,7 @@
 namespace s4tp::campaign {
 namespace {
 
-constexpr double kPlainLineEvery_s = 30.0;
+constexpr double kPlainLineEvery_s = 10.0;
 constexpr std::size_t kBarWidth = 24;
 constexpr std::size_t kWhatWidth = 60;
 

@@ -1,3 +1,5 @@
+#include <unistd.h>
+
 #include <chrono>
 #include <iostream>
 #include <memory>
@@ -18,6 +20,7 @@ namespace {
 
 constexpr std::size_t kSamplesPerFile = 5'000;
 constexpr std::uint64_t kMostBytes = 4'000'000'000;  // a disk's share, whatever was asked for
+constexpr double kPlainLineEvery_s = 10.0;           // where nobody watches, but a log is kept
 constexpr std::uint64_t kBlocksBegin = 10'000;       // seeds and roads from here on are for reporting only
 
 const std::vector<std::string> kShipped{"left_turn", "left_turn_t", "merge", "cruise", "overtake", "cut_in"};
@@ -75,12 +78,12 @@ class DataSet {
     }
     ++drives_;
     counts_ += train::make_samples(scenario, drive, [&](const train::Sample& sample) { add(sample); });
-    std::cerr << '\r' << words() << "  " << std::flush;
+    tell(false);
   }
 
   void close() {
     if (writer_) writer_->close();
-    std::cerr << '\n';
+    tell(true);
   }
 
   [[nodiscard]] nlohmann::json figures() const {
@@ -104,6 +107,16 @@ class DataSet {
   }
 
  private:
+  /// In place on a terminal; into a log at most a line every ten seconds.
+  void tell(bool last) {
+    const bool terminal = isatty(STDERR_FILENO) != 0;
+    if (!terminal && !last && drives_ != 1 && seconds() < told_s_ + kPlainLineEvery_s) return;
+    std::cerr << (terminal ? "\r" : "") << words() << (terminal && !last ? "  " : "\n") << std::flush;
+    told_s_ = seconds();
+  }
+
+  double told_s_ = 0.0;
+
   void add(const train::Sample& sample) {
     if (writer_ && writer_->size() >= kSamplesPerFile) {
       writer_->close();

@@ -67,7 +67,7 @@ class Run {
   Run(const world::Scenario& scenario, const FaultScript& script, const RunOptions& options)
       : script_(script),
         options_(options),
-        world_(scenario, world_options(script)),
+        world_(scenario, world_options(script, options)),
         faults_(script),
         judge_(settling_ticks(script)),
         story_(options.story) {}
@@ -90,8 +90,9 @@ class Run {
   }
 
  private:
-  static world::WorldOptions world_options(const FaultScript& script) {
+  static world::WorldOptions world_options(const FaultScript& script, const RunOptions& run) {
     world::WorldOptions options;
+    options.sensors = run.sensors;
     options.seed = script.seed;
     options.pre_roll_s = kPreRollTicks * 0.01;
     return options;
@@ -104,6 +105,8 @@ class Run {
     for (const wire::Frame& frame : frames) {
       wire::Motion motion;
       if (wire::decode(frame, motion)) speed_mps_ = static_cast<double>(motion.speed_mps);
+      wire::Pose pose;
+      if (wire::decode(frame, pose)) pose_ = pose;
     }
     judge_.begin_tick(tick, speed_mps_, faults_.over(tick));
     const hal::CanState state = faults_.controller(tick);
@@ -122,6 +125,7 @@ class Run {
       while (lockstep_.take_tick(now_ms)) control_tick(off_bus, sent);
     }
     for (const wire::Frame& frame : faults_.to_world(tick, sent)) world_.receive(frame);
+    if (options_.watch) options_.watch(tick, ecu_->core(), pose_);
     judge_.end_tick();
   }
 
@@ -155,6 +159,7 @@ class Run {
   std::unique_ptr<campaign::AnyEcu> ecu_ = campaign::make_ecu(
       "s4tp", true, Parameters{}, {&witness_, nullptr, &cycles_, &watchdog_, &story_}, nullptr);
   double speed_mps_ = 0.0;
+  wire::Pose pose_;
 };
 
 }  // namespace

@@ -8,11 +8,14 @@
 #include <string>
 #include <vector>
 
+#include "firmware/ecu/ecu_core.hpp"
+#include "firmware/wire/codec.hpp"
 #include "firmware/wire/frame.hpp"
 #include "sim_host/faults/judge.hpp"
 #include "sim_host/faults/script.hpp"
 #include "sim_host/world/recording.hpp"
 #include "sim_host/world/scenario.hpp"
+#include "sim_host/world/vehicle_node.hpp"
 
 namespace s4tp::faults {
 
@@ -28,7 +31,10 @@ struct RunResult {
 struct RunOptions {
   /// A planted defect: sees what the ECU took in a control tick and may change what it sends.
   std::function<void(const std::vector<wire::Frame>& taken, std::vector<wire::Frame>& sent)> defect;
-  std::ostream* story = nullptr;  ///< mode changes, with their time and faults
+  /// Each tick, after the ECU's. \param pose  newest one that was sent, before any fault
+  std::function<void(int tick, const ecu::EcuCore& ecu, const wire::Pose& pose)> watch;
+  world::SensorOptions sensors = {};  ///< errors of the car's sensors
+  std::ostream* story = nullptr;      ///< mode changes, with their time and faults
 };
 
 /// Ends at the first breach, the world's end, or kRunTicks after entry.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "sim_host/faults/lies.hpp"
 #include "sim_host/faults/sender_faults.hpp"
 #include "sim_host/world/random.hpp"
 
@@ -153,6 +154,8 @@ void FaultyBus::apply(Source& source, int tick, Frames& frames, std::vector<Dela
       hold(fault, source.held, frame);
     } else if (fault.kind == FaultKind::kPattern) {
       overwrite(fault, frame);
+    } else if (fault.kind == FaultKind::kLie) {
+      tell_lie(fault, tick, frame);
     } else {
       shift_clock(fault, tick, frame);
     }

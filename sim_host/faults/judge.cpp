@@ -34,7 +34,7 @@ constexpr int kGraceTicks = 100;
 constexpr double kStanding_mps = 0.1;
 constexpr int kRestTicks = 100;  // standing so long, a minimum-risk manoeuvre is over
 constexpr int kLongSettling = 650;
-constexpr int kShortSettling = 250;
+constexpr int kShortSettling = 550;
 
 bool commanding(ecu::Mode mode) {
   return mode == ecu::Mode::kDriving || mode == ecu::Mode::kDegraded || mode == ecu::Mode::kMinimumRisk ||

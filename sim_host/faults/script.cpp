@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "firmware/wire/codec.hpp"
+#include "sim_host/faults/lies.hpp"
 #include "sim_host/world/random.hpp"
 
 namespace s4tp::faults {
@@ -36,6 +37,8 @@ constexpr std::array<MessageName, kMessageCount> kMessages{{
 constexpr MessageSet kCommand = 1U << 17U;
 constexpr MessageSet kFromWorld = kCommand - 1U;
 constexpr MessageSet kMotion = 1U << 0U;
+constexpr MessageSet kSteering = 1U << 1U;
+constexpr MessageSet kPose = 1U << 2U;
 constexpr MessageSet kVehicle = 0xFU;
 constexpr MessageSet kPerception = 0x7U << 4U;
 constexpr MessageSet kMap = 0x3FFU << 7U;
@@ -64,6 +67,7 @@ constexpr std::array<KindTraits, kFaultKinds> kKinds{{
      "0 count beyond 16, 1 sixteen nonsense tracks, 2 members beyond the count, 3 map counts beyond 64 and "
      "128, 4 lane points beyond 12"},
     {"late_plan", 0, 1, 100, false, "percent of the boundaries that find the planner busy"},
+    {"lie", kMotion | kSteering | kPose | kTrackList, 0, kLies - 1, true, "which one: lies.hpp, in order"},
 }};
 
 MessageSet choose_messages(world::Random& random, MessageSet allowed) {
@@ -104,7 +108,8 @@ Fault make_fault(world::Random& random) {
   fault.kind = static_cast<FaultKind>(random.integer(0, kFaultKinds - 1));
   const KindTraits& kind = traits(fault.kind);
   const bool whole_node = fault.kind == FaultKind::kDeadMap || fault.kind == FaultKind::kDeadPerception ||
-                          fault.kind == FaultKind::kDeadVehicle || fault.kind == FaultKind::kLongList;
+                          fault.kind == FaultKind::kDeadVehicle || fault.kind == FaultKind::kLongList ||
+                          fault.kind == FaultKind::kLie;
   fault.messages = whole_node ? kind.messages : choose_messages(random, kind.messages);
   fault.intensity = choose_intensity(random, kind);
   fault.from_tick = random.integer(-kPreRollTicks, 500);

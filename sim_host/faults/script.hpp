@@ -39,8 +39,9 @@ enum class FaultKind : std::uint8_t {
   kPattern,
   kLongList,
   kLatePlan,
+  kLie,
 };
-inline constexpr int kFaultKinds = 18;
+inline constexpr int kFaultKinds = 19;
 
 /// Bit i: message i of kMessages.
 using MessageSet = std::uint32_t;

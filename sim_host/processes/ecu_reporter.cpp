@@ -12,8 +12,8 @@ void print_change(std::ostream& out, const ecu::ModeRecord& change) {
   std::snprintf(text, sizeof text, "ECU %8.2f s  %s -> %s", change.time_ms / 1000.0,
                 ecu::mode_name(change.from), ecu::mode_name(change.to));
   out << text;
-  for (int bit = 0; bit < 16; ++bit) {  // ids of the faults stand beside the bits, in modes.hpp
-    if ((change.faults >> bit & 1) != 0) out << ", fault ECU-0" << 10 + bit;
+  for (int bit = 0; bit < ecu::kFaultCount; ++bit) {
+    if ((change.faults >> bit & 1) != 0) out << ", fault ECU-0" << ecu::fault_requirement(bit);
   }
   out << std::endl;
 }

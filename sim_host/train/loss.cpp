@@ -1,6 +1,7 @@
 #include "sim_host/train/loss.hpp"
 
 #include <numbers>
+#include <utility>
 
 namespace s4tp::train {
 namespace {
@@ -9,6 +10,12 @@ using torch::Tensor;
 
 // Attention that was given to no path at all is as unlikely as this.
 constexpr float kLeastShare = 1e-4F;
+
+// Two modes whose distances differ by less are as good as each other: which of them is called the nearest is
+// chance.
+constexpr float kAlikeM = 0.1F;
+constexpr float kExpectedWeight = 0.5F;
+constexpr float kChoiceWeight = 0.5F;
 
 Tensor weighted_mean(const Tensor& values, const Tensor& weights) {
   return (values * weights).sum() / weights.sum().clamp_min(1.0F);
@@ -24,27 +31,30 @@ Tensor mean_distance_m(const Batch& batch, const Decoded& decoded) {
 }
 
 Loss loss_of(const Batch& batch, const Encoded& encoded, const Decoded& decoded) {
-  const Tensor best = [&] {
-    const torch::NoGradGuard no_gradient;
-    return mean_distance_m(batch, decoded).argmin(1, true);
-  }();
-  const std::int64_t horizon = decoded.pose.size(2);
-  const Tensor pose = decoded.pose.gather(1, best.view({-1, 1, 1, 1}).expand({-1, 1, horizon, 3})).squeeze(1);
-  const Tensor off = pose - batch.target;
+  const Tensor off = decoded.pose - batch.target.unsqueeze(1);
   const Tensor turned =
-      torch::remainder(off.select(2, 2) + std::numbers::pi, 2.0 * std::numbers::pi) - std::numbers::pi;
-  const Tensor both = torch::cat({off.slice(2, 0, 2), turned.unsqueeze(2)}, 2);
-  const Tensor smooth =
-      torch::smooth_l1_loss(both, torch::zeros_like(both), torch::Reduction::None).sum(2) * batch.target_mask;
+      torch::remainder(off.slice(3, 2) + std::numbers::pi, 2.0 * std::numbers::pi) - std::numbers::pi;
+  const Tensor both = torch::cat({off.slice(3, 0, 2), turned}, 3);
   const Tensor steps = batch.target_mask.sum(1);
+  const Tensor smooth = (torch::smooth_l1_loss(both, torch::zeros_like(both), torch::Reduction::None).sum(3) *
+                         batch.target_mask.unsqueeze(1))
+                            .sum(2) /
+                        steps.clamp_min(1.0F).unsqueeze(1);  // [V, K]
+  const auto [best, share] = [&] {
+    const torch::NoGradGuard no_gradient;
+    const Tensor distance = mean_distance_m(batch, decoded);
+    return std::pair(distance.argmin(1, true), torch::softmax(distance / -kAlikeM, 1));
+  }();
   const Tensor seen = (steps > 0).to(torch::kFloat32);
+  const Tensor log_probability = torch::log_softmax(decoded.score, 1);
   Loss loss;
-  loss.position = weighted_mean(smooth.sum(1) / steps.clamp_min(1.0F), seen);
-  loss.mode = weighted_mean(-torch::log_softmax(decoded.score, 1).gather(1, best).squeeze(1), seen);
+  loss.position = weighted_mean(smooth.gather(1, best).squeeze(1), seen);
+  loss.expected = weighted_mean((log_probability.exp() * smooth).sum(1), seen);
+  loss.mode = weighted_mean(-(share * log_probability).sum(1), seen);
   const Tensor known = (batch.route >= 0).to(torch::kFloat32);
   const Tensor taken = encoded.route.gather(1, batch.route.clamp_min(0).unsqueeze(1)).squeeze(1);
   loss.route = weighted_mean(-torch::log(taken.clamp_min(kLeastShare)), known);
-  loss.total = loss.position + loss.mode + loss.route;
+  loss.total = loss.position + kExpectedWeight * loss.expected + kChoiceWeight * (loss.mode + loss.route);
   return loss;
 }
 

@@ -11,7 +11,8 @@ namespace s4tp::train {
 struct Loss {
   torch::Tensor total;
   torch::Tensor position;  ///< smooth L1 of the mode nearest to what happened: x, y [m], heading [rad]
-  torch::Tensor mode;      ///< cross-entropy of the choice of that mode
+  torch::Tensor expected;  ///< the same of all modes, by their probabilities
+  torch::Tensor mode;      ///< cross-entropy of the modes' probabilities to which of them were nearest
   torch::Tensor route;     ///< cross-entropy of the attention over lane paths, where the one taken is known
 };
 

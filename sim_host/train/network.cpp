@@ -191,6 +191,7 @@ Decoded Network::decode(const Batch& batch, const Encoded& encoded, const Tensor
   const Tensor start = encoded.start.reshape({vehicles * modes, shape_.hidden});
   const Tensor zero = torch::zeros_like(speed);
   Front front{zero, zero, zero, speed, zero};
+  Tensor last = torch::zeros({vehicles * modes, 1, 3}, speed.options());
   Tensor hidden = start;
   std::vector<Tensor> poses;
   for (int step = 0; step < shape_.decoder_steps; ++step) {
@@ -205,10 +206,12 @@ Decoded Network::decode(const Batch& batch, const Encoded& encoded, const Tensor
     hidden = (1.0F - gates[1]) * news + gates[1] * hidden;
     const Tensor moved = linear(satp::kIncrements, hidden).view({-1, increments, 3}) * unit;
     const Tensor steady = torch::stack({speed * kStepS, zero, zero}, 1).unsqueeze(1);
-    const Tensor last = torch::stack({front.x, front.y, front.heading}, 1).unsqueeze(1);
     const Tensor pose = last + (moved + steady).cumsum(1);
-    const auto end = pose.select(1, increments - 1).unbind(1);
+    last = pose.slice(1, increments - 1, increments);
     const float duration_s = kStepS * static_cast<float>(increments);
+    // What is predicted adds up, but what the next step sees of it is taken as given: with gradients through the
+    // features of six steps in a row the training was unsteady (docs/training.md).
+    const auto end = last.detach().squeeze(1).unbind(1);
     front = {end[0], end[1], end[2], (end[0] - front.x) / duration_s, (end[1] - front.y) / duration_s};
     poses.push_back(pose);
   }

@@ -102,8 +102,7 @@ void add_run(CLI::App& tool, RunOptions& options) {
   command.add_option("--batch", training.batch, "scenes a step")
       ->check(CLI::Range(1, 4096))
       ->capture_default_str();
-  command.add_option("--rate", training.rate, "of Adam at the start")->capture_default_str();
-  command.add_option("--decay-steps", training.decay_steps, "steps in which the rate falls to 0.9 of itself")
+  command.add_option("--rate", training.rate, "of Adam, at most; it falls to 0 at the end")
       ->capture_default_str();
   command.add_option("--passes", training.passes, "times a scene is seen at most")->capture_default_str();
   command.add_option("--validate-every", training.validate_every, "steps between points of the curve")

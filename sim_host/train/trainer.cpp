@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 #include <string>
 
@@ -23,7 +24,15 @@ using torch::Tensor;
 enum Purpose : std::uint64_t { kOrder = 1000, kNoPlan = 2000 };
 
 constexpr int kCurveColumns = 9;
+constexpr double kWarmUpShare = 0.02;                 // of the steps
 constexpr std::size_t kMostValidationSamples = 2048;  // enough for a curve; the figures take all
+
+// Up in a straight line while Adam's moments are of few batches, then down along half a cosine, so that the
+// weights that are kept are not those of the last batches.
+double share_of_rate(std::int64_t step, std::int64_t steps) {
+  const double passed = static_cast<double>(step) / static_cast<double>(steps);
+  return std::min(1.0, passed / kWarmUpShare) * 0.5 * (1.0 + std::cos(std::numbers::pi * passed));
+}
 
 std::shared_ptr<Network> new_network(const satp::NetworkShape& shape, std::uint64_t seed,
                                      torch::Device device) {
@@ -104,8 +113,7 @@ Batch Trainer::next_batch(std::vector<float>& has_plan) {
 void Trainer::train_step() {
   std::vector<float> has_plan;
   const Batch batch = next_batch(has_plan);
-  const double rate = options_.rate * std::pow(options_.decay, static_cast<double>(step_) /
-                                                                   static_cast<double>(options_.decay_steps));
+  const double rate = options_.rate * share_of_rate(step_, steps_);
   static_cast<torch::optim::AdamOptions&>(adam_.param_groups()[0].options()).lr(rate);
   adam_.zero_grad();
   const Encoded encoded = network_->encode(batch);
@@ -176,12 +184,11 @@ Tensor Trainer::fingerprint() const {
   for (std::size_t i = 0; i < training_.size(); i += 1 + training_.size() / 1000) {
     data += set_[training_[i]].input.speed_mps[0] + static_cast<double>(set_[training_[i]].road % 1000);
   }
-  return torch::tensor(
-      {static_cast<double>(network_->shape().id), static_cast<double>(options_.seed),
-       static_cast<double>(steps_), static_cast<double>(options_.batch), options_.rate, options_.decay,
-       static_cast<double>(options_.decay_steps), options_.clip, options_.no_plan,
-       static_cast<double>(options_.validate_every), static_cast<double>(training_.size()), data},
-      torch::kFloat64);
+  return torch::tensor({static_cast<double>(network_->shape().id), static_cast<double>(options_.seed),
+                        static_cast<double>(steps_), static_cast<double>(options_.batch), options_.rate,
+                        options_.clip, options_.no_plan, static_cast<double>(options_.validate_every),
+                        static_cast<double>(training_.size()), data},
+                       torch::kFloat64);
 }
 
 void Trainer::save(const std::filesystem::path& file) const {

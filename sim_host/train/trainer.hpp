@@ -22,9 +22,7 @@ struct TrainingOptions {
   std::uint64_t seed = 1;
   std::int64_t steps = 30000;
   std::int64_t batch = 64;
-  double rate = 2e-4;  ///< of Adam
-  double decay = 0.9;  ///< of the rate, every `decay_steps`
-  std::int64_t decay_steps = 4000;
+  double rate = 1e-3;                 ///< of Adam, at most: it falls to 0 along half a cosine
   double clip = 5.0;                  ///< of the gradient's norm
   double no_plan = 0.2;               ///< share of scenes whose plan the network is not shown
   std::int64_t passes = 15;           ///< no scene is seen more often

@@ -56,6 +56,19 @@ class Includes(unittest.TestCase):
     def test_relative_include_is_found(self):
         self.assertEqual(len(findings("algo/core/x.cpp", '#include "../scene/scene.hpp"\n')), 1)
 
+    # The guard must not rest on what it guards against: no prediction, no risk field, no candidates.
+    def test_guard_including_a_prediction_is_found(self):
+        self.assertEqual(findings("algo/safety/guard.cpp", '#include "algo/occupancy/pace.hpp"\n'), [])
+        for header in ("satp/prediction.hpp", "sadrf/risk.hpp", "trajectory/candidates.hpp", "planner/planner.hpp"):
+            self.assertEqual(len(findings("algo/safety/guard.cpp", f'#include "algo/{header}"\n')), 1, header)
+
+    # Down the order of the core's folders, never up; and a folder without a place in it stands in no room.
+    def test_order_of_the_core_is_kept(self):
+        self.assertEqual(findings("algo/planner/x.cpp", '#include "algo/safety/guard.hpp"\n'), [])
+        self.assertEqual(len(findings("algo/core/x.cpp", '#include "algo/scene/scene.hpp"\n')), 1)
+        self.assertEqual(len(findings("algo/scene/x.cpp", '#include "algo/planner/planner.hpp"\n')), 1)
+        self.assertEqual(len(findings("algo/cellar/x.cpp", '#include "algo/core/math.hpp"\n')), 1)
+
 
 if __name__ == "__main__":
     unittest.main()

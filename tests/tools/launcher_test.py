@@ -38,6 +38,15 @@ class Launcher(unittest.TestCase):
         asked = self.folder / "asked"
         return asked.read_text(encoding="utf-8") if asked.exists() else ""
 
+    # Without a word it says what to try first; a word it does not know is named, with where the right ones are.
+    def test_first_steps_and_wrong_words(self):
+        alone = subprocess.run(["bash", LAUNCHER], check=False, text=True, stdout=subprocess.PIPE, timeout=60)
+        self.assertEqual(alone.returncode, 0)
+        self.assertIn("./s4tp demo", alone.stdout)
+        wrong = subprocess.run(["bash", LAUNCHER, "rnu"], check=False, text=True, stderr=subprocess.PIPE, timeout=60)
+        self.assertEqual(wrong.returncode, 2)
+        self.assertRegex(wrong.stderr, "no command 'rnu'.*--help")
+
     # SUMO is installed when it is to simulate, alone or beside our own traffic, and only then.
     def test_sumo_is_installed_when_it_is_asked_for(self):
         for arguments in (("run",), ("eval", "--traffic", "builtin"), ("run", "--out", "sumo")):

@@ -86,9 +86,9 @@ TEST(Modes, StaysWhenNothingApplies) {
   EXPECT_EQ(find_transition(Mode::kDegraded, good), nullptr);
   EXPECT_EQ(find_transition(Mode::kMinimumRisk, good), nullptr);
   EXPECT_EQ(find_transition(Mode::kStopped, good), nullptr);
-  for (int faults = 0; faults <= 0xFFFF; ++faults) {
+  for (Faults faults = 0; faults <= kAllFaults; ++faults) {
     Situation situation = good;
-    situation.faults = static_cast<Faults>(faults);
+    situation.faults = faults;
     ASSERT_EQ(find_transition(Mode::kFault, situation), nullptr);
   }
 }
@@ -96,9 +96,9 @@ TEST(Modes, StaysWhenNothingApplies) {
 // The driver comes first, then what ends the drive, then what degrades it.
 TEST(Modes, Precedence) {
   Situation all = healthy();
-  all.faults = 0xFFFF;
+  all.faults = kAllFaults;
   EXPECT_EQ(find_transition(Mode::kDriving, all)->to, Mode::kStandby);
-  all.faults = static_cast<Faults>(0xFFFF & ~bit(FaultBit::kDriverOverride));
+  all.faults = kAllFaults & ~bit(FaultBit::kDriverOverride);
   EXPECT_EQ(find_transition(Mode::kDriving, all)->to, Mode::kMinimumRisk);
   all.faults = kDegradingFaults;
   EXPECT_EQ(find_transition(Mode::kDriving, all)->to, Mode::kDegraded);
@@ -107,7 +107,7 @@ TEST(Modes, Precedence) {
 // ECU-031: any single fault, an unknown version or no plan keeps the ECU in standby.
 TEST(Modes, NothingMayBeMissingToGetReady) {
   EXPECT_EQ(find_transition(Mode::kStandby, healthy())->to, Mode::kReady);
-  for (int i = 0; i < 16; ++i) {
+  for (int i = 0; i < kFaultCount; ++i) {
     Situation situation = healthy();
     situation.faults = static_cast<Faults>(1U << i);
     const Transition* row = find_transition(Mode::kStandby, situation);

@@ -166,7 +166,7 @@ TEST(Progress, TimeLeft) {
   EXPECT_NE(bar.str().find("6/10, 60 s left  merge"), std::string::npos) << bar.str();
 }
 
-// Without a terminal: no control characters, and not a line an episode: the first, one every 30 s, the last.
+// Without a terminal: no control characters, and not a line an episode: the first, one every 10 s, the last.
 TEST(Progress, PlainLines) {
   std::ostringstream out;
   Progress progress(out, false, 100, 0);
@@ -174,7 +174,7 @@ TEST(Progress, PlainLines) {
   progress.end();
   const std::string text = out.str();
   EXPECT_EQ(text.find_first_of("\r\x1b"), std::string::npos);
-  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 5);  // at 1, 31, 61, 91 and 100 s
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 11);  // at 1, 11, 21 .. 91 and 100 s
 }
 
 // Rounded as people say it.
