@@ -1,21 +1,25 @@
 // The host tool: every ./s4tp command that drives the virtual world.
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <iostream>
+#include <utility>
 #include <vector>
 
 #include "sim_host/commands/command.hpp"
 
 int main(int argc, char** argv) {
   using namespace s4tp::commands;
-  CLI::App tool{"s4tp: drives a virtual vehicle over CAN frames"};
+  CLI::App tool{"s4tp: drives a virtual vehicle over CAN frames", "s4tp"};
   tool.require_subcommand(1);
   const std::vector<Command> commands{add_demo(tool),   add_eval(tool),    add_run(tool),
                                       add_record(tool), add_traffic(tool), add_coupling(tool),
                                       add_faults(tool), add_risk(tool),    add_roads(tool),
                                       add_train(tool),  add_predict(tool)};
   try {
-    tool.parse(argc, argv);
+    std::vector<std::string> arguments = with_lists_joined({argv + 1, argv + argc});
+    std::reverse(arguments.begin(), arguments.end());  // as CLI11 takes them
+    tool.parse(std::move(arguments));
   } catch (const CLI::ParseError& error) {
     return tool.exit(error) == 0 ? kDone : kWrongUse;
   }

@@ -18,7 +18,7 @@ ALGO = {
     "satp": ["core/", "scene/", "occupancy/", "prediction/"],
     "sadrf": ["core/", "scene/", "prediction/", "satp/", "trajectory/bicycle.hpp"],
     "behavior": ["core/", "scene/", "occupancy/"],
-    "trajectory": ["core/", "scene/", "occupancy/", "prediction/", "satp/", "sadrf/", "behavior/", "safety/rss.hpp"],
+    "trajectory": ["core/", "scene/", "occupancy/", "prediction/", "satp/", "sadrf/", "behavior/"],
     # Never predictions, beliefs or the field: what protects must not rest on what decides.
     "safety": ["core/", "scene/", "occupancy/", *(f"trajectory/{name}.hpp" for name in (
         "along_path", "bicycle", "path_walk", "speed_profile"))],

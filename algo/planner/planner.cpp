@@ -315,8 +315,7 @@ void PlanningCycle::refine(const Candidate& candidate, Explanation& explanation)
     const StageScope scope(probe, Stage::kCheck);
     count(explanation, Stage::kCheck, 1);
     // A refinement that does not pass is dropped: what it started from has passed.
-    const bool passes_check =
-        feasible(refined_, parameters_) && verify(candidate.path, refined_).safe();
+    const bool passes_check = feasible(refined_, parameters_) && verify(candidate.path, refined_).safe();
     // A start is not postponed: the next cycle would begin at rest again, for ever.
     const bool postpones = refined_.points[1].speed_mps < 0.5F * chosen_.points[1].speed_mps;
     if (!passes_check || postpones) return;

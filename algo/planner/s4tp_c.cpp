@@ -11,6 +11,8 @@
 #include "algo/planner/c_conversion.hpp"
 #include "algo/planner/planner.hpp"
 #include "algo/planner/s4tp.h"
+#include "algo/satp/shipped_weights.hpp"
+#include "algo/satp/weight_image.hpp"
 
 #ifdef __FAST_MATH__
 #error "s4tp gives identical bits everywhere; -ffast-math takes them away"
@@ -118,7 +120,9 @@ const char* s4tp_status_name(s4tp_status status) {
 }
 
 s4tp_versions s4tp_get_versions(void) {
-  return {kApiVersion, kWireVersion, kParametersVersion, kWeightsVersion};
+  static_assert(kWeightsVersion == satp::kWeightFormat);
+  const bool carried = satp::shipped_weights().image != nullptr;
+  return {kApiVersion, kWireVersion, kParametersVersion, carried ? kWeightsVersion : std::uint8_t{0}};
 }
 
 s4tp_status s4tp_default_parameters(s4tp_parameters* parameters) {

@@ -185,8 +185,8 @@ void Guard::find_threats(const EgoPath& path, const occupancy::LaneReach (&reach
       if (path.zones[z].merging) straight_on.measure(*scene_->map, agent, false);
       when[i] = zone_occupancy(*scene_, agent, path.zones[z].merging ? straight_on : reach[i], path.zones[z],
                                lead_s_, *parameters_);
-      const bool latched = bound && when[i].to_entry_m > 0.0F &&
-                           is_latched(agent.track.id, path.zones[z].other_lane);
+      const bool latched =
+          bound && when[i].to_entry_m > 0.0F && is_latched(agent.track.id, path.zones[z].other_lane);
       if (when[i].claim == Claim::kMayCome && latched) when[i].claim = Claim::kStands;
       const bool stays_out = when[i].claim != Claim::kMayCome && when[i].claim != Claim::kNone;
       if (stays_out) sight.staying_out[z] |= static_cast<std::uint16_t>(1U << i);

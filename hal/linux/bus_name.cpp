@@ -10,7 +10,8 @@ namespace {
 
 constexpr std::size_t kInterfaceNameMax = 15;
 constexpr const char* kAccepted =
-    "can0, vcan0, slcan:tcp:HOST:PORT, slcan:listen:HOST:PORT, slcan:pty:PATH, slcan:tty:PATH@BAUD";
+    "can0, vcan0, slcan:tcp:HOST:PORT, slcan:listen:HOST:PORT (or anyone:PORT), slcan:pty:PATH, "
+    "slcan:tty:PATH@BAUD";
 
 bool refuse(Reason& reason, const char* text, const char* why) {
   snprintf(reason.text, sizeof reason.text, "bus '%.40s': %s; accepted: %s", text, why, kAccepted);

@@ -62,6 +62,16 @@ bool set_line(int descriptor, std::uint32_t baud) {
   return tcgetattr(descriptor, &taken) == 0 && cfgetospeed(&taken) == code;
 }
 
+/// 0.0.0.0 or ::, or the latter around the former.
+bool is_every_address(const sockaddr_storage& address) {
+  if (address.ss_family == AF_INET) {
+    return reinterpret_cast<const sockaddr_in&>(address).sin_addr.s_addr == htonl(INADDR_ANY);
+  }
+  const in6_addr& six = reinterpret_cast<const sockaddr_in6&>(address).sin6_addr;
+  const bool mapped = IN6_IS_ADDR_V4MAPPED(&six) && memcmp(six.s6_addr + 12, "\0\0\0\0", 4) == 0;
+  return address.ss_family == AF_INET6 && (IN6_IS_ADDR_UNSPECIFIED(&six) || mapped);
+}
+
 void close_and_forget(int& descriptor) {
   if (descriptor >= 0) ::close(descriptor);
   descriptor = -1;
@@ -102,13 +112,18 @@ bool ByteLink::resolve(Reason& reason) {
   addrinfo hints{};
   hints.ai_socktype = SOCK_STREAM;
   hints.ai_flags = name_.kind == BusKind::kListen ? AI_PASSIVE : 0;
+  const bool anyone = name_.kind == BusKind::kListen && strcmp(name_.place, kAnyone) == 0;
   addrinfo* found = nullptr;
-  if (const int error = getaddrinfo(name_.place, port, &hints, &found); error != 0) {
+  if (const int error = getaddrinfo(anyone ? nullptr : name_.place, port, &hints, &found); error != 0) {
     return refuse(reason, name_.place, gai_strerror(error));
   }
   memcpy(&address_, found->ai_addr, found->ai_addrlen);
   address_size_ = found->ai_addrlen;
   freeaddrinfo(found);
+  if (name_.kind == BusKind::kListen && !anyone && is_every_address(address_)) {
+    return refuse(reason, name_.place,
+                  "whoever reaches this machine could drive; if that is meant: slcan:listen:anyone:PORT");
+  }
   return true;
 }
 

@@ -1,7 +1,10 @@
 #include "sim_host/campaign/compare.hpp"
 
 #include <cstdio>
+#include <set>
 #include <stdexcept>
+
+#include "sim_host/campaign/record_limits.hpp"
 
 namespace s4tp::campaign {
 namespace {
@@ -35,8 +38,11 @@ Outcomes outcomes_of(const CellResult& cell) {
 
 std::vector<Outcomes> outcomes_of(const nlohmann::ordered_json& document) {
   std::vector<Outcomes> all;
-  const auto first_seed = document.at("first_seed").get<std::uint64_t>();
-  const auto per_run = document.at("episodes_per_run").get<std::uint64_t>();
+  std::set<Cell> known;
+  const std::uint64_t first_seed =
+      whole_number(document.at("first_seed"), "first_seed", 0, kSeedMax - kEpisodesMax);
+  const std::uint64_t per_run =
+      whole_number(document.at("episodes_per_run"), "episodes_per_run", 1, kEpisodesMax);
   for (const auto& run : document.at("runs")) {
     Outcomes outcomes;
     outcomes.cell = {run.at("planner"), run.at("scenario"), run.at("flavour"),
@@ -45,8 +51,17 @@ std::vector<Outcomes> outcomes_of(const nlohmann::ordered_json& document) {
       throw std::runtime_error(words(outcomes.cell) + ": " + run.at("episodes").dump() + " of " +
                                std::to_string(per_run) + " episodes done; only whole runs can be compared");
     }
+    if (known.size() * per_run >= kComparedMax) {
+      throw std::runtime_error("more than " + std::to_string(kComparedMax) + " episodes");
+    }
+    if (!known.insert(outcomes.cell).second) {
+      throw std::runtime_error(words(outcomes.cell) + " is there twice: its episodes would count double");
+    }
     for (std::uint64_t i = 0; i < per_run; ++i) outcomes.failed[first_seed + i] = false;
-    for (const auto& failure : run.at("failures")) outcomes.failed.at(failure.at("seed")) = true;
+    for (const auto& failure : run.at("failures")) {
+      outcomes.failed[whole_number(failure.at("seed"), "seed of a failure", first_seed,
+                                   first_seed + per_run - 1)] = true;
+    }
     all.push_back(std::move(outcomes));
   }
   return all;

@@ -13,6 +13,7 @@
 
 #include "algo/core/versions.hpp"
 #include "sim_host/campaign/digest.hpp"
+#include "sim_host/campaign/record_limits.hpp"
 
 namespace s4tp::campaign {
 namespace {
@@ -71,6 +72,23 @@ void visit_fields(Row& row, const Visit& visit) {
   visit("comp1_obstacle", m.comp1.obstacle);
 }
 
+void read_value(const ordered_json& json, const std::string&, std::string& value) {
+  json.get_to(value);
+}
+void read_value(const ordered_json& json, const std::string&, bool& value) {
+  json.get_to(value);
+}
+void read_value(const ordered_json& json, const std::string& name, std::uint64_t& value) {
+  value = whole_number(json, name, 0, kSeedMax);
+}
+void read_value(const ordered_json& json, const std::string& name, int& value) {
+  value = static_cast<int>(whole_number(json, name, 0, kEpisodesMax));
+}
+void read_value(const ordered_json& json, const std::string& name, double& value) {
+  value = name == "duration_s" ? figure(json, name, 0.0, kDurationMax_s)
+                               : figure(json, name, -kFigureMax, kFigureMax);
+}
+
 }  // namespace
 
 ordered_json cell_json(const Cell& cell) {
@@ -78,6 +96,7 @@ ordered_json cell_json(const Cell& cell) {
 }
 
 Cell cell_of(const ordered_json& json) {
+  if (!json.is_array() || json.size() != 6) throw std::invalid_argument("a cell has six members");
   return {json.at(0), json.at(1), json.at(2), json.at(3), json.at(4), json.at(5)};
 }
 
@@ -145,7 +164,7 @@ EpisodeRow row_of(const ordered_json& line) {
     if constexpr (std::is_same_v<decltype(value), world::Ending&>) {
       value = metrics::ending_of(line.at(key).get<std::string>());
     } else {
-      line.at(key).get_to(value);
+      read_value(line.at(key), key, value);
     }
   });
   return row;
@@ -161,11 +180,13 @@ Part read_part(const std::filesystem::path& file) {
       ordered_json read = ordered_json::parse(line);
       if (number > 1) {
         part.rows.push_back(row_of(read));
+        check_planned(part.header, part.rows.back());
       } else if (read.at("kind") == kKind && read.value("version", 1) != kVersion) {
         throw std::invalid_argument("holds version " + std::to_string(read.value("version", 1)) +
                                     " of the metrics, this program has version " + std::to_string(kVersion) +
                                     "; drive it again, or read it with the program that wrote it");
       } else if (read.at("kind") == kKind) {
+        check_header(read);
         part.header = std::move(read);
       } else {
         throw std::invalid_argument("is of another kind");

@@ -9,6 +9,7 @@
 
 #include "algo/sadrf/presets.hpp"
 #include "sim_host/world/toml_table.hpp"
+#include "sim_host/world/utf8.hpp"
 
 namespace s4tp::campaign {
 namespace {
@@ -47,6 +48,7 @@ bool names_preset(const std::string& group, const std::string& field) {
 }  // namespace
 
 Parameters load_parameters(const std::filesystem::path& file) {
+  world::require_utf8(file);
   Parameters parameters;
   const toml::value root = world::parse_toml(file);
   for (const auto& [group, fields] : root.as_table()) {

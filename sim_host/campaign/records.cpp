@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <map>
-#include <set>
 #include <stdexcept>
+#include <utility>
 
 #include "sim_host/campaign/episode_record.hpp"
 #include "sim_host/campaign/parameters_file.hpp"
+#include "sim_host/campaign/record_limits.hpp"
 
 namespace s4tp::campaign {
 namespace {
@@ -39,8 +40,24 @@ std::vector<fs::path> record_files(const std::vector<fs::path>& paths) {
   return files;
 }
 
+/// From the first to behind the last.
+using Seeds = std::pair<std::uint64_t, std::uint64_t>;
+
+/// How many there are; what is in several counts once.
+std::size_t count(std::vector<Seeds> ranges) {
+  std::sort(ranges.begin(), ranges.end());
+  std::uint64_t counted_to = 0;
+  std::uint64_t sum = 0;
+  for (const auto& [first, end] : ranges) {
+    const std::uint64_t from = std::max(first, counted_to);
+    sum += end > from ? end - from : 0;
+    counted_to = std::max(counted_to, end);
+  }
+  return sum;
+}
+
 Records joined(std::vector<ordered_json> headers, const std::vector<EpisodeRow>& rows) {
-  std::map<Cell, std::set<std::uint64_t>> planned;
+  std::map<Cell, std::vector<Seeds>> planned;
   std::map<Cell, CellResult> results;
   for (CellResult& result : collect(rows)) results.emplace(result.cell, std::move(result));
   Records records;
@@ -49,14 +66,11 @@ Records joined(std::vector<ordered_json> headers, const std::vector<EpisodeRow>&
     for (const ordered_json& json : header.at("cells")) {
       const Cell cell = cell_of(json);
       if (!planned.contains(cell)) records.cells.push_back({{cell, {}, {}}, 0});
-      std::set<std::uint64_t>& seeds = planned[cell];
-      for (std::uint64_t i = 0; i < header.at("episodes").get<std::uint64_t>(); ++i) {
-        seeds.insert(first_seed + i);
-      }
+      planned[cell].emplace_back(first_seed, first_seed + header.at("episodes").get<std::uint64_t>());
     }
   }
   for (ReportedCell& cell : records.cells) {
-    cell.planned = planned.at(cell.result.cell).size();
+    cell.planned = count(planned.at(cell.result.cell));
     const auto found = results.find(cell.result.cell);
     if (found != results.end()) cell.result = std::move(found->second);
   }
@@ -91,6 +105,7 @@ Records read_records(const std::vector<fs::path>& paths) {
     if (!known) headers.push_back(std::move(part.header));
     rows.insert(rows.end(), part.rows.begin(), part.rows.end());
   }
+  check_poolable(headers);
   return joined(std::move(headers), rows);
 }
 

@@ -46,18 +46,35 @@ struct Command {
                                                     const std::filesystem::path& scenario_root,
                                                     const std::filesystem::path& out);
 
+/// FILE-009 A seed is written in digits: CLI11 alone would take -1 for 2^64 - 1. Also the limit of episodes.
+extern const CLI::Validator kSeed;
+extern const CLI::Validator kEpisodes;
+
+/// A folder for a result nobody named one for: `wanted`, or, where a result is already, the next free of
+/// wanted-2, wanted-3, ... FILE-010 It is made here, so that two commands at the same time never get the same
+/// one. \throws std::runtime_error
+[[nodiscard]] std::filesystem::path folder_of_its_own(const std::filesystem::path& wanted);
+
+/// `eval --scenario left_turn merge` names two scenarios, one of which has a subcommand's name: the names
+/// that follow a list's option become one argument, joined with commas. \param arguments  as main() has them,
+/// without the program
+[[nodiscard]] std::vector<std::string> with_lists_joined(const std::vector<std::string>& arguments);
+
 /// Options that commands share, with the same words and meaning everywhere.
 struct CommonOptions {
   std::filesystem::path scenario_root = S4TP_SCENARIOS;
   std::string flavour = "smarts";
   std::string parameters_file;
   std::filesystem::path out;
+  const CLI::Option* out_named = nullptr;
   std::uint64_t seed = 0;
   std::string traffic = "builtin";
 
   void add_to(CLI::App& command);
   void add_traffic_to(CLI::App& command);
   [[nodiscard]] Parameters parameters() const;
+  /// Where nobody named --out, a folder of this command's own. \throws std::runtime_error
+  void choose_out();
   /// A scenario by the name of a shipped one, by its folder or its .toml file; in the flavour asked for.
   [[nodiscard]] world::Scenario find_scenario(const std::string& name) const;
 };

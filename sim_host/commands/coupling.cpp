@@ -86,12 +86,12 @@ Command add_coupling(CLI::App& tool) {
   CLI::App* coupling =
       tool.add_subcommand("coupling", "how often SUMO's traffic touches an ego through no fault of its own");
   const auto options = std::make_shared<Options>();
-  coupling->add_option("--seed,--first-seed", options->common.seed, "first seed (default 0)");
+  coupling->add_option("--seed,--first-seed", options->common.seed, "first seed (default 0)")->check(kSeed);
   coupling->add_option("--flavour", options->common.flavour, "smarts (default) or social");
   coupling->add_option("--scenarios-folder", options->common.scenario_root, "where shipped scenarios lie");
   coupling->add_option("--scenarios", options->scenarios, "shipped names or folders")->delimiter(',');
   coupling->add_option("--episodes", options->episodes, "per scenario and driver (default 50)")
-      ->check(CLI::PositiveNumber);
+      ->check(kEpisodes);
   return {coupling, [options] { return measure(*options); }};
 }
 

@@ -120,9 +120,11 @@ Command add_demo(CLI::App& tool) {
   const auto options = std::make_shared<Options>();
   options->common.out = std::filesystem::path("out") / "demo";
   options->common.add_to(*app);
-  app->add_option("--episodes", options->episodes, "per scenario and planner (default 20)")
-      ->check(CLI::PositiveNumber);
-  return {app, [options] { return demo(options->common, options->episodes); }};
+  app->add_option("--episodes", options->episodes, "per scenario and planner (default 20)")->check(kEpisodes);
+  return {app, [options] {
+            options->common.choose_out();
+            return demo(options->common, options->episodes);
+          }};
 }
 
 }  // namespace s4tp::commands

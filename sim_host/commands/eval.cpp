@@ -251,8 +251,9 @@ Command add_eval(CLI::App& tool) {
   eval->add_option("--perception", plan.perception,
                    "ideal (default), or real: noise, latency, dropouts, occlusion")
       ->check(CLI::IsMember(world::perception_names()));
-  eval->add_option("--episodes", plan.episodes, "per cell (default 20)")->check(CLI::PositiveNumber);
-  eval->add_option("--first-seed,--seed", options->common.seed, "the others follow (default 0)");
+  eval->add_option("--episodes", plan.episodes, "per cell (default 20)")->check(kEpisodes);
+  eval->add_option("--first-seed,--seed", options->common.seed, "the others follow (default 0)")
+      ->check(kSeed);
   eval->add_option("--parameters", options->common.parameters_file,
                    "TOML file of planner parameters (docs/parameters.md)");
   eval->add_option("--jobs", options->jobs, "episodes at a time (default: one a core)")

@@ -94,21 +94,26 @@ Command add_faults(CLI::App& tool) {
   const auto options = std::make_shared<FaultsOptions>();
   options->common.out = fs::path("out") / "faults";
   options->campaign.isolation.jobs = static_cast<int>(std::thread::hardware_concurrency());
-  app->add_option("--scripts", options->campaign.scripts, "how many (default 10000)")
-      ->check(CLI::PositiveNumber);
-  app->add_option("--first-seed", options->campaign.first_seed, "of the scripts (default 10000)");
+  app->add_option("--scripts", options->campaign.scripts, "how many (default 10000)")->check(kEpisodes);
+  app->add_option("--first-seed", options->campaign.first_seed, "of the scripts (default 10000)")
+      ->check(kSeed);
   app->add_option("--jobs", options->campaign.isolation.jobs, "processes at a time (default: one per core)")
       ->check(CLI::PositiveNumber);
   app->add_option("--scenarios", options->scenarios, "shipped names or folders")->delimiter(',');
-  app->add_option("--out", options->common.out, "folder for JSON and the failing script");
+  options->common.out_named =
+      app->add_option("--out", options->common.out, "folder for JSON and the failing script");
   app->add_option("--scenarios-folder", options->common.scenario_root, "where shipped scenarios lie");
-  CLI::Option* const seed = app->add_option("--seed", options->common.seed, "only this one, with its story");
+  CLI::Option* const seed =
+      app->add_option("--seed", options->common.seed, "only this one, with its story")->check(kSeed);
   CLI::Option* const script = app->add_option("--script", options->script, "only the one in this file");
   seed->excludes(script);
   return {app, [options, seed, script] {
             const faults::Scenarios scenarios = load(*options);
             if (script->count() > 0) return judge_one(scenarios, read_script(options->script));
-            if (seed->count() == 0) return judge_many(*options, scenarios);
+            if (seed->count() == 0) {
+              options->common.choose_out();
+              return judge_many(*options, scenarios);
+            }
             std::vector<std::string> names;
             for (const auto& [name, scenario] : scenarios) names.push_back(name);
             return judge_one(scenarios, faults::make_script(options->common.seed, names));

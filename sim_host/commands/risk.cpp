@@ -103,8 +103,8 @@ Command add_risk(CLI::App& tool) {
       ->delimiter(',');
   threshold->add_option("--flavour", options->flavours, "smarts, social (default: both)")->delimiter(',');
   threshold->add_option("--episodes", options->calibration.episodes, "per scenario and flavour (default 10)")
-      ->check(CLI::PositiveNumber);
-  threshold->add_option("--seed,--first-seed", options->common.seed, "first seed (default 0)");
+      ->check(kEpisodes);
+  threshold->add_option("--seed,--first-seed", options->common.seed, "first seed (default 0)")->check(kSeed);
   threshold->add_option("--seconds", options->calibration.duration_s, "length of an episode (default 60)")
       ->check(CLI::Range(10.0, 3600.0));
   threshold->add_option("--json", options->json, "write the figures here");

@@ -83,8 +83,8 @@ Command add_roads(CLI::App& tool) {
       tool.add_subcommand("roads", "draws roads: scenario folders, each a function of its number");
   const auto options = std::make_shared<RoadsOptions>();
   options->common.out = std::filesystem::path("out") / "roads";
-  roads->add_option("--seed", options->common.seed,
-                    "number of the first road; the others follow (default 0)");
+  roads->add_option("--seed", options->common.seed, "number of the first road; the others follow (default 0)")
+      ->check(kSeed);
   roads->add_option("--count", options->count, "how many (default 10)")->check(CLI::PositiveNumber);
   roads->add_option("--out", options->common.out,
                     "a folder FAMILY_NUMBER for each comes here (default out/roads)");

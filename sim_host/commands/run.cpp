@@ -181,6 +181,7 @@ Command add_run(CLI::App& tool) {
       run->add_flag("--vm", options->machine, "the vcan of a virtual machine, as where the kernel has no CAN")
           ->needs(bus);
   return {run, [=] {
+            options->common.choose_out();
             if (!options->target.empty()) return run_on_target(*options);
             if (options->bus.empty()) return run_one(*options);
             if (!needs_machine(options->bus, options->machine)) return run_on_bus(*options);
@@ -188,7 +189,11 @@ Command add_run(CLI::App& tool) {
             fs::create_directories(options->common.out);
             std::vector<fs::path> written{options->common.out};
             if (!options->log.empty()) written.push_back(fs::absolute(options->log).parent_path());
-            run_in_machine(options->bus, arguments_of(*run, machine), written);
+            std::vector<std::string> arguments = arguments_of(*run, machine);
+            if (options->common.out_named->count() == 0) {
+              arguments.push_back("--out=" + options->common.out.string());
+            }
+            run_in_machine(options->bus, arguments, written);
           }};
 }
 

@@ -65,8 +65,8 @@ Command add_traffic(CLI::App& tool) {
       ->delimiter(',')
       ->check(CLI::IsMember(world::engine_names()));
   traffic->add_option("--episodes", options->watch.episodes, "per scenario, flavour and engine (default 20)")
-      ->check(CLI::PositiveNumber);
-  traffic->add_option("--seed,--first-seed", options->common.seed, "first seed (default 0)");
+      ->check(kEpisodes);
+  traffic->add_option("--seed,--first-seed", options->common.seed, "first seed (default 0)")->check(kSeed);
   traffic->add_option("--seconds", options->watch.duration_s, "length of an episode (default 120)")
       ->check(CLI::Range(10.0, 3600.0));
   traffic->add_flag("--neutral-driver", options->watch.neutral_driver,

@@ -193,7 +193,8 @@ Command add_train(CLI::App& tool) {
   const auto options = std::make_shared<DataOptions>();
   data->add_option("--out", options->common.out, "folder of the data set")->required();
   data->add_option("--seed,--first-seed", options->common.seed,
-                   "first seed of the shipped scenarios (default 0)");
+                   "first seed of the shipped scenarios (default 0)")
+      ->check(kSeed);
   data->add_option(
           "--rounds", options->rounds,
           "seeds of each shipped scenario in both flavours; the roads spread over them (default 100)")

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "hal/linux/bus_name.hpp"
 #include "sim_host/campaign/results.hpp"
 #include "sim_host/metrics/metrics.hpp"
 #include "sim_host/processes/bus_end.hpp"
@@ -32,7 +33,10 @@ nlohmann::json timing_of(const WorldProcessResult& result, const std::filesystem
 
 std::string other_end(const std::string& bus) {
   const std::string listener = kListener;
-  return bus.starts_with(listener) ? kCaller + bus.substr(listener.size()) : bus;
+  if (!bus.starts_with(listener)) return bus;
+  const std::string place = bus.substr(listener.size());
+  const std::string anyone = std::string(hal::linux_host::kAnyone) + ':';
+  return kCaller + (place.starts_with(anyone) ? "127.0.0.1:" + place.substr(anyone.size()) : place);
 }
 
 bool has_two_ends(const std::string& bus) {

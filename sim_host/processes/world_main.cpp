@@ -25,7 +25,11 @@ int main(int argc, char** argv) {
   app.add_option("--flavour", flavour,
                  "of the scenario: smarts (default: as written), social, or another it has");
   app.add_option("--scenarios-folder", scenario_root, "where shipped scenarios lie");
-  app.add_option("--seed", options.world.seed, "of the traffic (default 0)");
+  app.add_option("--seed", options.world.seed, "of the traffic (default 0)")
+      ->check([](const std::string& text) {  // CLI11 alone takes -1 for 2^64 - 1
+        return text.find_first_not_of("0123456789") == std::string::npos ? ""
+                                                                         : text + ": accepted are digits";
+      });
   app.add_option("--traffic", traffic, "who simulates it: builtin (default) or sumo (Debian's sumo)")
       ->check(CLI::IsMember(world::engine_names()));
   app.add_option("--wait-ecu", options.world.wait_s,

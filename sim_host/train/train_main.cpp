@@ -96,7 +96,12 @@ void add_run(CLI::App& tool, RunOptions& options) {
   command.add_option("--out", options.out, "folder of checkpoint and learning curve")->required();
   command.add_option("--size", options.size, "mcu or teacher")->check(CLI::IsMember({"mcu", "teacher"}));
   TrainingOptions& training = options.training;
-  command.add_option("--seed", training.seed, "of everything random")->capture_default_str();
+  command.add_option("--seed", training.seed, "of everything random")
+      ->capture_default_str()
+      ->check([](const std::string& text) {  // CLI11 alone takes -1 for 2^64 - 1
+        return text.find_first_not_of("0123456789") == std::string::npos ? ""
+                                                                         : text + ": accepted are digits";
+      });
   command.add_option("--steps", training.steps, "gradient steps; fewer where the data runs out")
       ->capture_default_str();
   command.add_option("--batch", training.batch, "scenes a step")

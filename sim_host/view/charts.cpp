@@ -120,7 +120,10 @@ std::string outcome_chart(const Cells& cells) {
     const std::vector<double> times_s = goal_times(*cell);
     if (!times_s.empty()) longest_s = std::max(longest_s, metrics::percentile(times_s, 0.95));
   }
-  const double step_s = longest_s > 40.0 ? 20.0 : longest_s > 20.0 ? 10.0 : 5.0;
+  const double step_s = longest_s > 200.0  ? std::ceil(longest_s / 1000.0) * 100.0
+                        : longest_s > 40.0 ? 20.0
+                        : longest_s > 20.0 ? 10.0
+                                           : 5.0;
   const Panel success{kLabelPx, 100.0, 25.0, "reaches the goal [%]"};
   const Panel time{success.left_px + kPanelPx + kCountPx + kBetweenPx, std::ceil(longest_s / step_s) * step_s,
                    step_s, "time to goal [s], those that reach it"};

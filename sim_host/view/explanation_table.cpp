@@ -53,10 +53,11 @@ void print_explanations(std::ostream& out, const campaign::Trace& trace, double 
                   static_cast<double>(plan.trajectory.points[0].speed_mps), e.chosen.path,
                   e.status == Status::kOk ? intent_name(e.chosen.intent) : "-",
                   static_cast<double>(accelerations), e.candidate_count, rejected(e, Rejection::kInfeasible),
-                  rejected(e, Rejection::kRefused), static_cast<double>(c.progress), static_cast<double>(c.speed), static_cast<double>(c.jerk),
-                  static_cast<double>(c.lateral), static_cast<double>(c.lane), static_cast<double>(c.risk),
-                  static_cast<double>(c.total()), static_cast<double>(e.runner_up_cost.total()),
-                  e.dominating_track, held_up_name(e.held_up.verdict.cause), e.held_up.track);
+                  rejected(e, Rejection::kRefused), static_cast<double>(c.progress),
+                  static_cast<double>(c.speed), static_cast<double>(c.jerk), static_cast<double>(c.lateral),
+                  static_cast<double>(c.lane), static_cast<double>(c.risk), static_cast<double>(c.total()),
+                  static_cast<double>(e.runner_up_cost.total()), e.dominating_track,
+                  held_up_name(e.held_up.verdict.cause), e.held_up.track);
     out << line;
   }
 }

@@ -8,11 +8,21 @@
 
 #include "sim_host/world/find_route.hpp"
 #include "sim_host/world/flow_attributes.hpp"
+#include "sim_host/world/traffic_limits.hpp"
 #include "sim_host/world/vehicle_types.hpp"
 #include "sim_host/world/xml_values.hpp"
 
 namespace s4tp::world {
 namespace {
+
+/// Draws made for a flow before the episode begins.
+double draws_of(const DemandFlow& flow) {
+  const double span_s = std::max(std::min(flow.end_s, kCarsCounted_s) - flow.begin_s, 0.0);
+  const double period_s = flow.spacing == DemandFlow::Spacing::kPerSecond ? 1.0 : flow.period_s;
+  return flow.spacing == DemandFlow::Spacing::kPerSecond
+             ? span_s
+             : std::min(span_s / period_s + 1.0, static_cast<double>(flow.number));
+}
 
 class Reader {
  public:
@@ -29,15 +39,12 @@ class Reader {
   }
 
  private:
-  /// A route as named in the file: one or, of a distribution, several.
-  struct Choice {
-    std::vector<std::vector<std::string>> edges;
-    std::vector<double> weights;
-  };
+  /// A route as named in the file: one or, of a distribution, several, each once, with their weights.
+  using Choice = std::map<std::size_t, double>;  ///< by index into ways_
 
   void read_routes(const pugi::xml_node& root) {
     for (const pugi::xml_node node : root.children("route")) {
-      named_[node.attribute("id").value()] = {{edges_of(node)}, {1.0}};
+      named_[node.attribute("id").value()] = {{way(edges_of(node)), 1.0}};
     }
     for (const pugi::xml_node node : root.children("routeDistribution")) {
       named_[node.attribute("id").value()] = distribution(node);
@@ -52,6 +59,37 @@ class Reader {
     return edges;
   }
 
+  /// Equal ones have one index.
+  std::size_t way(const std::vector<std::string>& edges) {
+    const auto [entry, is_new] = way_index_.try_emplace(edges, ways_.size());
+    if (is_new) {
+      ways_.push_back(edges);
+    }
+    return entry->second;
+  }
+
+  void count_choices(const pugi::xml_node& node, std::size_t more) {
+    choices_ += more;
+    if (choices_ > kChoicesMax) {
+      fail_at(node,
+              "the file has more than " + std::to_string(kChoicesMax) + " routes and drivers to choose from");
+    }
+  }
+
+  /// Distributions of distributions grow fast; weights grow with them.
+  void add(const pugi::xml_node& node, std::size_t way, double weight, Choice& to) {
+    const auto [entry, is_new] = to.try_emplace(way, 0.0);
+    entry->second += weight;
+    count_choices(node, is_new ? 1 : 0);
+    if (to.size() > kChoiceMax) {
+      fail_at(node, "more than " + std::to_string(kChoiceMax) + " routes to choose from");
+    }
+    if (entry->second > kWeightMax) {
+      fail_at(node, "a route of more than " + std::to_string(static_cast<long>(kWeightMax)) +
+                        " times the weight of another");
+    }
+  }
+
   Choice distribution(const pugi::xml_node& node) {
     Choice choice;
     for (const pugi::xml_node route : node.children("route")) {
@@ -59,10 +97,10 @@ class Reader {
         append(node, refers.value(), attribute_number(route, "probability", 1.0, 0.0, 1e9), choice);
         continue;
       }
-      choice.edges.push_back(edges_of(route));
-      choice.weights.push_back(attribute_number(route, "probability", 1.0, 0.0, 1e9));
+      const std::size_t own = way(edges_of(route));
+      add(node, own, attribute_number(route, "probability", 1.0, 0.0, 1e9), choice);
       if (route.attribute("id")) {
-        named_[route.attribute("id").value()] = {{choice.edges.back()}, {1.0}};
+        named_[route.attribute("id").value()] = {{own, 1.0}};
       }
     }
     const std::vector<std::string> names = words_in(node.attribute("routes").value());
@@ -76,20 +114,19 @@ class Reader {
       }
       append(node, names[i], weight, choice);
     }
-    if (choice.edges.empty()) {
+    if (choice.empty()) {
       fail_at(node, "expected at least one route");
     }
     return choice;
   }
 
-  void append(const pugi::xml_node& node, const std::string& name, double weight, Choice& to) const {
+  void append(const pugi::xml_node& node, const std::string& name, double weight, Choice& to) {
     const auto found = named_.find(name);
     if (found == named_.end()) {
       fail_at(node, "there is no <route id=\"" + name + "\">");
     }
-    to.edges.insert(to.edges.end(), found->second.edges.begin(), found->second.edges.end());
-    for (const double own : found->second.weights) {
-      to.weights.push_back(weight * own);
+    for (const auto& [way, own] : found->second) {
+      add(node, way, weight * own, to);
     }
   }
 
@@ -132,6 +169,10 @@ class Reader {
     if (kinds == nullptr) {
       fail_at(node, "there is no <vType id=\"" + type + "\">");
     }
+    if (kinds->size() > kDriversMax) {
+      fail_at(node, "more than " + std::to_string(kDriversMax) + " kinds of drivers to choose from");
+    }
+    count_choices(node, kinds->size());
     bool car = false;
     for (const VehicleType& kind : *kinds) {
       if (kind.use != RoadUse::kElsewhere) {
@@ -166,12 +207,16 @@ class Reader {
       leave_out("<" + std::string(node.name()) + "> of type \"" + type + "\" on a way closed to cars");
       return;
     }
+    cars_ += draws_of(flow);
+    if (cars_ > kCarsMax) {
+      fail_at(node, "more than " + std::to_string(static_cast<int>(kCarsMax)) + " cars, with those before");
+    }
     demand_.flows.push_back(std::move(flow));
   }
 
   Choice choice_of(const pugi::xml_node& node) {
     if (const pugi::xml_node own = node.child("route")) {
-      return {{edges_of(own)}, {1.0}};
+      return {{way(edges_of(own)), 1.0}};
     }
     if (const pugi::xml_node own = node.child("routeDistribution")) {
       return distribution(own);
@@ -192,20 +237,19 @@ class Reader {
     std::vector<std::string> edges{stations.front()};
     for (std::size_t i = 1; i < stations.size(); ++i) {
       try {
-        const std::vector<std::string> way = find_route(network_, stations[i - 1], stations[i]);
-        edges.insert(edges.end(), way.begin() + 1, way.end());
+        const std::vector<std::string> on = find_route(network_, stations[i - 1], stations[i]);
+        edges.insert(edges.end(), on.begin() + 1, on.end());
       } catch (const std::runtime_error& error) {
         fail_at(node, error.what());
       }
     }
-    return {{edges}, {1.0}};
+    return {{way(edges), 1.0}};
   }
 
   void add_routes(const pugi::xml_node& node, DemandFlow& flow) {
     const std::string arrival = node.attribute("arrivalLane").as_string("current");
-    Choice choice = choice_of(node);
-    for (std::size_t i = 0; i < choice.edges.size(); ++i) {
-      std::vector<std::string>& edges = choice.edges[i];
+    for (const auto& [chosen, weight] : choice_of(node)) {
+      std::vector<std::string> edges = ways_[chosen];
       std::set<std::string> seen;
       const auto again = std::find_if(edges.begin(), edges.end(),
                                       [&](const std::string& e) { return !seen.insert(e).second; });
@@ -225,7 +269,7 @@ class Reader {
                 quoted(node, "departLane") + ": edge \"" + edges.front() + "\" has no such lane for cars");
       }
       flow.routes.push_back(index_of(node, route));
-      flow.route_weights.push_back(choice.weights[i]);
+      flow.route_weights.push_back(weight);
     }
   }
 
@@ -247,7 +291,11 @@ class Reader {
 
   const Network& network_;
   VehicleTypes types_;
+  std::vector<std::vector<std::string>> ways_;  ///< lists of edges, as they stand in the file
+  std::map<std::vector<std::string>, std::size_t> way_index_;
   std::map<std::string, Choice> named_;
+  std::size_t choices_ = 0;  ///< of all that was built
+  double cars_ = 0.0;
   std::map<std::pair<std::vector<std::string>, int>, std::size_t> index_;
   std::map<std::string, int> left_out_;
   Demand demand_;

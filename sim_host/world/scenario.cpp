@@ -10,10 +10,13 @@
 #include "sim_host/world/find_route.hpp"
 #include "sim_host/world/route_file.hpp"
 #include "sim_host/world/toml_table.hpp"
+#include "sim_host/world/traffic_limits.hpp"
+#include "sim_host/world/utf8.hpp"
 
 namespace s4tp::world {
 namespace {
 
+constexpr std::size_t kMixMax = 100;
 constexpr double kReach_m = 1300.0;  ///< of Pose on the bus, with something to spare
 constexpr double kEnd = std::numeric_limits<double>::infinity();  ///< of a lane
 constexpr double kAsTheLane = -1.0;                               ///< the lane's end, the lane's limit
@@ -138,8 +141,8 @@ std::vector<DriverModel> read_drivers(TomlTable& traffic, const std::filesystem:
       drivers.back().weight = kind.number("weight", 1.0, 0.001, 1000.0);
       kind.no_other_keys();
     }
-    if (drivers.empty()) {
-      traffic.fail("mix", "expected at least one kind of driver");
+    if (drivers.empty() || drivers.size() > kMixMax) {
+      traffic.fail("mix", "expected 1 to " + std::to_string(kMixMax) + " kinds of drivers");
     }
     return drivers;
   };
@@ -229,8 +232,16 @@ void read_traffic(TomlTable traffic, Scenario& scenario) {
     }
   } else {
     const std::vector<DriverModel> drivers = read_drivers(traffic, scenario.folder);
+    double cars = 0.0;
     for (const TomlTable& flow : traffic.tables("flow")) {
       scenario.flows.push_back(read_flow(flow, scenario.network, drivers));
+      const FlowGroup& group = scenario.flows.back();
+      const double routes = std::min<double>(group.choose_high, static_cast<double>(group.routes.size()));
+      cars += routes * group.vehicles_per_minute.high * kCarsCounted_s / 60.0;
+      if (cars > kCarsMax) {
+        traffic.fail("flow", "more than " + std::to_string(static_cast<int>(kCarsMax)) + " cars until " +
+                                 std::to_string(static_cast<int>(kCarsCounted_s)) + " s");
+      }
     }
   }
   traffic.no_other_keys();
@@ -286,6 +297,8 @@ Scenario load_scenario(const std::filesystem::path& path, const std::string& fla
                              "or such a file itself");
   }
   const fs::path whole = fs::weakly_canonical(file);
+  require_utf8(path);
+  require_utf8(whole.filename() == "scenario.toml" ? whole.parent_path().filename() : whole.stem());
   const std::string shown = file.string() + (flavour.empty() ? "" : " (" + flavour + ")");
   const toml::value document = in_flavour(parse_toml(file), shown, flavour);
   TomlTable table(shown, "", document);

@@ -20,7 +20,7 @@ std::string name_of(int percent) {
 
 /// The firmware's planner with that share of each stage's allowance.
 template <int kPercent>
-class Rationed : public Planner {
+class Rationed final : public PlanningCycle {
  public:
   Rationed() {
     for (int* const units : {&allowance.candidates, &allowance.prediction, &allowance.decisions,

@@ -246,5 +246,56 @@ TEST(Campaign, WrongUse) {
   EXPECT_EQ(eval({"merge", folder / "nowhere", "--json", folder / "x.json"}, folder / "said"), 2);
 }
 
+// FILE-009 A seed below zero was 2^64 - 1 and more; beyond what a seed can be it was another one.
+TEST(Campaign, SeedsAreWrittenInDigits) {
+  const fs::path folder = scratch();
+  for (const std::string seed : {"-1", "1e3", "18446744073709551615", "", "+1"}) {
+    EXPECT_EQ(eval(campaign(folder / "out", {"--seed", seed}), folder / "said"), 2) << seed;
+    EXPECT_NE(content(folder / "said").find("accepted is a whole number"), std::string::npos)
+        << content(folder / "said");
+  }
+  EXPECT_EQ(eval(campaign(folder / "out", {"--episodes", "1000000000000"}), folder / "said"), 2);
+}
+
+// `merge` is a scenario after --scenario, and a subcommand after eval.
+TEST(Campaign, AScenarioMayHaveASubcommandsName) {
+  const fs::path folder = scratch();
+  ASSERT_EQ(eval({"--planner", "constant_speed", "--guard", "off", "--episodes", "1", "--scenario",
+                  "overtake", "merge", "--out", folder / "out"},
+                 folder / "said"),
+            0)
+      << content(folder / "said");
+  const auto numbers = nlohmann::json::parse(content(folder / "out" / "results.json"));
+  ASSERT_EQ(numbers.at("runs").size(), 2U);
+  EXPECT_EQ(numbers.at("runs").at(1).at("scenario"), "merge");
+}
+
+// FILE-010 A second run without --out, and a third at the same time, leave the first one's result alone and
+// say where theirs is.
+TEST(Campaign, DefaultFoldersAreNotOverwritten) {
+  const fs::path folder = scratch();
+  const std::string tool = fs::path(S4TP_BINARY_DIR) / "sim_host" / "s4tp_tool";
+  const auto run = [&](const std::string& seed) {
+    return "cd " + folder.string() + " && " + tool +
+           " run --scenario overtake --planner constant_speed --seed " + seed + " >said" + seed + " 2>&1";
+  };
+  (void)std::system(run("3").c_str());
+  const std::string first = content(folder / "out" / "run" / "run.json");
+  ASSERT_FALSE(first.empty()) << content(folder / "said3");
+  (void)std::system(("(" + run("4") + ") & (" + run("5") + ") & wait").c_str());
+  EXPECT_EQ(content(folder / "out" / "run" / "run.json"), first);
+  std::vector<int> seeds;
+  for (const char* const name : {"run-2", "run-3"}) {
+    seeds.push_back(nlohmann::json::parse(content(folder / "out" / name / "run.json"))
+                        .at("episode")
+                        .at("seed")
+                        .get<int>());
+  }
+  std::sort(seeds.begin(), seeds.end());
+  EXPECT_EQ(seeds, (std::vector<int>{4, 5}));
+  EXPECT_NE(content(folder / "said4").find("holds a result already"), std::string::npos)
+      << content(folder / "said4");
+}
+
 }  // namespace
 }  // namespace s4tp

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "hal/linux/named_bus.hpp"
+#include "tests/support/free_port.hpp"
 
 namespace s4tp::hal::linux_host {
 namespace {
@@ -64,6 +65,22 @@ TEST(NamedBus, RefusesWhatIsNotThere) {
     Reason reason;
     EXPECT_FALSE(bus.open(text.c_str(), {}, reason)) << text;
     EXPECT_NE(std::string(reason.text), "") << text;
+  }
+}
+
+// LINUX-042 All of a machine's addresses, in any spelling, want the word for it; one address does not.
+TEST(NamedBus, ListensToEverybodyOnlyWhenTold) {
+  for (const std::string host : {"0.0.0.0", "0", "::", "::ffff:0.0.0.0"}) {
+    NamedBus bus;
+    Reason reason;
+    EXPECT_FALSE(bus.open(("slcan:listen:" + host + ":" + test::free_port()).c_str(), {}, reason)) << host;
+    EXPECT_NE(std::string(reason.text).find("slcan:listen:anyone:PORT"), std::string::npos) << reason.text;
+  }
+  for (const std::string host : {"anyone", "127.0.0.1"}) {
+    NamedBus bus;
+    Reason reason;
+    EXPECT_TRUE(bus.open(("slcan:listen:" + host + ":" + test::free_port()).c_str(), {}, reason))
+        << reason.text;
   }
 }
 

@@ -189,9 +189,9 @@ TEST(PlanWords, NumbersForAnEngineer) {
   e.dominating_step = 11;
   e.work[static_cast<int>(Stage::kPredict)] = 150;
   const std::string numbers = in_numbers(cycle);
-  for (const char* part : {"cost -17.5 = progress -20.0", "risk 2.5", "runner-up: right", "cost -15.0",
-                           "of 4: 1 infeasible, 2 refused by the guard", "track 7 (the car ahead) at +1.2 s",
-                           "predict 150"}) {
+  for (const char* part :
+       {"cost -17.5 = progress -20.0", "risk 2.5", "runner-up: right", "cost -15.0",
+        "of 4: 1 infeasible, 2 refused by the guard", "track 7 (the car ahead) at +1.2 s", "predict 150"}) {
     EXPECT_NE(numbers.find(part), std::string::npos) << part << "\n" << numbers;
   }
 }

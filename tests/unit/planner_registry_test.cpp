@@ -1,12 +1,12 @@
 // Planners that register themselves, and the guard put around them.
 
-#include "sim_host/baselines/bare.hpp"
 #include "sim_host/campaign/planner_registry.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
+#include "sim_host/baselines/bare.hpp"
 #include "sim_host/campaign/episode.hpp"
 
 namespace s4tp::campaign {

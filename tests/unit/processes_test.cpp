@@ -447,6 +447,7 @@ TEST(BusEnd, SidesShareOutTheMessages) {
 // A listener's other end calls; a network interface has one name for both; a device has one end only.
 TEST(BusEnd, OtherEnds) {
   EXPECT_EQ(other_end("slcan:listen:127.0.0.1:5000"), "slcan:tcp:127.0.0.1:5000");
+  EXPECT_EQ(other_end("slcan:listen:anyone:5000"), "slcan:tcp:127.0.0.1:5000");
   EXPECT_EQ(other_end("vcan0"), "vcan0");
   EXPECT_TRUE(has_two_ends("vcan0"));
   EXPECT_TRUE(has_two_ends("slcan:listen:127.0.0.1:5000"));

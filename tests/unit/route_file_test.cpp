@@ -145,6 +145,57 @@ TEST(RouteFile, ErrorsNameTheElement) {
   }
 }
 
+// FILE-002 Each of 40 distributions names the one before twice: 2^40 routes, which were 4 GB at the 26th.
+// They are one route.
+TEST(RouteFile, NestedDistributionsStaySmall) {
+  std::string text = R"(<routeDistribution id="d0"><route id="r" edges="west_in east_out"/>)"
+                     R"(<route id="s" edges="south_in north_out" probability="3"/></routeDistribution>)";
+  for (int i = 1; i < 40; ++i) {
+    const std::string before = "d" + std::to_string(i - 1);
+    text += "<routeDistribution id=\"d" + std::to_string(i) + "\" routes=\"" + before + " " + before +
+            "\" probabilities=\"0.5 0.5\"/>";
+  }
+  const Demand demand = demand_of(text + R"(<flow id="f" route="d39" period="0.25"/>)");
+  ASSERT_EQ(demand.flows.at(0).route_weights.size(), 2U);
+  EXPECT_DOUBLE_EQ(demand.flows[0].route_weights[1], 3.0 * demand.flows[0].route_weights[0]);
+}
+
+// FILE-002 Weights that grow without bound, lists of choices that together do, and kinds of drivers are
+// refused by name.
+TEST(RouteFile, ChoicesAreBounded) {
+  std::string heavy = R"(<route id="d0" edges="west_in east_out"/>)";
+  for (int i = 1; i < 40; ++i) {
+    heavy += "<routeDistribution id=\"d" + std::to_string(i) + "\" routes=\"d" + std::to_string(i - 1) +
+             "\" probabilities=\"1e9\"/>";
+  }
+  EXPECT_NE(error_of(heavy).find("the weight of another"), std::string::npos) << error_of(heavy);
+  std::string many = "<routeDistribution id=\"d0\">";
+  for (int i = 0; i < 2'000; ++i) many += "<route edges=\"e" + std::to_string(i) + "\"/>";
+  many += "</routeDistribution>";
+  for (int i = 0; i < 600; ++i) many += "<routeDistribution id=\"d\" routes=\"d0\"/>";
+  EXPECT_NE(error_of(many).find("1000000 routes and drivers to choose from"), std::string::npos);
+  std::string kinds = "<vType id=\"a\"/><vTypeDistribution id=\"k\" vTypes=\"";
+  for (int i = 0; i < 1'001; ++i) kinds += "a ";
+  kinds += R"("/><flow id="f" type="k" from="west_in" to="east_out" period="5"/>)";
+  EXPECT_NE(error_of(kinds).find("more than 1000 kinds of drivers"), std::string::npos) << error_of(kinds);
+}
+
+// FILE-003 Ten million cars, or fewer from long before the beginning, were drawn one by one before anything
+// drove; the limit holds for all flows together.
+TEST(RouteFile, CarsAreBounded) {
+  const std::string flow = R"(<flow id="f" from="west_in" to="east_out" )";
+  for (const std::string spacing :
+       {R"(begin="0" end="100" number="10000000"/>)", R"(begin="-900000" period="0.01"/>)",
+        R"(begin="-900000" probability="0"/>)", R"(vehsPerHour="1000000"/>)",
+        R"xml(period="exp(100)"/>)xml"}) {
+    EXPECT_NE(error_of(flow + spacing).find("more than 200000 cars"), std::string::npos) << spacing;
+  }
+  std::string many;
+  for (int i = 0; i < 60; ++i) many += flow + R"(vehsPerHour="3600"/>)";
+  EXPECT_NE(error_of(many).find("more than 200000 cars"), std::string::npos);
+  EXPECT_EQ(error_of(flow + R"(number="10000000" period="10"/>)"), "no error");  // 480 of them ever depart
+}
+
 // Episode i takes file i modulo their number: of two files with one car each, the even ones' comes from the
 // west.
 TEST(RouteFile, EpisodesTakeTheFilesInTurn) {

@@ -150,6 +150,21 @@ TEST(Scenario, ErrorsSayWhatIsAccepted) {
   }
 }
 
+// FILE-003 Traffic drawn by the scenario itself has the same limit: 24 routes of 120 cars a minute are
+// 230,400 in 4,800 s.
+TEST(Scenario, CarsAreBounded) {
+  std::string routes;
+  for (int i = 0; i < 24; ++i) routes += "{ edges = [\"south_in\", \"north_out\"] },";
+  std::string text = replaced(kScenario, "vehicles_per_minute = [5, 10]", "vehicles_per_minute = [5, 120]");
+  text = replaced(text, "choose = 1", "choose = 24");
+  text = replaced(text, "{ edges = [\"south_in\", \"north_out\"] }", routes);
+  EXPECT_NE(error_of(text).find("more than 200000 cars"), std::string::npos) << error_of(text);
+  EXPECT_EQ(error_of(replaced(text, "choose = 24", "choose = [1, 20]")), "no error");
+  std::string mix;
+  for (int i = 0; i < 101; ++i) mix += "[[traffic.mix]]\n";
+  EXPECT_NE(error_of(kScenario + mix).find("1 to 100 kinds"), std::string::npos) << error_of(kScenario + mix);
+}
+
 // A scenario is named by its folder or by its own file, whatever that is called; route files lie beside it.
 TEST(Scenario, IsNamedByFolderOrFile) {
   const Folder folder;
