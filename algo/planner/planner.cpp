@@ -300,14 +300,13 @@ void PlanningCycle::refine(const Candidate& candidate, Explanation& explanation)
   // In the field the exact risk decides.
   const bool can_decide = explanation.work[static_cast<int>(Stage::kExactRisk)] < allowance.exact_risks;
   const int feelings = can_decide && parameters_.scoring.risk > 0.0F ? allowance.field_feelings : 0;
-  refined_ = chosen_;
   RefinementResult result;
   {
     const StageScope scope(probe, Stage::kOptimize);
     new (&arena_.optimizer) Optimizer;
     refining_ = passes > 0;
     result = arena_.optimizer.refine(lines_[candidate.path], candidate.start_s_m, surroundings(), parameters_,
-                                     {passes, feelings}, refined_);
+                                     {passes, feelings}, chosen_, refined_);
     count(explanation, Stage::kOptimize, result.passes);
   }
   if (!result.improved) return;
@@ -315,7 +314,7 @@ void PlanningCycle::refine(const Candidate& candidate, Explanation& explanation)
     const StageScope scope(probe, Stage::kCheck);
     count(explanation, Stage::kCheck, 1);
     // A refinement that does not pass is dropped: what it started from has passed.
-    const bool passes_check = feasible(refined_, parameters_) && verify(candidate.path, refined_).safe();
+    const bool passes_check = verify(candidate.path, refined_).safe();
     // A start is not postponed: the next cycle would begin at rest again, for ever.
     const bool postpones = refined_.points[1].speed_mps < 0.5F * chosen_.points[1].speed_mps;
     if (!passes_check || postpones) return;

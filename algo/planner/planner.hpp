@@ -86,7 +86,7 @@ class PlanningCycle {
   ~PlanningCycle() = default;
 
   /// What is made of the scene before anything is planned in it.
-  virtual void believe(Scene& scene) const { static_cast<void>(scene); }
+  virtual void believe(Scene&) const {}
   /// Whether a feasible plan may be driven. \param path  index of the ego path it follows
   [[nodiscard]] virtual safety::Verdict verify(int path, const Trajectory& trajectory) const {
     return guard_.judge(path, trajectory);

@@ -96,6 +96,8 @@ void Guard::look_along(int path_index) {
   Sight& sight = sights_[path_index];
   sight = Sight{};
   sight.start_s_m = project(*scene_->map, path.path, position(start_.rear_axle), path.frenet.s_m, 15.0F).s_m;
+  sight.stop_s_m = sight.start_s_m + centre_m_ + parameters_->guard.takeover_s * start_.speed_mps +
+                   occupancy::stopping_way_m(start_.speed_mps, parameters_->guard.braking_mps2);
   sight.end_s_m = dead_end_s_m(*scene_, path);
   sight.leader_stop_s_m = kNoDeadEndM;
   const float half_lane_m = 0.5F * path_point(*scene_->map, path.path, path.frenet.s_m).width_m;
@@ -175,9 +177,7 @@ void Guard::find_threats(const EgoPath& path, const occupancy::LaneReach (&reach
   for (int z = 0; z < path.zones.size(); ++z) {
     ZoneOccupancy when[kMaxTracks];
     // Two who set off at once have both seen the other stand: who can still stop has not used its licence.
-    const float stop_s_m = sight.start_s_m + centre_m_ + parameters_->guard.takeover_s * start_.speed_mps +
-                           occupancy::stopping_way_m(start_.speed_mps, parameters_->guard.braking_mps2);
-    const bool bound = stop_s_m > path.zones[z].entry_s_m;
+    const bool bound = sight.stop_s_m > path.zones[z].entry_s_m;
     for (int i = 0; i < count; ++i) {
       const Agent& agent = scene_->agents[i];
       // D3: whoever changes into the lane we merge into leaves us our distances.
@@ -345,7 +345,7 @@ bool Guard::passes_group(const EgoPath& path, const Sight& sight, const ZoneGrou
     }
     // Room beyond it, if whoever is ahead brakes hard.
     const float rear_to_front_m = front_m_ - centre_m_;
-    if (sight.leader_stop_s_m - rear_to_front_m < group.exit_s_m) {
+    if (sight.leader_stop_s_m - rear_to_front_m - parameters_->guard.margin_m < group.exit_s_m) {
       verdict = {Cause::kNoRoom, sight.leader};
       return false;
     }

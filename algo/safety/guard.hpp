@@ -6,7 +6,7 @@
 /// leave it to us. GUARD-003 Nobody stops in a group where it gives way, nor enters one without room beyond.
 /// GUARD-004 It can be stopped behind a leader who brakes as hard as can be; behind a cut-in it only must not
 /// get worse. GUARD-005 What is safe only by hard braking says so. GUARD-006 A licence used holds, for the
-/// ground it was given for. GUARD-007 Who cannot stay out of a zone any more leaves it no later than it was
+/// ground it was given for; used it is once we cannot stop before that any more. GUARD-007 Who cannot stay out of a zone any more leaves it no later than it was
 /// to. GUARD-008 Merging leaves room, in both orders. GUARD-009 A lane change leaves who is behind room to
 /// brake. GUARD-010 Whoever drives only what passes, and else the last fail-safe, touches nobody who keeps to
 /// the law.
@@ -104,6 +104,7 @@ class Guard {
   /// What one path offers to all plans on it.
   struct Sight {
     float start_s_m = 0.0F;        ///< of our rear axle at plan start
+    float stop_s_m = 0.0F;         ///< where our centre stands if the fail-safe begins as soon as it can
     float end_s_m = 0.0F;          ///< of the road
     float leader_stop_s_m = 0.0F;  ///< foremost place for our front bumper if who is ahead brakes hard
     std::uint8_t leader = 255;

@@ -17,6 +17,7 @@ constexpr float kTrustM = 0.5F;             // of where the field was felt
 constexpr float kTrustShare = 0.3F;         // of it, after it led astray
 constexpr float kLittleGain = 2e-3F;        // of the cost: not worth feeling the field again
 constexpr float kAtRestMps = 0.01F;         // the smooth clamp's last creep is standstill
+constexpr float kRollsOnMps = 0.1F;         // a stop may have so much left at its end
 
 void set_weights(const Parameters& parameters, RefinementWeights& weights) {
   // The score averages squares over the horizon; here it is 1/2 of the sum.
@@ -109,6 +110,12 @@ void write_back(const Motion& motion, Point origin, Trajectory& trajectory) {
     point.speed_mps = rests ? 0.0F : state.speed_mps;
     point.acceleration_mps2 = rests ? 0.0F : state.acceleration_mps2;
   }
+}
+
+/// Whether a candidate that comes to rest does not any more.
+bool rolls_on(const Trajectory& candidate, const Trajectory& refined) {
+  return candidate.points[kHorizonSteps].speed_mps <= 0.0F &&
+         refined.points[kHorizonSteps].speed_mps >= kRollsOnMps;
 }
 
 }  // namespace
@@ -207,13 +214,20 @@ RefinementResult Optimizer::improve(const Surroundings& surroundings, const Para
 
 RefinementResult Optimizer::refine(const ReferenceLine& line, float start_s_m,
                                    const Surroundings& surroundings, const Parameters& parameters,
-                                   RefinementAllowance allowance, Trajectory& trajectory) {
+                                   RefinementAllowance allowance, const Trajectory& candidate,
+                                   Trajectory& refined) {
+  refined = candidate;
   if (allowance.passes <= 0) return {};
-  build_refinement(line, start_s_m, surroundings, parameters, trajectory, problem_);
+  build_refinement(line, start_s_m, surroundings, parameters, candidate, problem_);
   reference_motion(problem_, motion_);
-  const Point origin = position(trajectory.points[0].rear_axle);
-  const RefinementResult result = improve(surroundings, parameters, origin, allowance, problem_, motion_);
-  if (result.improved) write_back(motion_, origin, trajectory);
+  const Point origin = position(candidate.points[0].rear_axle);
+  RefinementResult result = improve(surroundings, parameters, origin, allowance, problem_, motion_);
+  if (!result.improved) return result;
+  write_back(motion_, origin, refined);
+  if (!feasible(refined, parameters) || rolls_on(candidate, refined)) {
+    refined = candidate;
+    result.improved = false;
+  }
   return result;
 }
 

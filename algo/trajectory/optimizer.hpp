@@ -29,10 +29,10 @@ struct RefinementAllowance {
 struct RefinementResult {
   int passes = 0;
   int failed_trials = 0;
-  int feelings = 0;         ///< 0: there was no field, or nothing in it
-  bool improved = false;    ///< false: the trajectory is as it was, to the bit
-  float own_before = 0.0F;  ///< cost without the field
-  float own_after = 0.0F;
+  int feelings = 0;           ///< 0: there was no field, or nothing in it
+  bool improved = false;      ///< false: the trajectory is as it was, to the bit
+  float own_before = 0.0F;    ///< cost without the field
+  float own_after = 0.0F;     ///< of the best motion found, of one that could not be driven too
   float field_before = 0.0F;  ///< what the field adds, smooth and linear between every third step
   float field_after = 0.0F;   ///< as its last linear model has it
 };
@@ -40,16 +40,19 @@ struct RefinementResult {
 class Optimizer {
  public:
   /// CAND-011 Never worse than its start: by the model that it works with the result costs no more than
-  /// `trajectory` did, or is `trajectory` itself, to the bit; in the field, who asks compares the exact risk.
+  /// `candidate` did, or is `candidate` itself, to the bit; in the field, who asks compares the exact risk.
   /// CAND-020 It feels the field at most allowance.feelings times, and keeps within 0.5 m of where it did.
   /// CAND-013 Standing still stays standing still, to the bit.
   /// CAND-014 Within kRefinedAlongM and kRefinedWithinS of it, across within kRefinedInLaneM of the lane's
   /// centre or no further out than it, on its way to a lane within kOnTheWayM of it; and where it kept
-  /// its distance from a predicted box, so does the result. \param trajectory  in: the chosen candidate; out:
-  /// the refined one, same start
+  /// its distance from a predicted box, so does the result. It is feasible(), and a
+  /// candidate that comes to rest still does: steering, lateral acceleration and the end are bound softly
+  /// within, and what oversteps them is dropped.
+  /// \param refined  out: the candidate refined, same start \pre not the same object as `candidate`
   [[nodiscard]] RefinementResult refine(const ReferenceLine& line, float start_s_m,
                                         const Surroundings& surroundings, const Parameters& parameters,
-                                        RefinementAllowance allowance, Trajectory& trajectory);
+                                        RefinementAllowance allowance, const Trajectory& candidate,
+                                        Trajectory& refined);
 
   /// The same of a problem that is stated already. \param origin  what its positions are relative to.
   /// \param problem  out: with the field as last put into it. \param motion  in: the start; out: the best

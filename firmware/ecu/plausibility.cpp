@@ -14,7 +14,7 @@ constexpr float kShortestMapReachM = 10.0F;
 constexpr std::uint16_t kMapEveryTicks = 10;
 constexpr std::uint32_t kLongestTickMs = 100;  // longer ones are a gap: nothing is known of it
 constexpr float kClockStepMs = 5.0F;           // a single late tick is the platform's, not a clock's rate
-constexpr float kSumMaxShares = 3.0F;          // PLAUS-012
+constexpr float kSumMaxBases = 10.0F;          // PLAUS-012: forgotten in 2 s * ln 10, whatever the limit was
 constexpr float kMovingMps = 0.3F;
 constexpr float kStandingMps = 0.05F;
 constexpr float kDriveMps2 = 0.4F;  // a car asked for so much moves
@@ -101,9 +101,9 @@ bool PlausibilityMonitor::failed(Check check) const {
 }
 
 void PlausibilityMonitor::judge_sum(Check check, float& sum, const Measured& measured) {
+  const float most = kSumMaxBases * kLimits[static_cast<int>(check)].base;
+  sum = clamp(sum, -most, most);
   judge(check, abs(sum), measured);
-  const float share = shares_[static_cast<int>(check)];
-  if (share > kSumMaxShares) sum *= kSumMaxShares / share;
 }
 
 void PlausibilityMonitor::sum_motion(const Measured& measured, float passed_s) {

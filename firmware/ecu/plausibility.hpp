@@ -71,8 +71,9 @@ struct PlausibilityLimit {
 
 class PlausibilityMonitor {
  public:
-  /// Once a tick. PLAUS-012 Sums start anew with the first whole tick, and are bounded at three times their
-  /// limit: once a lie has ended, so does its fault, within 5 s.
+  /// Once a tick. PLAUS-012 Sums start anew with the first whole tick, and are bounded at ten times their
+  /// limit at rest: once a lie has ended, so does its fault, within 5 s, though the car has braked since and
+  /// its limits are tighter.
   /// \param map  newest whole one, null: none
   void update(const Measured& measured, const Commanded& commanded, const wire::Map* map,
               const Parameters& parameters);

@@ -1,6 +1,5 @@
 #pragma once
-/// The guard around somebody else's plan: verdict and fail-safe, as the S4TP planner
-/// has them inside. Every planner is compared with it and without (method.md 4).
+/// The guard around somebody else's plan: verdict and fail-safe, as the S4TP planner has them inside. Every planner is compared with it and without (method.md 4).
 ///
 /// It sees the tracks as they are, whatever its planner makes of them. A plan that does not pass is replaced
 /// by the fail-safe of the last one that did. An

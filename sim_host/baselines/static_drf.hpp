@@ -1,5 +1,5 @@
 #pragma once
-/// Static DRF (method.md 4, end): the S4TP planner, same candidates, risk field, score and optimizer, in
+/// Static DRF (method.md 5): the S4TP planner, same candidates, risk field, score and optimizer, in
 /// a world where every other vehicle stands.
 ///
 /// Speed 0 in its tracks would not say that: the predictor lets who stands in a queue or before a junction

@@ -25,7 +25,7 @@ class AnyEcu {
 /// Names make_ecu() accepts, s4tp first (planner_registry.hpp).
 [[nodiscard]] std::vector<std::string> planner_names();
 
-/// \param guarded  with the guard, and the last fail-safe where nothing passes behind the planner
+/// \param guarded  with the guard behind the planner, and the last fail-safe where nothing passes
 /// \param probe    may be null; not every planner has something to tell it
 /// \throws std::invalid_argument naming the planners there are, or the first bad parameter
 [[nodiscard]] std::unique_ptr<AnyEcu> make_ecu(const std::string& planner, bool guarded,

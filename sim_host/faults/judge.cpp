@@ -34,18 +34,21 @@ constexpr int kGraceTicks = 100;
 constexpr double kStanding_mps = 0.1;
 constexpr int kRestTicks = 100;  // standing so long, a minimum-risk manoeuvre is over
 constexpr int kLongSettling = 650;
-constexpr int kShortSettling = 550;
+constexpr int kShortSettling = 250;
 
 bool commanding(ecu::Mode mode) {
   return mode == ecu::Mode::kDriving || mode == ecu::Mode::kDegraded || mode == ecu::Mode::kMinimumRisk ||
          mode == ecu::Mode::kStopped;
 }
 
+/// The map's records come round in 5 s, and in that time the plausibility monitor forgets its sums.
 bool slow_to_return(const Fault& fault) {
   if (fault.kind == FaultKind::kBusOff || fault.kind == FaultKind::kBurst) return true;
   for (int i = 0; i < kMessageCount; ++i) {
+    if (((fault.messages >> i) & 1U) == 0U) continue;
     const std::uint32_t id = message(i).id;
-    if (((fault.messages >> i) & 1U) != 0U && id >= wire::kMapHeaderId) return true;
+    const bool of_us = id == wire::kMotionId || id == wire::kSteeringId || id == wire::kPoseId;
+    if (of_us || id >= wire::kMapHeaderId) return true;
   }
   return false;
 }

@@ -56,8 +56,9 @@ struct Verdict {
 };
 
 /// How long after the last fault everything must be as before, if the mode table allows: 1 s without a fault
-/// (ECU-026), and before that 5 s for the map's records to come round or for the sums of the plausibility
-/// monitor to be forgotten (PLAUS-012).
+/// (ECU-026), and before that 5 s for the map's records to come round or, where a fault was in what the car
+/// tells of itself, for the sums of the plausibility monitor to be forgotten (PLAUS-012); else 1 s for the
+/// lists.
 [[nodiscard]] int settling_ticks(const FaultScript& script);
 
 class Judge {

@@ -309,6 +309,9 @@ Scenario load_scenario(const std::filesystem::path& path, const std::string& fla
   scenario.flavour = flavour;
   TomlTable network = table.table("network");
   scenario.network_file = scenario.folder / network.text("file");
+  if (!fs::is_regular_file(scenario.network_file)) {
+    network.fail("file", "there is no file " + scenario.network_file.string());
+  }
   network.no_other_keys();
   scenario.network = load_network(scenario.network_file);
   static_cast<void>(table.require("mission"));

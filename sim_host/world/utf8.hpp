@@ -6,7 +6,7 @@
 
 namespace s4tp::world {
 
-/// As RFC 3629 has it: no overlong forms, no surrogates, nothing above U+10FFFF.
+/// As RFC 3629 has it, and as JSON takes it: no overlong forms, no surrogates, nothing above U+10FFFF.
 [[nodiscard]] bool is_utf8(std::string_view text);
 
 /// FILE-007 A name that results could not hold is refused before anything is driven.

@@ -253,9 +253,10 @@ TEST(RefinementField, LowersTheExactRisk) {
                  profile);
       return static_cast<double>(scene.parameters.scoring.risk * risk_integral(profile, scene.parameters));
     };
-    Trajectory refined = scene.trajectory;
-    const RefinementResult result = std::make_unique<Optimizer>()->refine(
-        scene.line, scene.candidate.start_s_m, scene.surroundings(), scene.parameters, {16, 3}, refined);
+    Trajectory refined;
+    const RefinementResult result =
+        std::make_unique<Optimizer>()->refine(scene.line, scene.candidate.start_s_m, scene.surroundings(),
+                                              scene.parameters, {16, 3}, scene.trajectory, refined);
     EXPECT_LE(result.feelings, 3) << seed;
     EXPECT_LE(result.passes, 16) << seed;
     if (!result.improved) continue;

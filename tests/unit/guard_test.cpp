@@ -121,17 +121,18 @@ TEST(Guard, NobodyStopsInAZone) {
 }
 
 // GUARD-003 Room beyond the exit for the case that the leader brakes with 8 m/s^2: our front stands at 106.5
-// when we are out. A car of 5 m at 8 m/s stops 4 m on: its centre must be at 105 or beyond. Standing, at 109.
+// when we are out, and the fail-safe stops 0.5 m behind it. A car of 5 m at 8 m/s stops 4 m on: its centre must
+// be at 105.5 or beyond. Standing, at 109.5.
 TEST(Guard, TheZoneIsEnteredWhenThereIsRoomBeyondIt) {
   const auto enters = [](float leader_s_m, float leader_mps, Priority priority) {
     SharedGround road(priority);
     road.leader(leader_s_m, leader_mps);
     return road.cause(94.5F, 2.0F, 1.0F);
   };
-  EXPECT_EQ(enters(105.2F, 8.0F, Priority::kFirstYields), Cause::kNone);
-  EXPECT_EQ(enters(104.8F, 8.0F, Priority::kFirstYields), Cause::kNoRoom);
-  EXPECT_EQ(enters(109.2F, 0.0F, Priority::kFirstYields), Cause::kNone);
-  EXPECT_EQ(enters(108.8F, 0.0F, Priority::kFirstYields), Cause::kNoRoom);
+  EXPECT_EQ(enters(105.7F, 8.0F, Priority::kFirstYields), Cause::kNone);
+  EXPECT_EQ(enters(105.3F, 8.0F, Priority::kFirstYields), Cause::kNoRoom);
+  EXPECT_EQ(enters(109.7F, 0.0F, Priority::kFirstYields), Cause::kNone);
+  EXPECT_EQ(enters(109.3F, 0.0F, Priority::kFirstYields), Cause::kNoRoom);
   EXPECT_EQ(enters(108.8F, 0.0F, Priority::kFirstHasPriority), Cause::kNone);
 }
 
@@ -257,6 +258,23 @@ TEST(Guard, ALicenceUsedHolds) {
   road.scene.agents.clear();
   road.other(96.0F - 8.0F, 6.0F);
   EXPECT_FALSE(road.safe(95.2F, 3.0F, 0.0F));
+}
+
+// GUARD-006 Both stand, it in sight of us (L2), and we set off. Then it does too, at 1 m/s 8 m before the zone
+// (0.35 s at our speed, then the way of a stop with 6 m/s^2). At 95.4 and 0.8 m/s we can still stand at 95.73,
+// before the zone at 96: the licence is not used. At 95.4 and 1.6 m/s that would be 96.17: it holds.
+TEST(Guard, ALicenceIsNotUsedBeforeWeAreBound) {
+  for (const float speed_mps : {0.8F, 1.6F}) {
+    SharedGround road(Priority::kFirstYields);
+    road.other(96.0F - 8.0F, 0.0F).stood_ms = 1000;
+    road.scene.waited_s = 1.0F;
+    const Verdict begun = road.judge(95.3F, 0.0F, 2.0F);
+    ASSERT_TRUE(begun.safe() && begun.clears);
+    road.guard.commit(0, begun);
+    road.scene.agents.clear();
+    road.other(96.0F - 8.0F, 3.0F);
+    EXPECT_EQ(road.safe(95.4F, speed_mps, 2.0F), speed_mps > 1.0F) << speed_mps;
+  }
 }
 
 // GUARD-006 A licence holds for the ground it was given for. At 10 m/s, 26 m before the first zone, the other

@@ -32,8 +32,9 @@ std::unique_ptr<RefinementScene> braking(float acceleration_mps2, float speed_mp
 }
 
 RefinementResult refine(RefinementScene& scene, int passes) {
+  const Trajectory candidate = scene.trajectory;
   return std::make_unique<Optimizer>()->refine(scene.line, scene.candidate.start_s_m, scene.surroundings(),
-                                               scene.parameters, {passes, 0}, scene.trajectory);
+                                               scene.parameters, {passes, 0}, candidate, scene.trajectory);
 }
 
 float mean_squared_jerk(const Trajectory& trajectory) {

@@ -227,6 +227,22 @@ TEST(Plausibility, ALieThatEndsIsForgotten) {
   EXPECT_EQ(drive.monitor.faults(), 0U);
 }
 
+// PLAUS-012: the same, though the lie came with 1.2 rad/s at 10 m/s, which widens its limit to 3.7 m, and the
+// car stands afterwards, where it is 0.3 m.
+TEST(Plausibility, ALieIsForgottenThoughLimitsTighten) {
+  Drive drive;
+  drive.honest(100);
+  const auto far = [](float, Measured& told) {
+    told.rear_axle.y_m += 500.0F;
+    told.yaw_rate_radps += 1.2F;
+  };
+  for (int i = 0; i < 20; ++i) drive.step(far, 1.0F);
+  EXPECT_NE(drive.monitor.faults(), 0U);
+  drive.truth.speed_mps = 0.0F;
+  drive.honest(500);
+  EXPECT_EQ(drive.monitor.faults(), 0U);
+}
+
 // ECU-096 ECU-097 ECU-098 ECU-099: each check raises its sender's bit, and no other. (Moving, a fast clock
 // makes the pose run behind as well.)
 TEST(Plausibility, EachSenderItsBit) {

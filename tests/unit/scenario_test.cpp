@@ -141,7 +141,10 @@ TEST(Scenario, ErrorsSayWhatIsAccepted) {
       {replaced(kScenario, "[traffic.driver]", "[traffic]\nroutes = [\"a.rou.xml\"]\n[traffic.driver]"),
        {"traffic.routes", "either route files"}},
       {replaced(kScenario, "[mission]", "[mission"), {"TOML"}},
-      {replaced(kScenario, "network.net.xml", "none.net.xml"), {"none.net.xml"}},
+      {replaced(kScenario, "network.net.xml", "none.net.xml"),
+       {"scenario.toml: network.file: there is no file", "none.net.xml"}},
+      {replaced(kScenario, "network.net.xml", "/none.net.xml"),
+       {"scenario.toml: network.file: there is no file"}},
   };
   for (const auto& [text, expected] : cases) {
     for (const std::string& part : expected) {

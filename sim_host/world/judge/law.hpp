@@ -3,15 +3,16 @@
 /// against priority. It measures traffic, says whose fault a touch was, and binds the legal adversary; no
 /// planner took part in it and none is asked.
 ///
-/// |    | who                  | owes |
-/// |----|----------------------|-----------------------------------------------------------------------------|
-/// | D1 | who has to give way  | not to enter a group of zones before one with priority without licence, if |
-/// |    |                      | the car could still stop when the duty began | | D2 | everybody            |
-/// not to drive into what is there by right and has been in sight for          | |    | | `reaction_s`, if
-/// the car could stop; inside a junction owed only to what is | |    |                      | ahead | | D3 |
-/// who changes lane     | RSS gaps to the new leader and the new follower when its centre is on the   | | |
-/// | line                                                                        | | D4 | a follower | the
-/// RSS gap, from `settle_s` after the one ahead came into the lane         |
+/// |    | who                 | owes                                                                     |
+/// |----|---------------------|--------------------------------------------------------------------------|
+/// | D1 | who has to give way | not to enter a group of zones before one with priority without licence,  |
+/// |    |                     | if the car could still stop when the duty began                          |
+/// | D2 | everybody           | not to drive into what is there by right and has been in sight for       |
+/// |    |                     | `reaction_s`, if the car could stop; inside a junction owed only to what |
+/// |    |                     | is ahead                                                                 |
+/// | D3 | who changes lane    | RSS gaps to the new leader and the new follower when its centre is on    |
+/// |    |                     | the line                                                                 |
+/// | D4 | a follower          | the RSS gap, from `settle_s` after the one ahead came into the lane      |
 ///
 /// | id      |       | one may enter before one with priority                                        |
 /// |---------|-------|-------------------------------------------------------------------------------|
