@@ -8,17 +8,10 @@
 
 #include <cstdint>
 
+#include "algo/satp/rows.hpp"
 #include "algo/satp/weight_image.hpp"
 
 namespace s4tp::satp {
-
-template <typename T>
-struct Rows {
-  T* data;
-  int stride;
-
-  [[nodiscard]] T* operator[](int index) const { return data + index * stride; }
-};
 
 void linear(const Linear& layer, Rows<const std::int8_t> inputs, int count, Rows<std::int8_t> outputs);
 void linear_relu(const Linear& layer, Rows<const std::int8_t> inputs, int count, Rows<std::int8_t> outputs);
