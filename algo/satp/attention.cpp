@@ -1,7 +1,7 @@
 #include "algo/satp/attention.hpp"
 
+#include "algo/satp/lanes.hpp"
 #include "algo/satp/layer_norm.hpp"
-#include "algo/satp/requantize.hpp"
 #include "algo/satp/softmax.hpp"
 
 namespace s4tp::satp {
@@ -47,7 +47,7 @@ void look(const Attention& block, const std::int8_t* query, Rows<const std::int8
 void add_and_norm(const std::int8_t* residual, std::int32_t multiplier, const std::int16_t* addend,
                   const Norm& norm, std::int8_t* output) {
   std::int32_t sums[kWidth];
-  for (int c = 0; c < kWidth; ++c) sums[c] = requantize(residual[c], multiplier) + addend[c];
+  lanes::add_rescaled(residual, multiplier, addend, kWidth, sums);
   layer_norm(norm, sums, output);
 }
 
