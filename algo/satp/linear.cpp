@@ -55,10 +55,20 @@ void linear_by_row(const Linear& layer, Rows<const std::int8_t> inputs, int coun
   multiply_rows<Signed8>(layer, layer.bias, layer.rows, inputs, count, outputs);
 }
 
-void linear_by_bias(const Linear& layer, const std::int8_t* input, int bias_rows,
+void linear_by_bias(const Linear& layer, Rows<const std::int8_t> inputs, int count, int bias_rows,
                     Rows<std::int16_t> outputs) {
-  multiply_rows<Signed16>(layer, layer.bias, layer.rows, Rows<const std::int8_t>{input, 0}, bias_rows,
-                          outputs);
+  std::int32_t sums[kMaxBatch][kMaxRows];
+  multiply(layer, layer.bias, 0, inputs.data, inputs.stride, count, sums);
+  for (int i = 0; i < count; ++i) {
+    for (int k = 0; k < bias_rows; ++k) {
+      const std::int32_t* bias = layer.bias + k * layer.rows;
+      std::int16_t* output = outputs[i * bias_rows + k];
+      for (int o = 0; o < layer.rows; ++o) {
+        const std::int32_t sum = sums[i][o] + (bias[o] - layer.bias[o]);
+        output[o] = Signed16::of(requantize(sum, layer.multiplier[o]));
+      }
+    }
+  }
 }
 
 void linear(const Linear& layer, Rows<const std::int16_t> inputs, int count, Rows<float> outputs) {
