@@ -11,6 +11,11 @@
 namespace s4tp::satp {
 namespace lanes = mve;
 }
+#elif defined(__ARM_FEATURE_DSP) && defined(__thumb__)
+#include "algo/satp/lanes_dsp.hpp"
+namespace s4tp::satp {
+namespace lanes = dsp;
+}
 #else
 namespace s4tp::satp {
 namespace lanes = plain;

@@ -1,0 +1,95 @@
+#pragma once
+/// Elementwise arithmetic of the network on Cortex-M with the DSP extension: two int16 in a word.
+/// Internal: see lanes.hpp.
+
+#include <arm_acle.h>
+
+#include <cstdint>
+#include <cstring>
+
+#include "algo/satp/lanes_plain.hpp"
+
+namespace s4tp::satp::dsp {
+
+using plain::add_rescaled;
+using plain::centre;
+using plain::narrow;
+using plain::scale;
+
+inline std::int32_t load_pair(const std::int16_t* from) {
+  std::int32_t word = 0;
+  std::memcpy(&word, from, sizeof word);
+  return word;
+}
+inline void store_pair(std::int16_t* to, std::int32_t word) {
+  std::memcpy(to, &word, sizeof word);
+}
+
+// The low half of `low` beside that of `high`.
+inline std::int32_t pair_of(std::int32_t low, std::int32_t high) {
+  std::int32_t result = 0;
+  asm("pkhbt %0, %1, %2, lsl #16" : "=r"(result) : "r"(low), "r"(high));
+  return result;
+}
+
+// Two numbers in 2^-15, to whole ones.
+inline std::int32_t whole_pair(std::int32_t low_q15, std::int32_t high_q15) {
+  std::int32_t result = 0;
+  asm("pkhbt %0, %1, %2, lsl #1" : "=r"(result) : "r"(low_q15 >> 15), "r"(high_q15));
+  return result;
+}
+
+constexpr std::int32_t kHalfQ15 = 1 << 14;
+
+inline void look_up(const Stretch* table, std::int16_t* values, int count) {
+  static_assert(sizeof(Stretch) == 4);
+  constexpr std::uint32_t kFromStart = 0x80008000U;
+#pragma GCC unroll 2
+  for (int i = 0; i < count; i += 2) {
+    const std::uint32_t from_start = static_cast<std::uint32_t>(load_pair(values + i)) ^ kFromStart;
+    const std::int32_t low = load_pair(&table[from_start >> 8U & 255U].value);
+    const std::int32_t high = load_pair(&table[from_start >> 24U].value);
+    const std::int32_t low_climb = __smlatb(low, static_cast<std::int32_t>(from_start & 255U), 128);
+    const std::int32_t high_climb = __smlatb(high, static_cast<std::int32_t>(from_start >> 16U & 255U), 128);
+    store_pair(values + i, pair_of(low + (low_climb >> 8), high + (high_climb >> 8)));
+  }
+}
+
+inline void add_shares(const std::int16_t* shares, const std::int16_t* values, int count,
+                       std::int16_t* sums) {
+#pragma GCC unroll 2
+  for (int i = 0; i < count; i += 2) {
+    const std::int32_t share = load_pair(shares + i);
+    const std::int32_t value = load_pair(values + i);
+    const std::int32_t part = whole_pair(__smlabb(share, value, kHalfQ15), __smlatt(share, value, kHalfQ15));
+    store_pair(sums + i, __qadd16(load_pair(sums + i), part));
+  }
+}
+
+inline void blend(const std::int16_t* shares, const std::int16_t* others, int count, std::int16_t* values) {
+#pragma GCC unroll 2
+  for (int i = 0; i < count; i += 2) {
+    const std::int32_t share = load_pair(shares + i);
+    const std::int32_t other = load_pair(others + i);
+    const std::int32_t value = load_pair(values + i);
+    const std::int32_t low = __smlabb(share, value, kHalfQ15) - static_cast<std::int16_t>(share) * static_cast<std::int16_t>(other);
+    const std::int32_t high = __smlatt(share, value, kHalfQ15) - (share >> 16) * (other >> 16);
+    // What is added may leave 16 bits; the sum comes back.
+    store_pair(values + i, __sadd16(other, whole_pair(low, high)));
+  }
+}
+
+inline void mix(const std::int16_t* values, const std::int16_t* others, std::int32_t share_q15,
+                std::int32_t multiplier, int count, std::int8_t* outputs) {
+#pragma GCC unroll 2
+  for (int i = 0; i < count; i += 2) {
+    const std::int32_t value = load_pair(values + i);
+    const std::int32_t other = load_pair(others + i);
+    const std::int32_t low = (value & 0xFFFF) + (__smlabb(share_q15, other, kHalfQ15) >> 15);
+    const std::int32_t high = (value >> 16) + (__smlabt(share_q15, other, kHalfQ15) >> 15);
+    outputs[i] = static_cast<std::int8_t>(saturate_unsigned8(requantize(low, multiplier)) - 128);
+    outputs[i + 1] = static_cast<std::int8_t>(saturate_unsigned8(requantize(high, multiplier)) - 128);
+  }
+}
+
+}  // namespace s4tp::satp::dsp
