@@ -42,9 +42,12 @@ inline void pair_up(const std::int16_t* input, std::uint32_t& even, std::uint32_
 // Two rows of weights against a batch of two or three inputs, by hand, because the compiler keeps what it
 // should load twice and spills what it should keep. All fourteen registers are taken, so that the rows'
 // distance and the end wait in those of floating point.
-#define S4TP_ROWS                     \
-  "vmov r0, %[distance]\n"              \
+#define S4TP_ROWS_ANYWHERE            \
+  "vmov r0, %[distance]\n"            \
   "ldr %[second], [%[weights], r0]\n" \
+  "ldr %[first], [%[weights]], #4\n"
+#define S4TP_ROWS_KNOWN                             \
+  "ldr %[second], [%[weights], #%c[distance]]\n"    \
   "ldr %[first], [%[weights]], #4\n"
 #define S4TP_TIMES(row, weights)                                       \
   "smlad %[" row "0], %[" weights "], r0, %[" row "0]\n"               \
@@ -52,8 +55,8 @@ inline void pair_up(const std::int16_t* input, std::uint32_t& even, std::uint32_
 #define S4TP_TIMES_3(row, weights) \
   S4TP_TIMES(row, weights)         \
   "smlad %[" row "2], %[" weights "], r2, %[" row "2]\n"
-#define S4TP_FOUR_COLUMNS(inputs, times)     \
-  S4TP_ROWS                                  \
+#define S4TP_FOUR_COLUMNS(rows, inputs, times) \
+  rows                                       \
   "ldm %[pairs]!, {" inputs "}\n"            \
   "sxtb16 %[part], %[first]\n"               \
   times("a", "part")                         \
@@ -64,22 +67,24 @@ inline void pair_up(const std::int16_t* input, std::uint32_t& even, std::uint32_
   times("a", "first")                        \
   "sxtb16 %[second], %[second], ror #8\n"    \
   times("b", "second")
-#define S4TP_2 S4TP_FOUR_COLUMNS("r0, r1", S4TP_TIMES)
-#define S4TP_3 S4TP_FOUR_COLUMNS("r0, r1, r2", S4TP_TIMES_3)
+#define S4TP_2 S4TP_FOUR_COLUMNS(S4TP_ROWS_ANYWHERE, "r0, r1", S4TP_TIMES)
+#define S4TP_3 S4TP_FOUR_COLUMNS(S4TP_ROWS_ANYWHERE, "r0, r1, r2", S4TP_TIMES_3)
+#define S4TP_3_KNOWN S4TP_FOUR_COLUMNS(S4TP_ROWS_KNOWN, "r0, r1, r2", S4TP_TIMES_3)
 #define S4TP_LOOP(body)      \
   "1:\n" body                \
   "vmov %[part], %[end]\n"   \
   "cmp %[pairs], %[part]\n"   \
   "bne 1b\n"
-#define S4TP_ASM(body, ...)                                                                          \
+#define S4TP_ASM(body, apart, ...)                                                                          \
   asm volatile(S4TP_LOOP(body)                                                                       \
                : __VA_ARGS__, [weights] "+r"(w), [pairs] "+r"(x), [first] "=&r"(first),              \
                  [second] "=&r"(second), [part] "=&r"(part)                                          \
-               : [distance] "t"(distance), [end] "t"(end)                                                \
+               : [distance] apart, [end] "t"(end)                                                \
                : "cc", "memory", "r0", "r1", "r2")
 
 /// Adds the products of two rows, `distance` bytes apart, and `kBatch` inputs to their sums.
-template <int kBatch>
+/// \tparam kStride  of the rows, when it is known: a multiple of 16; otherwise 0
+template <int kBatch, int kStride>
 [[gnu::always_inline]] inline void add_products(const std::int8_t* weights, std::int32_t distance,
                                                 const std::uint32_t* pairs, const std::uint32_t* end,
                                                 bool by_sixteen, std::int32_t (&a)[kBatch],
@@ -96,17 +101,20 @@ template <int kBatch>
   if constexpr (kBatch == 3) {
     register std::int32_t a2 asm("r12") = a[2];
     register std::int32_t b2 asm("lr") = b[2];
-    if (by_sixteen) {
-      S4TP_ASM(S4TP_3 S4TP_3 S4TP_3 S4TP_3, [a0] "+r"(a0), [a1] "+r"(a1), [a2] "+r"(a2), [b0] "+r"(b0),
+    if constexpr (kStride != 0) {
+      S4TP_ASM(S4TP_3_KNOWN S4TP_3_KNOWN S4TP_3_KNOWN S4TP_3_KNOWN, "i"(kStride), [a0] "+r"(a0), [a1] "+r"(a1),
+               [a2] "+r"(a2), [b0] "+r"(b0), [b1] "+r"(b1), [b2] "+r"(b2));
+    } else if (by_sixteen) {
+      S4TP_ASM(S4TP_3 S4TP_3 S4TP_3 S4TP_3, "t"(distance), [a0] "+r"(a0), [a1] "+r"(a1), [a2] "+r"(a2), [b0] "+r"(b0),
                [b1] "+r"(b1), [b2] "+r"(b2));
     } else {
-      S4TP_ASM(S4TP_3, [a0] "+r"(a0), [a1] "+r"(a1), [a2] "+r"(a2), [b0] "+r"(b0), [b1] "+r"(b1),
+      S4TP_ASM(S4TP_3, "t"(distance), [a0] "+r"(a0), [a1] "+r"(a1), [a2] "+r"(a2), [b0] "+r"(b0), [b1] "+r"(b1),
                [b2] "+r"(b2));
     }
     a[2] = a2;
     b[2] = b2;
   } else {
-    S4TP_ASM(S4TP_2, [a0] "+r"(a0), [a1] "+r"(a1), [b0] "+r"(b0), [b1] "+r"(b1));
+    S4TP_ASM(S4TP_2, "t"(distance), [a0] "+r"(a0), [a1] "+r"(a1), [b0] "+r"(b0), [b1] "+r"(b1));
   }
   a[0] = a0;
   a[1] = a1;
@@ -116,12 +124,14 @@ template <int kBatch>
 
 #undef S4TP_ASM
 #undef S4TP_LOOP
+#undef S4TP_3_KNOWN
 #undef S4TP_3
 #undef S4TP_2
 #undef S4TP_FOUR_COLUMNS
 #undef S4TP_TIMES_3
 #undef S4TP_TIMES
-#undef S4TP_ROWS
+#undef S4TP_ROWS_KNOWN
+#undef S4TP_ROWS_ANYWHERE
 
 template <typename Output, typename In>
 typename Output::Type output_of(std::int32_t sum, std::int32_t multiplier) {
@@ -133,16 +143,17 @@ typename Output::Type output_of(std::int32_t sum, std::int32_t multiplier) {
 }
 
 /// Of kBatch inputs and at least two rows.
-template <typename Output, int kBatch, typename In>
+template <typename Output, int kBatch, int kStride, typename In>
 void multiply_batch(const Linear& layer, int distance, const std::int32_t* bias, int bias_stride,
                     Rows<const In> inputs, Rows<typename Output::Type> outputs) {
   std::uint32_t pairs[kMaxPairs * kBatch];
   std::uint32_t* end = pairs;
-  for (int j = 0; j < layer.stride; j += 4, end += 2 * kBatch) {
+  const int stride = kStride != 0 ? kStride : layer.stride;
+  for (int j = 0; j < stride; j += 4, end += 2 * kBatch) {
 #pragma GCC unroll 3
     for (int i = 0; i < kBatch; ++i) pair_up(inputs[i] + j, end[i], end[kBatch + i]);
   }
-  const bool by_sixteen = layer.stride % 16 == 0;
+  const bool by_sixteen = stride % 16 == 0;
   const int last = layer.rows - 2;  // of an odd number of rows the last pair overlaps the one before it
   const std::int8_t* weights = layer.weights;
   const std::int32_t* multiplier = layer.multiplier;
@@ -156,7 +167,7 @@ void multiply_batch(const Linear& layer, int distance, const std::int32_t* bias,
       a[i] = from[0] * (1 << kShift<In>);
       b[i] = from[1] * (1 << kShift<In>);
     }
-    add_products<kBatch>(weights + o * layer.stride, distance, pairs, end, by_sixteen, a, b);
+    add_products<kBatch, kStride>(weights + o * stride, distance, pairs, end, by_sixteen, a, b);
     const std::int32_t first = multiplier[o];
     const std::int32_t second = multiplier[o + 1];
     typename Output::Type* to = outputs.data + o;
@@ -170,6 +181,25 @@ void multiply_batch(const Linear& layer, int distance, const std::int32_t* bias,
   }
 }
 
+/// The strides most of the network's time goes to have code of their own.
+template <typename Output, typename In>
+void multiply_three(const Linear& layer, const std::int32_t* bias, int bias_stride, Rows<const In> inputs,
+                    Rows<typename Output::Type> outputs) {
+  if constexpr (sizeof(In) == 1 && Output::kRescaled) {
+    if (layer.stride == 32)
+      return multiply_batch<Output, 3, 32, In>(layer, 32, bias, bias_stride, inputs, outputs);
+    if constexpr (sizeof(typename Output::Type) == 2) {
+      if (layer.stride == 48)
+        return multiply_batch<Output, 3, 48, In>(layer, 48, bias, bias_stride, inputs, outputs);
+      if (layer.stride == 80)
+        return multiply_batch<Output, 3, 80, In>(layer, 80, bias, bias_stride, inputs, outputs);
+      if (layer.stride == 128)
+        return multiply_batch<Output, 3, 128, In>(layer, 128, bias, bias_stride, inputs, outputs);
+    }
+  }
+  multiply_batch<Output, 3, 0, In>(layer, layer.stride, bias, bias_stride, inputs, outputs);
+}
+
 // A single row is computed twice.
 template <typename Output, typename In>
 void multiply_row(const Linear& layer, const std::int32_t* bias, const In* input,
@@ -180,7 +210,7 @@ void multiply_row(const Linear& layer, const std::int32_t* bias, const In* input
   Linear twice = layer;
   twice.multiplier = multipliers;
   twice.rows = 2;
-  multiply_batch<Output, 2, In>(twice, 0, biases, 0, {input, 0}, {outputs, 0});
+  multiply_batch<Output, 2, 0, In>(twice, 0, biases, 0, {input, 0}, {outputs, 0});
   *output = outputs[0];
 }
 
@@ -198,12 +228,12 @@ void multiply_rows(const Linear& layer, const std::int32_t* bias, int bias_strid
   }
   int i = 0;
   for (; i + 3 <= count; i += 3) {
-    dsp::multiply_batch<Output, 3, In>(layer, layer.stride, bias + i * bias_stride, bias_stride,
-                                       {inputs[i], inputs.stride}, {outputs[i], outputs.stride});
+    dsp::multiply_three<Output, In>(layer, bias + i * bias_stride, bias_stride, {inputs[i], inputs.stride},
+                                    {outputs[i], outputs.stride});
   }
   if (i == count) return;
   const int pair = i + 1 < count ? 1 : 0;  // a single input is computed twice
-  dsp::multiply_batch<Output, 2, In>(layer, layer.stride, bias + i * bias_stride, pair * bias_stride,
+  dsp::multiply_batch<Output, 2, 0, In>(layer, layer.stride, bias + i * bias_stride, pair * bias_stride,
                                      {inputs[i], pair * inputs.stride}, {outputs[i], pair * outputs.stride});
 }
 
