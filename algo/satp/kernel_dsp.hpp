@@ -142,18 +142,41 @@ typename Output::Type output_of(std::int32_t sum, std::int32_t multiplier) {
   }
 }
 
-/// Of kBatch inputs and at least two rows.
-template <typename Output, int kBatch, int kStride, typename In>
-void multiply_batch(const Linear& layer, int distance, const std::int32_t* bias, int bias_stride,
-                    Rows<const In> inputs, Rows<typename Output::Type> outputs) {
-  std::uint32_t pairs[kMaxPairs * kBatch];
+/// Inputs of a batch in pairs, side by side. \return the end of them
+template <int kBatch, typename In>
+[[gnu::always_inline]] inline const std::uint32_t* pair_up_rows(Rows<const In> inputs, int columns,
+                                                                std::uint32_t* pairs) {
   std::uint32_t* end = pairs;
-  const int stride = kStride != 0 ? kStride : layer.stride;
-  for (int j = 0; j < stride; j += 4, end += 2 * kBatch) {
+#pragma GCC unroll 1
+  for (int j = 0; j < columns; j += 4, end += 2 * kBatch) {
 #pragma GCC unroll 3
     for (int i = 0; i < kBatch; ++i) pair_up(inputs[i] + j, end[i], end[kBatch + i]);
   }
-  const bool by_sixteen = stride % 16 == 0;
+  return end;
+}
+
+/// Outputs of two rows.
+template <typename Output, int kBatch, typename In>
+[[gnu::always_inline]] inline void store_pair(const std::int32_t (&a)[kBatch], const std::int32_t (&b)[kBatch],
+                                              const std::int32_t* multiplier,
+                                              Rows<typename Output::Type> outputs) {
+  const std::int32_t first = multiplier[0];
+  const std::int32_t second = multiplier[1];
+  typename Output::Type* to = outputs.data;
+#pragma GCC unroll 3
+  for (int i = 0; i < kBatch; ++i, to += outputs.stride) {
+    to[0] = output_of<Output, In>(a[i], first);
+    to[1] = output_of<Output, In>(b[i], second);
+  }
+}
+
+/// Of kBatch inputs and at least two rows.
+template <typename Output, int kBatch, typename In>
+void multiply_batch(const Linear& layer, int distance, const std::int32_t* bias, int bias_stride,
+                    Rows<const In> inputs, Rows<typename Output::Type> outputs) {
+  std::uint32_t pairs[kMaxPairs * kBatch];
+  const std::uint32_t* const end = pair_up_rows<kBatch>(inputs, layer.stride, pairs);
+  const bool by_sixteen = layer.stride % 16 == 0;
   const int last = layer.rows - 2;  // of an odd number of rows the last pair overlaps the one before it
   const std::int8_t* weights = layer.weights;
   const std::int32_t* multiplier = layer.multiplier;
@@ -167,51 +190,94 @@ void multiply_batch(const Linear& layer, int distance, const std::int32_t* bias,
       a[i] = from[0] * (1 << kShift<In>);
       b[i] = from[1] * (1 << kShift<In>);
     }
-    add_products<kBatch, kStride>(weights + o * stride, distance, pairs, end, by_sixteen, a, b);
-    const std::int32_t first = multiplier[o];
-    const std::int32_t second = multiplier[o + 1];
-    typename Output::Type* to = outputs.data + o;
-#pragma GCC unroll 3
-    for (int i = 0; i < kBatch; ++i, to += outputs.stride) {
-      to[0] = output_of<Output, In>(a[i], first);
-      to[1] = output_of<Output, In>(b[i], second);
-    }
+    add_products<kBatch, 0>(weights + o * layer.stride, distance, pairs, end, by_sixteen, a, b);
+    store_pair<Output, kBatch, In>(a, b, multiplier + o, {outputs.data + o, outputs.stride});
     if (o == last) return;
     o = o + 2 < last ? o + 2 : last;
   }
 }
 
-/// The strides most of the network's time goes to have code of their own.
-template <typename Output, typename In>
-void multiply_three(const Linear& layer, const std::int32_t* bias, int bias_stride, Rows<const In> inputs,
+/// Three inputs of int8, rows of a known stride, an even number of them: where most of the network's time
+/// goes. \tparam kOwnBias  each input has a bias of its own
+template <typename Output, int kStride, bool kOwnBias = false>
+void multiply_known(const Linear& layer, const std::int32_t* bias, Rows<const std::int8_t> inputs,
                     Rows<typename Output::Type> outputs) {
+  std::uint32_t pairs[kStride / 2 * 3];
+  const std::uint32_t* const end = pair_up_rows<3>(inputs, kStride, pairs);
+  const std::int8_t* weights = layer.weights;
+  const std::int32_t* const last = bias + layer.rows;
+  const std::int32_t* multiplier = layer.multiplier;
+  typename Output::Type* to = outputs.data;
+  do {
+    const std::int32_t first_bias = bias[0] * (1 << kShift<std::int8_t>);
+    const std::int32_t second_bias = bias[1] * (1 << kShift<std::int8_t>);
+    std::int32_t a[3] = {first_bias, first_bias, first_bias};
+    std::int32_t b[3] = {second_bias, second_bias, second_bias};
+    if constexpr (kOwnBias) {
+#pragma GCC unroll 2
+      for (int i = 1; i < 3; ++i) {
+        a[i] = bias[i * layer.rows] * (1 << kShift<std::int8_t>);
+        b[i] = bias[i * layer.rows + 1] * (1 << kShift<std::int8_t>);
+      }
+    }
+    add_products<3, kStride>(weights, 0, pairs, end, true, a, b);
+    store_pair<Output, 3, std::int8_t>(a, b, multiplier, {to, outputs.stride});
+    weights += 2 * kStride;
+    bias += 2;
+    multiplier += 2;
+    to += 2;
+  } while (bias != last);
+}
+
+/// \return whether it was one of those
+template <typename Output, typename In>
+bool multiply_if_known(const Linear& layer, const std::int32_t* bias, int bias_stride, Rows<const In> inputs,
+                       Rows<typename Output::Type> outputs) {
   if constexpr (sizeof(In) == 1 && Output::kRescaled) {
-    if (layer.stride == 32)
-      return multiply_batch<Output, 3, 32, In>(layer, 32, bias, bias_stride, inputs, outputs);
+    if (layer.rows % 2 != 0) return false;
+    if (bias_stride != 0) {
+      if constexpr (sizeof(typename Output::Type) == 1) {
+        if (layer.stride != 32 || bias_stride != layer.rows) return false;
+        multiply_known<Output, 32, true>(layer, bias, inputs, outputs);
+        return true;
+      }
+      return false;
+    }
+    if (layer.stride == 32) {
+      multiply_known<Output, 32>(layer, bias, inputs, outputs);
+      return true;
+    }
     if constexpr (sizeof(typename Output::Type) == 2) {
-      if (layer.stride == 48)
-        return multiply_batch<Output, 3, 48, In>(layer, 48, bias, bias_stride, inputs, outputs);
-      if (layer.stride == 80)
-        return multiply_batch<Output, 3, 80, In>(layer, 80, bias, bias_stride, inputs, outputs);
-      if (layer.stride == 128)
-        return multiply_batch<Output, 3, 128, In>(layer, 128, bias, bias_stride, inputs, outputs);
+      switch (layer.stride) {
+        case 48:
+          multiply_known<Output, 48>(layer, bias, inputs, outputs);
+          return true;
+        case 80:
+          multiply_known<Output, 80>(layer, bias, inputs, outputs);
+          return true;
+        case 128:
+          multiply_known<Output, 128>(layer, bias, inputs, outputs);
+          return true;
+        default:
+          break;
+      }
     }
   }
-  multiply_batch<Output, 3, 0, In>(layer, layer.stride, bias, bias_stride, inputs, outputs);
+  return false;
 }
 
 // A single row is computed twice.
-template <typename Output, typename In>
-void multiply_row(const Linear& layer, const std::int32_t* bias, const In* input,
-                  typename Output::Type* output) {
+template <typename Output, int kBatch, typename In>
+void multiply_row(const Linear& layer, const std::int32_t* bias, Rows<const In> inputs,
+                  Rows<typename Output::Type> outputs) {
   const std::int32_t biases[2] = {*bias, *bias};
   const std::int32_t multipliers[2] = {*layer.multiplier, *layer.multiplier};
-  typename Output::Type outputs[2];
-  Linear twice = layer;
-  twice.multiplier = multipliers;
-  twice.rows = 2;
-  multiply_batch<Output, 2, 0, In>(twice, 0, biases, 0, {input, 0}, {outputs, 0});
-  *output = outputs[0];
+  typename Output::Type twice[kBatch][2];
+  Linear pair = layer;
+  pair.multiplier = multipliers;
+  pair.rows = 2;
+  multiply_batch<Output, kBatch, In>(pair, 0, biases, 0, inputs, {twice[0], 2});
+  for (int i = 0; i < kBatch; ++i) outputs[i][0] = twice[i][0];
 }
 
 }  // namespace s4tp::satp::dsp
@@ -221,20 +287,31 @@ namespace s4tp::satp {
 template <typename Output, typename In>
 void multiply_rows(const Linear& layer, const std::int32_t* bias, int bias_stride, Rows<const In> inputs,
                    int count, Rows<typename Output::Type> outputs) {
-  if (layer.rows == 1) {
-    for (int i = 0; i < count; ++i)
-      dsp::multiply_row<Output, In>(layer, bias + i * bias_stride, inputs[i], outputs[i]);
-    return;
-  }
+  constexpr int kTogether = sizeof(In) == 1 ? 2 : 3;  // where the stride is not known
   int i = 0;
-  for (; i + 3 <= count; i += 3) {
-    dsp::multiply_three<Output, In>(layer, bias + i * bias_stride, bias_stride, {inputs[i], inputs.stride},
-                                    {outputs[i], outputs.stride});
+  while (i < count) {
+    const std::int32_t* from = bias + i * bias_stride;
+    const Rows<const In> these{inputs[i], inputs.stride};
+    const Rows<typename Output::Type> those{outputs[i], outputs.stride};
+    const bool several = count - i >= kTogether;
+    if (layer.rows == 1 && several && bias_stride == 0) {
+      dsp::multiply_row<Output, kTogether, In>(layer, from, these, those);
+      i += kTogether;
+    } else if (layer.rows == 1) {
+      dsp::multiply_row<Output, 2, In>(layer, from, {these.data, 0}, {those.data, 0});
+      i += 1;
+    } else if (count - i >= 3 && dsp::multiply_if_known<Output, In>(layer, from, bias_stride, these, those)) {
+      i += 3;
+    } else if (several) {
+      dsp::multiply_batch<Output, kTogether, In>(layer, layer.stride, from, bias_stride, these, those);
+      i += kTogether;
+    } else {
+      const int pair = i + 1 < count ? 1 : 0;  // a single input is computed twice
+      dsp::multiply_batch<Output, 2, In>(layer, layer.stride, from, pair * bias_stride,
+                                         {these.data, pair * these.stride}, {those.data, pair * those.stride});
+      i += 2;
+    }
   }
-  if (i == count) return;
-  const int pair = i + 1 < count ? 1 : 0;  // a single input is computed twice
-  dsp::multiply_batch<Output, 2, 0, In>(layer, layer.stride, bias + i * bias_stride, pair * bias_stride,
-                                     {inputs[i], pair * inputs.stride}, {outputs[i], pair * outputs.stride});
 }
 
 }  // namespace s4tp::satp

@@ -13,7 +13,6 @@ namespace s4tp::satp::dsp {
 
 using plain::add_rescaled;
 using plain::centre;
-using plain::narrow;
 using plain::scale;
 
 inline std::int32_t load_pair(const std::int16_t* from) {
@@ -52,6 +51,16 @@ inline void look_up(const Stretch* table, std::int16_t* values, int count) {
     const std::int32_t low_climb = __smlatb(low, static_cast<std::int32_t>(from_start & 255U), 128);
     const std::int32_t high_climb = __smlatb(high, static_cast<std::int32_t>(from_start >> 16U & 255U), 128);
     store_pair(values + i, pair_of(low + (low_climb >> 8), high + (high_climb >> 8)));
+  }
+}
+
+inline void narrow(const std::int16_t* values, int count, std::int8_t* outputs) {
+  constexpr std::int32_t kHalves = 0x00800080;
+#pragma GCC unroll 2
+  for (int i = 0; i < count; i += 2) {
+    const std::int32_t rounded = __qadd16(load_pair(values + i), kHalves);
+    outputs[i] = static_cast<std::int8_t>(rounded >> 8);
+    outputs[i + 1] = static_cast<std::int8_t>(rounded >> 24);
   }
 }
 
