@@ -9,7 +9,6 @@ namespace {
 
 constexpr int kWidth = kMcuShape.width;
 constexpr int kHeads = kMcuShape.heads;
-constexpr int kHeadWidth = kWidth / kHeads;
 constexpr int kInner = kMcuShape.feed_forward;
 
 // To the nearest, halves away from zero.
@@ -50,20 +49,11 @@ void look(const Attention& block, const std::int8_t* asked, Rows<const std::int8
   for (int head = 0; head < kHeads; ++head) {
     const int from = head * kHeadWidth;
     std::int32_t scores[kMaxKeys];
-    for (int j = 0; j < key_count; ++j) {
-      const std::int8_t* key = keys[j] + from;
-      std::int32_t score = 0;
-      for (int c = 0; c < kHeadWidth; ++c) score += static_cast<std::int32_t>(asked[from + c]) * key[c];
-      scores[j] = score;
-    }
+    lanes::score(asked + from, {keys.data + from, keys.stride}, key_count, scores);
     std::int32_t weights[kMaxKeys];
     const std::int32_t sum = softmax(scores, key_count, mask, block.score, weights);
-    std::int32_t sums[kHeadWidth] = {};
-    for (int j = 0; j < key_count; ++j) {
-      if (weights[j] == 0) continue;
-      const std::int8_t* value = values[j] + from;
-      for (int c = 0; c < kHeadWidth; ++c) sums[c] += weights[j] * value[c];
-    }
+    std::int32_t sums[kHeadWidth];
+    lanes::weigh(weights, {values.data + from, values.stride}, key_count, sums);
     for (int c = 0; c < kHeadWidth; ++c)
       seen[from + c] = sum == 0 ? std::int8_t{0} : static_cast<std::int8_t>(quotient(sums[c], sum));
   }

@@ -101,4 +101,62 @@ inline void mix(const std::int16_t* values, const std::int16_t* others, std::int
   }
 }
 
+static_assert(kHeadWidth == 8, "a head is two words");
+
+inline std::int32_t load_four(const std::int8_t* from) {
+  std::int32_t word = 0;
+  std::memcpy(&word, from, sizeof word);
+  return word;
+}
+inline std::int32_t even_bytes(std::int32_t word) {
+  return __sxtb16(word);
+}
+inline std::int32_t odd_bytes(std::int32_t word) {
+  std::int32_t result = 0;
+  asm("sxtb16 %0, %1, ror #8" : "=r"(result) : "r"(word));
+  return result;
+}
+
+inline void score(const std::int8_t* query, Rows<const std::int8_t> keys, int count, std::int32_t* scores) {
+  const std::int32_t first = load_four(query);
+  const std::int32_t second = load_four(query + 4);
+  const std::int32_t first_even = even_bytes(first);
+  const std::int32_t first_odd = odd_bytes(first);
+  const std::int32_t second_even = even_bytes(second);
+  const std::int32_t second_odd = odd_bytes(second);
+  const std::int8_t* key = keys.data;
+  for (int j = 0; j < count; ++j, key += keys.stride) {
+    const std::int32_t low = load_four(key);
+    const std::int32_t high = load_four(key + 4);
+    std::int32_t sum = __smuad(first_even, even_bytes(low));
+    sum = __smlad(first_odd, odd_bytes(low), sum);
+    sum = __smlad(second_even, even_bytes(high), sum);
+    scores[j] = __smlad(second_odd, odd_bytes(high), sum);
+  }
+}
+
+inline void weigh(const std::int32_t* weights, Rows<const std::int8_t> values, int count,
+                  std::int32_t (&sums)[kHeadWidth]) {
+  for (int half = 0; half < kHeadWidth; half += 4) {
+    std::int32_t s0 = 0;
+    std::int32_t s1 = 0;
+    std::int32_t s2 = 0;
+    std::int32_t s3 = 0;
+    const std::int8_t* value = values.data + half;
+    for (int j = 0; j < count; ++j, value += values.stride) {
+      const std::int32_t four = load_four(value);
+      const std::int32_t even = even_bytes(four);
+      const std::int32_t odd = odd_bytes(four);
+      s0 = __smlabb(weights[j], even, s0);
+      s1 = __smlabb(weights[j], odd, s1);
+      s2 = __smlabt(weights[j], even, s2);
+      s3 = __smlabt(weights[j], odd, s3);
+    }
+    sums[half] = s0;
+    sums[half + 1] = s1;
+    sums[half + 2] = s2;
+    sums[half + 3] = s3;
+  }
+}
+
 }  // namespace s4tp::satp::dsp

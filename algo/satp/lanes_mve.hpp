@@ -99,4 +99,25 @@ inline void scale(const std::int32_t* values, int shift, std::int32_t factor, co
   }
 }
 
+static_assert(kHeadWidth == 8, "a head is a vector of int16");
+
+inline void score(const std::int8_t* query, Rows<const std::int8_t> keys, int count, std::int32_t* scores) {
+  const int16x8_t asked = vldrbq_s16(query);
+  const std::int8_t* key = keys.data;
+  for (int j = 0; j < count; ++j, key += keys.stride) scores[j] = vmladavq_s16(asked, vldrbq_s16(key));
+}
+
+inline void weigh(const std::int32_t* weights, Rows<const std::int8_t> values, int count,
+                  std::int32_t (&sums)[kHeadWidth]) {
+  int32x4_t first = vdupq_n_s32(0);
+  int32x4_t second = first;
+  const std::int8_t* value = values.data;
+  for (int j = 0; j < count; ++j, value += values.stride) {
+    first = vmlaq_n_s32(first, vldrbq_s32(value), weights[j]);
+    second = vmlaq_n_s32(second, vldrbq_s32(value + 4), weights[j]);
+  }
+  vstrwq_s32(sums, first);
+  vstrwq_s32(sums + 4, second);
+}
+
 }  // namespace s4tp::satp::mve

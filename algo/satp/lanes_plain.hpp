@@ -4,7 +4,9 @@
 
 #include <cstdint>
 
+#include "algo/satp/network_shape.hpp"
 #include "algo/satp/requantize.hpp"
+#include "algo/satp/rows.hpp"
 
 namespace s4tp::satp {
 
@@ -13,6 +15,8 @@ struct Stretch {
   std::int16_t value;
   std::int16_t rise;  ///< 0 .. 2^15 - 1
 };
+
+inline constexpr int kHeadWidth = kMcuShape.width / kMcuShape.heads;  ///< columns of an attention's head
 
 namespace plain {
 
@@ -86,6 +90,24 @@ inline void scale(const std::int32_t* values, int shift, std::int32_t factor, co
     const std::int32_t scaled = requantize_wide(values[i] * (1 << shift), factor) * gains[i];
     const std::int32_t sum = saturating_sum(saturating_sum(scaled, biases[i]), 1 << (kBits - 1));
     outputs[i] = static_cast<std::int8_t>(saturate8(sum >> kBits));
+  }
+}
+
+/// scores[j] = query times keys[j], over kHeadWidth columns.
+inline void score(const std::int8_t* query, Rows<const std::int8_t> keys, int count, std::int32_t* scores) {
+  for (int j = 0; j < count; ++j) {
+    std::int32_t sum = 0;
+    for (int c = 0; c < kHeadWidth; ++c) sum += query[c] * keys[j][c];
+    scores[j] = sum;
+  }
+}
+
+/// sums = weights times values, over kHeadWidth columns. \param weights  0 .. 2^15 - 1
+inline void weigh(const std::int32_t* weights, Rows<const std::int8_t> values, int count,
+                  std::int32_t (&sums)[kHeadWidth]) {
+  for (std::int32_t& sum : sums) sum = 0;
+  for (int j = 0; j < count; ++j) {
+    for (int c = 0; c < kHeadWidth; ++c) sums[c] += weights[j] * values[j][c];
   }
 }
 
