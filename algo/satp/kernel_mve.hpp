@@ -236,22 +236,49 @@ typename Output::Type output_of(std::int32_t sum, std::int32_t multiplier) {
   }
 }
 
-/// Outputs of one input.
 template <typename Output, typename In>
-void finish(const std::int32_t* sums, const std::int32_t* bias, const std::int32_t* multiplier, int rows,
+void store_rescaled(int32x4_t sum, int32x4_t multiplier, typename Output::Type* to, int16x8_t& spare) {
+  if constexpr (sizeof(In) == 1) sum = vshlq_n_s32(sum, kShift<In>);
+  store(Output(), to, vrmulhq_s32(sum, multiplier), spare);
+}
+
+/// Outputs of one input, from row `o` on.
+template <typename Output, typename In>
+void finish(const std::int32_t* sums, const std::int32_t* bias, const std::int32_t* multiplier, int o, int rows,
             typename Output::Type* outputs) {
-  int o = 0;
   if constexpr (Output::kRescaled) {
     int16x8_t spare = vdupq_n_s16(0);
 #pragma GCC unroll 1
     for (; o + 4 <= rows; o += 4) {
-      int32x4_t sum = vaddq_s32(vldrwq_s32(sums + o), vldrwq_s32(bias + o));
-      if constexpr (sizeof(In) == 1) sum = vshlq_n_s32(sum, kShift<In>);
-      store(Output(), outputs + o, vrmulhq_s32(sum, vldrwq_s32(multiplier + o)), spare);
+      const int32x4_t sum = vaddq_s32(vldrwq_s32(sums + o), vldrwq_s32(bias + o));
+      store_rescaled<Output, In>(sum, vldrwq_s32(multiplier + o), outputs + o, spare);
     }
   }
 #pragma GCC unroll 1
   for (; o < rows; ++o) outputs[o] = output_of<Output, In>(sums[o] + bias[o], multiplier[o]);
+}
+
+/// Outputs of three inputs with one bias. \return how many rows it has finished: all but the last few
+template <typename Output, typename In>
+int finish_three(const ChunkSums& sums, const std::int32_t* bias, const std::int32_t* multiplier, int rows,
+                 typename Output::Type* first, typename Output::Type* second, typename Output::Type* third) {
+  int16x8_t spare = vdupq_n_s16(0);
+  const std::int32_t* sum = sums[0];
+#pragma GCC unroll 1
+  for (int i = 0; i < rows / 4; ++i) {
+    const int32x4_t add = vldrwq_s32(bias);
+    const int32x4_t by = vldrwq_s32(multiplier);
+    store_rescaled<Output, In>(vaddq_s32(vldrwq_s32(sum), add), by, first, spare);
+    store_rescaled<Output, In>(vaddq_s32(vldrwq_s32(sum + kChunk), add), by, second, spare);
+    store_rescaled<Output, In>(vaddq_s32(vldrwq_s32(sum + 2 * kChunk), add), by, third, spare);
+    bias += 4;
+    multiplier += 4;
+    sum += 4;
+    first += 4;
+    second += 4;
+    third += 4;
+  }
+  return rows / 4 * 4;
 }
 
 }  // namespace s4tp::satp::mve
@@ -268,9 +295,18 @@ void multiply_rows(const Linear& layer, const std::int32_t* bias, int bias_strid
     for (int o = 0; o < layer.rows; o += mve::kChunk) {
       const int rows = layer.rows - o < mve::kChunk ? layer.rows - o : mve::kChunk;
       mve::sum_up_chunk(layer.weights + o * layer.stride, layer.stride, rows, these, sums);
-      for (int b = i; b < i + batch; ++b) {
-        mve::finish<Output, In>(sums[b - i], bias + b * bias_stride + o, layer.multiplier + o, rows,
-                                outputs[b] + o);
+      const std::int32_t* multiplier = layer.multiplier + o;
+      int done = 0;
+      if constexpr (Output::kRescaled) {
+        if (batch == kMaxBatch && bias_stride == 0) {
+          done = mve::finish_three<Output, In>(sums, bias + o, multiplier, rows, outputs[i] + o,
+                                               outputs[i + 1] + o, outputs[i + 2] + o);
+        }
+      }
+      if (done == rows) continue;
+      for (int b = 0; b < batch; ++b) {
+        mve::finish<Output, In>(sums[b], bias + (i + b) * bias_stride + o, multiplier, done, rows,
+                                outputs[i + b] + o);
       }
     }
   }
