@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <cstring>
+#include <type_traits>
 
 #include "algo/satp/kernels.hpp"
 #include "algo/satp/output.hpp"
@@ -76,14 +77,14 @@ inline void pair_up(const std::int16_t* input, std::uint32_t& even, std::uint32_
   "cmp %[pairs], %[part]\n"   \
   "bne 1b\n"
 #define S4TP_ASM(body, apart, ...)                                                                          \
-  asm volatile(S4TP_LOOP(body)                                                                       \
+  asm volatile(body                                                                                  \
                : __VA_ARGS__, [weights] "+r"(w), [pairs] "+r"(x), [first] "=&r"(first),              \
                  [second] "=&r"(second), [part] "=&r"(part)                                          \
                : [distance] apart, [end] "t"(end)                                                \
                : "cc", "memory", "r0", "r1", "r2")
 
 /// Adds the products of two rows, `distance` bytes apart, and `kBatch` inputs to their sums.
-/// \tparam kStride  of the rows, when it is known: a multiple of 16; otherwise 0
+/// \tparam kStride  of the rows, when it is known: 8, 12 or a multiple of 16; otherwise 0
 template <int kBatch, int kStride>
 [[gnu::always_inline]] inline void add_products(const std::int8_t* weights, std::int32_t distance,
                                                 const std::uint32_t* pairs, const std::uint32_t* end,
@@ -101,20 +102,26 @@ template <int kBatch, int kStride>
   if constexpr (kBatch == 3) {
     register std::int32_t a2 asm("r12") = a[2];
     register std::int32_t b2 asm("lr") = b[2];
-    if constexpr (kStride != 0) {
-      S4TP_ASM(S4TP_3_KNOWN S4TP_3_KNOWN S4TP_3_KNOWN S4TP_3_KNOWN, "i"(kStride), [a0] "+r"(a0), [a1] "+r"(a1),
+    if constexpr (kStride == 8) {
+      S4TP_ASM(S4TP_3_KNOWN S4TP_3_KNOWN, "i"(kStride), [a0] "+r"(a0), [a1] "+r"(a1), [a2] "+r"(a2),
+               [b0] "+r"(b0), [b1] "+r"(b1), [b2] "+r"(b2));
+    } else if constexpr (kStride == 12) {
+      S4TP_ASM(S4TP_3_KNOWN S4TP_3_KNOWN S4TP_3_KNOWN, "i"(kStride), [a0] "+r"(a0), [a1] "+r"(a1),
+               [a2] "+r"(a2), [b0] "+r"(b0), [b1] "+r"(b1), [b2] "+r"(b2));
+    } else if constexpr (kStride != 0) {
+      S4TP_ASM(S4TP_LOOP(S4TP_3_KNOWN S4TP_3_KNOWN S4TP_3_KNOWN S4TP_3_KNOWN), "i"(kStride), [a0] "+r"(a0), [a1] "+r"(a1),
                [a2] "+r"(a2), [b0] "+r"(b0), [b1] "+r"(b1), [b2] "+r"(b2));
     } else if (by_sixteen) {
-      S4TP_ASM(S4TP_3 S4TP_3 S4TP_3 S4TP_3, "t"(distance), [a0] "+r"(a0), [a1] "+r"(a1), [a2] "+r"(a2), [b0] "+r"(b0),
+      S4TP_ASM(S4TP_LOOP(S4TP_3 S4TP_3 S4TP_3 S4TP_3), "t"(distance), [a0] "+r"(a0), [a1] "+r"(a1), [a2] "+r"(a2), [b0] "+r"(b0),
                [b1] "+r"(b1), [b2] "+r"(b2));
     } else {
-      S4TP_ASM(S4TP_3, "t"(distance), [a0] "+r"(a0), [a1] "+r"(a1), [a2] "+r"(a2), [b0] "+r"(b0), [b1] "+r"(b1),
+      S4TP_ASM(S4TP_LOOP(S4TP_3), "t"(distance), [a0] "+r"(a0), [a1] "+r"(a1), [a2] "+r"(a2), [b0] "+r"(b0), [b1] "+r"(b1),
                [b2] "+r"(b2));
     }
     a[2] = a2;
     b[2] = b2;
   } else {
-    S4TP_ASM(S4TP_2, "t"(distance), [a0] "+r"(a0), [a1] "+r"(a1), [b0] "+r"(b0), [b1] "+r"(b1));
+    S4TP_ASM(S4TP_LOOP(S4TP_2), "t"(distance), [a0] "+r"(a0), [a1] "+r"(a1), [b0] "+r"(b0), [b1] "+r"(b1));
   }
   a[0] = a0;
   a[1] = a1;
@@ -197,10 +204,10 @@ void multiply_batch(const Linear& layer, int distance, const std::int32_t* bias,
   }
 }
 
-/// Three inputs of int8, rows of a known stride, an even number of them: where most of the network's time
+/// Three inputs, rows of a known stride, an even number of them: where most of the network's time
 /// goes. \tparam kOwnBias  each input has a bias of its own
-template <typename Output, int kStride, bool kOwnBias = false>
-void multiply_known(const Linear& layer, const std::int32_t* bias, Rows<const std::int8_t> inputs,
+template <typename Output, typename In, int kStride, bool kOwnBias = false>
+void multiply_known(const Linear& layer, const std::int32_t* bias, Rows<const In> inputs,
                     Rows<typename Output::Type> outputs) {
   std::uint32_t pairs[kStride / 2 * 3];
   const std::uint32_t* const end = pair_up_rows<3>(inputs, kStride, pairs);
@@ -209,19 +216,19 @@ void multiply_known(const Linear& layer, const std::int32_t* bias, Rows<const st
   const std::int32_t* multiplier = layer.multiplier;
   typename Output::Type* to = outputs.data;
   do {
-    const std::int32_t first_bias = bias[0] * (1 << kShift<std::int8_t>);
-    const std::int32_t second_bias = bias[1] * (1 << kShift<std::int8_t>);
+    const std::int32_t first_bias = bias[0] * (1 << kShift<In>);
+    const std::int32_t second_bias = bias[1] * (1 << kShift<In>);
     std::int32_t a[3] = {first_bias, first_bias, first_bias};
     std::int32_t b[3] = {second_bias, second_bias, second_bias};
     if constexpr (kOwnBias) {
 #pragma GCC unroll 2
       for (int i = 1; i < 3; ++i) {
-        a[i] = bias[i * layer.rows] * (1 << kShift<std::int8_t>);
-        b[i] = bias[i * layer.rows + 1] * (1 << kShift<std::int8_t>);
+        a[i] = bias[i * layer.rows] * (1 << kShift<In>);
+        b[i] = bias[i * layer.rows + 1] * (1 << kShift<In>);
       }
     }
     add_products<3, kStride>(weights, 0, pairs, end, true, a, b);
-    store_pair<Output, 3, std::int8_t>(a, b, multiplier, {to, outputs.stride});
+    store_pair<Output, 3, In>(a, b, multiplier, {to, outputs.stride});
     weights += 2 * kStride;
     bias += 2;
     multiplier += 2;
@@ -233,34 +240,29 @@ void multiply_known(const Linear& layer, const std::int32_t* bias, Rows<const st
 template <typename Output, typename In>
 bool multiply_if_known(const Linear& layer, const std::int32_t* bias, int bias_stride, Rows<const In> inputs,
                        Rows<typename Output::Type> outputs) {
-  if constexpr (sizeof(In) == 1 && Output::kRescaled) {
+  constexpr bool kBytes = sizeof(typename Output::Type) == 1;
+  if constexpr (Output::kRescaled) {
     if (layer.rows % 2 != 0) return false;
-    if (bias_stride != 0) {
-      if constexpr (sizeof(typename Output::Type) == 1) {
-        if (layer.stride != 32 || bias_stride != layer.rows) return false;
-        multiply_known<Output, 32, true>(layer, bias, inputs, outputs);
-        return true;
-      }
-      return false;
-    }
-    if (layer.stride == 32) {
-      multiply_known<Output, 32>(layer, bias, inputs, outputs);
+    const auto known = [&](auto stride) {
+      multiply_known<Output, In, stride.value>(layer, bias, inputs, outputs);
       return true;
-    }
-    if constexpr (sizeof(typename Output::Type) == 2) {
-      switch (layer.stride) {
-        case 48:
-          multiply_known<Output, 48>(layer, bias, inputs, outputs);
-          return true;
-        case 80:
-          multiply_known<Output, 80>(layer, bias, inputs, outputs);
-          return true;
-        case 128:
-          multiply_known<Output, 128>(layer, bias, inputs, outputs);
-          return true;
-        default:
-          break;
-      }
+    };
+    if constexpr (sizeof(In) == 2) {
+      if (bias_stride != 0) return false;
+      if (layer.stride == 8) return known(std::integral_constant<int, 8>());
+      if (!kBytes && layer.stride == 12) return known(std::integral_constant<int, 12>());
+    } else if constexpr (kBytes) {
+      if (layer.stride != 32) return false;
+      if (bias_stride == 0) return known(std::integral_constant<int, 32>());
+      if (bias_stride != layer.rows) return false;
+      multiply_known<Output, In, 32, true>(layer, bias, inputs, outputs);
+      return true;
+    } else {
+      if (bias_stride != 0) return false;
+      if (layer.stride == 32) return known(std::integral_constant<int, 32>());
+      if (layer.stride == 48) return known(std::integral_constant<int, 48>());
+      if (layer.stride == 80) return known(std::integral_constant<int, 80>());
+      if (layer.stride == 128) return known(std::integral_constant<int, 128>());
     }
   }
   return false;
