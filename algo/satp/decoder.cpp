@@ -48,8 +48,7 @@ void mix_inputs(const Weights& weights, const Encoded& encoded, int hdv, const f
   }
   const std::int32_t multiplier = weights.words(kGruMix)[0];
   const std::int32_t gate = encoded.gate[hdv];
-  for (int k = 0; k < kModes; ++k)
-    lanes::mix(own[k], ours[k], gate, multiplier, kEmbed, scratch.inputs[k]);
+  for (int k = 0; k < kModes; ++k) lanes::mix(own[k], ours[k], gate, multiplier, kEmbed, scratch.inputs[k]);
 }
 
 // Increments are what the vehicle does beyond keeping its speed.

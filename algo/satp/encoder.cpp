@@ -177,8 +177,7 @@ void start(const Weights& weights, const NetworkInput& input, int first, int cou
   for (int i = 0; i < count; ++i)
     join(scratch.histories[0], scratch.histories[1 + first + i], pairs[i], joined[i]);
   interaction_gates(weights, scenes, count, encoded.gate + first);
-  for (int i = 0; i < count; ++i)
-    join(scratch.mixed[1 + first + i], maps[first + i], pairs[i], joined[i]);
+  for (int i = 0; i < count; ++i) join(scratch.mixed[1 + first + i], maps[first + i], pairs[i], joined[i]);
   auto& states = encoded.start[first];
   constexpr int kStates = kMcuShape.modes * kMcuShape.hidden;
   linear_by_bias(weights.linear(kStart), scenes, count, kMcuShape.modes,

@@ -2,8 +2,6 @@
 /// Elementwise arithmetic of the network on Cortex-M with the DSP extension: two int16 in a word.
 /// Internal: see lanes.hpp.
 
-#include <arm_acle.h>
-
 #include <cstdint>
 #include <cstring>
 
@@ -48,8 +46,10 @@ inline void look_up(const Stretch* table, std::int16_t* values, int count) {
     const std::uint32_t from_start = static_cast<std::uint32_t>(load_pair(values + i)) ^ kFromStart;
     const std::int32_t low = load_pair(&table[from_start >> 8U & 255U].value);
     const std::int32_t high = load_pair(&table[from_start >> 24U].value);
-    const std::int32_t low_climb = __smlatb(low, static_cast<std::int32_t>(from_start & 255U), 128);
-    const std::int32_t high_climb = __smlatb(high, static_cast<std::int32_t>(from_start >> 16U & 255U), 128);
+    const std::int32_t low_climb =
+        __builtin_arm_smlatb(low, static_cast<std::int32_t>(from_start & 255U), 128);
+    const std::int32_t high_climb =
+        __builtin_arm_smlatb(high, static_cast<std::int32_t>(from_start >> 16U & 255U), 128);
     store_pair(values + i, pair_of(low + (low_climb >> 8), high + (high_climb >> 8)));
   }
 }
@@ -58,7 +58,7 @@ inline void narrow(const std::int16_t* values, int count, std::int8_t* outputs) 
   constexpr std::int32_t kHalves = 0x00800080;
 #pragma GCC unroll 2
   for (int i = 0; i < count; i += 2) {
-    const std::int32_t rounded = __qadd16(load_pair(values + i), kHalves);
+    const std::int32_t rounded = __builtin_arm_qadd16(load_pair(values + i), kHalves);
     outputs[i] = static_cast<std::int8_t>(rounded >> 8);
     outputs[i + 1] = static_cast<std::int8_t>(rounded >> 24);
   }
@@ -70,8 +70,9 @@ inline void add_shares(const std::int16_t* shares, const std::int16_t* values, i
   for (int i = 0; i < count; i += 2) {
     const std::int32_t share = load_pair(shares + i);
     const std::int32_t value = load_pair(values + i);
-    const std::int32_t part = whole_pair(__smlabb(share, value, kHalfQ15), __smlatt(share, value, kHalfQ15));
-    store_pair(sums + i, __qadd16(load_pair(sums + i), part));
+    const std::int32_t part = whole_pair(__builtin_arm_smlabb(share, value, kHalfQ15),
+                                         __builtin_arm_smlatt(share, value, kHalfQ15));
+    store_pair(sums + i, __builtin_arm_qadd16(load_pair(sums + i), part));
   }
 }
 
@@ -81,10 +82,11 @@ inline void blend(const std::int16_t* shares, const std::int16_t* others, int co
     const std::int32_t share = load_pair(shares + i);
     const std::int32_t other = load_pair(others + i);
     const std::int32_t value = load_pair(values + i);
-    const std::int32_t low = __smlabb(share, value, kHalfQ15) - static_cast<std::int16_t>(share) * static_cast<std::int16_t>(other);
-    const std::int32_t high = __smlatt(share, value, kHalfQ15) - (share >> 16) * (other >> 16);
+    const std::int32_t low = __builtin_arm_smlabb(share, value, kHalfQ15) -
+                             static_cast<std::int16_t>(share) * static_cast<std::int16_t>(other);
+    const std::int32_t high = __builtin_arm_smlatt(share, value, kHalfQ15) - (share >> 16) * (other >> 16);
     // What is added may leave 16 bits; the sum comes back.
-    store_pair(values + i, __sadd16(other, whole_pair(low, high)));
+    store_pair(values + i, __builtin_arm_sadd16(other, whole_pair(low, high)));
   }
 }
 
@@ -94,8 +96,8 @@ inline void mix(const std::int16_t* values, const std::int16_t* others, std::int
   for (int i = 0; i < count; i += 2) {
     const std::int32_t value = load_pair(values + i);
     const std::int32_t other = load_pair(others + i);
-    const std::int32_t low = (value & 0xFFFF) + (__smlabb(share_q15, other, kHalfQ15) >> 15);
-    const std::int32_t high = (value >> 16) + (__smlabt(share_q15, other, kHalfQ15) >> 15);
+    const std::int32_t low = (value & 0xFFFF) + (__builtin_arm_smlabb(share_q15, other, kHalfQ15) >> 15);
+    const std::int32_t high = (value >> 16) + (__builtin_arm_smlatb(other, share_q15, kHalfQ15) >> 15);
     outputs[i] = static_cast<std::int8_t>(saturate_unsigned8(requantize(low, multiplier)) - 128);
     outputs[i + 1] = static_cast<std::int8_t>(saturate_unsigned8(requantize(high, multiplier)) - 128);
   }
@@ -109,7 +111,7 @@ inline std::int32_t load_four(const std::int8_t* from) {
   return word;
 }
 inline std::int32_t even_bytes(std::int32_t word) {
-  return __sxtb16(word);
+  return __builtin_arm_sxtb16(word);
 }
 inline std::int32_t odd_bytes(std::int32_t word) {
   std::int32_t result = 0;
@@ -128,10 +130,10 @@ inline void score(const std::int8_t* query, Rows<const std::int8_t> keys, int co
   for (int j = 0; j < count; ++j, key += keys.stride) {
     const std::int32_t low = load_four(key);
     const std::int32_t high = load_four(key + 4);
-    std::int32_t sum = __smuad(first_even, even_bytes(low));
-    sum = __smlad(first_odd, odd_bytes(low), sum);
-    sum = __smlad(second_even, even_bytes(high), sum);
-    scores[j] = __smlad(second_odd, odd_bytes(high), sum);
+    std::int32_t sum = __builtin_arm_smuad(first_even, even_bytes(low));
+    sum = __builtin_arm_smlad(first_odd, odd_bytes(low), sum);
+    sum = __builtin_arm_smlad(second_even, even_bytes(high), sum);
+    scores[j] = __builtin_arm_smlad(second_odd, odd_bytes(high), sum);
   }
 }
 
@@ -147,10 +149,10 @@ inline void weigh(const std::int32_t* weights, Rows<const std::int8_t> values, i
       const std::int32_t four = load_four(value);
       const std::int32_t even = even_bytes(four);
       const std::int32_t odd = odd_bytes(four);
-      s0 = __smlabb(weights[j], even, s0);
-      s1 = __smlabb(weights[j], odd, s1);
-      s2 = __smlabt(weights[j], even, s2);
-      s3 = __smlabt(weights[j], odd, s3);
+      s0 = __builtin_arm_smlabb(weights[j], even, s0);
+      s1 = __builtin_arm_smlabb(weights[j], odd, s1);
+      s2 = __builtin_arm_smlatb(even, weights[j], s2);
+      s3 = __builtin_arm_smlatb(odd, weights[j], s3);
     }
     sums[half] = s0;
     sums[half + 1] = s1;

@@ -6,7 +6,7 @@ namespace s4tp::satp {
 namespace {
 
 constexpr int kWidth = kMcuShape.width;
-constexpr int kNormBits = 12;    // of the normalized value
+constexpr int kNormBits = 12;  // of the normalized value
 
 // sqrt(kWidth) * 2^28, for the compiler only.
 constexpr std::uint32_t root_of_width() {

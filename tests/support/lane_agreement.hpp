@@ -90,8 +90,7 @@ class LaneAgreement {
     if (!same(fast32_, plain32_, kCount)) return "add_rescaled";
     std::memcpy(fast32_, words_, sizeof words_);
     std::memcpy(plain32_, words_, sizeof words_);
-    if (lanes::centre(fast32_, kCount) != plain::centre(plain32_, kCount) ||
-        !same(fast32_, plain32_, kCount))
+    if (lanes::centre(fast32_, kCount) != plain::centre(plain32_, kCount) || !same(fast32_, plain32_, kCount))
       return "centre";
     const int shift = random.integer(0, 13);
     lanes::scale(words_, shift, multiplier >> 15, gains_, biases_, kCount, fast8_);

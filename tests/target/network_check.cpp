@@ -37,7 +37,8 @@ std::int32_t plain[satp::kMaxBatch][satp::kMaxRows];
 test::LaneAgreement lanes;
 
 /// The rounding rule in plain words, and the ends of a type's range.
-std::int32_t rescaled(std::int32_t sum, std::int32_t multiplier, int shift, std::int32_t low, std::int32_t high) {
+std::int32_t rescaled(std::int32_t sum, std::int32_t multiplier, int shift, std::int32_t low,
+                      std::int32_t high) {
   const std::int64_t product = static_cast<std::int64_t>(sum) * multiplier;
   const std::int64_t q = (product + (std::int64_t{1} << (shift - 1))) >> shift;
   return static_cast<std::int32_t>(q < low ? low : (q > high ? high : q));
