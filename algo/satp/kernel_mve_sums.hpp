@@ -20,12 +20,12 @@ using ChunkSums = std::int32_t[kMaxBatch][kChunk];
 // By hand, because sums must stand in even registers. Where x0 .. x2, w0 and w1 point is told in full.
 #define S4TP_LOAD(load, to, from) load " %q[" to "], " from "\n"
 #define S4TP_ADD(add, sum, input) add " %[" sum "], %q[q0], %q[" input "]\n"
-#define S4TP_COLUMNS(add, load_weights, load_inputs, w0, w1, x0, x1, x2)                        \
-  S4TP_LOAD(load_weights, "q0", w0)                                                             \
-  S4TP_LOAD(load_inputs, "q1", x0) S4TP_ADD(add, "a0", "q1") S4TP_LOAD(load_inputs, "q2", x1)   \
-      S4TP_ADD(add, "a1", "q2") S4TP_LOAD(load_inputs, "q3", x2) S4TP_ADD(add, "a2", "q3")      \
-          S4TP_LOAD(load_weights, "q0", w1) S4TP_ADD(add, "b0", "q1") S4TP_ADD(add, "b1", "q2") \
-              S4TP_ADD(add, "b2", "q3")
+#define S4TP_COLUMNS(add, load_weights, load_inputs, w0, w1, x0, x1, x2)                           \
+  S4TP_LOAD(load_weights, "q0", w0)                                                                \
+  S4TP_LOAD(load_inputs, "q1", x0)                                                                 \
+  S4TP_ADD(add, "a0", "q1") S4TP_LOAD(load_inputs, "q2", x1) S4TP_ADD(add, "a1", "q2")             \
+      S4TP_LOAD(load_inputs, "q3", x2) S4TP_ADD(add, "a2", "q3") S4TP_LOAD(load_weights, "q0", w1) \
+          S4TP_ADD(add, "b0", "q1") S4TP_ADD(add, "b1", "q2") S4TP_ADD(add, "b2", "q3")
 // The loop's end instruction masks the columns beyond the last.
 #define S4TP_LOOP(type, load_weights, load_inputs, bytes)                                                    \
   "dlstp." type " lr, %[columns]\n1:\n" S4TP_COLUMNS("vmladava.s" type, load_weights, load_inputs,           \
@@ -170,6 +170,26 @@ inline void sum_up_8(const std::int8_t* weights, int stride, int rows, const Thr
   }
 }
 
+/// Of nine to sixteen.
+inline void sum_up_16(const std::int8_t* weights, int stride, int rows, const Three<std::int16_t>& inputs,
+                      ChunkSums& sums) {
+  const mve_pred16_t there = vctp16q(static_cast<std::uint32_t>(stride - 8));
+  const int16x8_t x0 = vldrhq_s16(inputs[0]);
+  const int16x8_t x1 = vldrhq_s16(inputs[1]);
+  const int16x8_t x2 = vldrhq_s16(inputs[2]);
+  const int16x8_t y0 = vldrhq_z_s16(inputs[0] + 8, there);
+  const int16x8_t y1 = vldrhq_z_s16(inputs[1] + 8, there);
+  const int16x8_t y2 = vldrhq_z_s16(inputs[2] + 8, there);
+#pragma GCC unroll 1
+  for (int o = 0; o < rows; ++o, weights += stride) {
+    const int16x8_t w = vldrbq_s16(weights);
+    const int16x8_t v = vldrbq_z_s16(weights + 8, there);
+    sums[0][o] = vmladavaq_s16(vmladavq_s16(w, x0), v, y0);
+    sums[1][o] = vmladavaq_s16(vmladavq_s16(w, x1), v, y1);
+    sums[2][o] = vmladavaq_s16(vmladavq_s16(w, x2), v, y2);
+  }
+}
+
 inline int16x8_t load_wide(const std::int8_t* from, mve_pred16_t there) {
   return vldrbq_z_s16(from, there);
 }
@@ -204,6 +224,7 @@ inline void sum_up_chunk(const std::int8_t* weights, int stride, int rows, const
                          ChunkSums& sums) {
   if (rows == 1) return sum_up_row(weights, stride, inputs, sums);
   if (stride <= 8) return sum_up_8(weights, stride, rows, inputs, sums);
+  if (stride <= 16) return sum_up_16(weights, stride, rows, inputs, sums);
   sum_up(weights, stride, rows, inputs, sums);
 }
 
