@@ -20,12 +20,16 @@ using ChunkSums = std::int32_t[kMaxBatch][kChunk];
 // By hand, because sums must stand in even registers. Where x0 .. x2, w0 and w1 point is told in full.
 #define S4TP_LOAD(load, to, from) load " %q[" to "], " from "\n"
 #define S4TP_ADD(add, sum, input) add " %[" sum "], %q[q0], %q[" input "]\n"
-#define S4TP_COLUMNS(add, load_weights, load_inputs, w0, w1, x0, x1, x2)                           \
-  S4TP_LOAD(load_weights, "q0", w0)                                                                \
-  S4TP_LOAD(load_inputs, "q1", x0)                                                                 \
-  S4TP_ADD(add, "a0", "q1") S4TP_LOAD(load_inputs, "q2", x1) S4TP_ADD(add, "a1", "q2")             \
-      S4TP_LOAD(load_inputs, "q3", x2) S4TP_ADD(add, "a2", "q3") S4TP_LOAD(load_weights, "q0", w1) \
-          S4TP_ADD(add, "b0", "q1") S4TP_ADD(add, "b1", "q2") S4TP_ADD(add, "b2", "q3")
+#define S4TP_COLUMNS(add, load_weights, load_inputs, w0, w1, x0, x1, x2) \
+  S4TP_LOAD(load_weights, "q0", w0)                                      \
+  S4TP_LOAD(load_inputs, "q1", x0)                                       \
+  S4TP_ADD(add, "a0", "q1")                                              \
+  S4TP_LOAD(load_inputs, "q2", x1)                                       \
+  S4TP_ADD(add, "a1", "q2")                                              \
+  S4TP_LOAD(load_inputs, "q3", x2)                                       \
+  S4TP_ADD(add, "a2", "q3")                                              \
+  S4TP_LOAD(load_weights, "q0", w1)                                      \
+  S4TP_ADD(add, "b0", "q1") S4TP_ADD(add, "b1", "q2") S4TP_ADD(add, "b2", "q3")
 // The loop's end instruction masks the columns beyond the last.
 #define S4TP_LOOP(type, load_weights, load_inputs, bytes)                                                    \
   "dlstp." type " lr, %[columns]\n1:\n" S4TP_COLUMNS("vmladava.s" type, load_weights, load_inputs,           \
