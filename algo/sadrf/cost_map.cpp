@@ -3,15 +3,11 @@
 #include "algo/core/inline.hpp"
 
 namespace s4tp {
-namespace {
-
-bool inside(const CostBox& one, Point point) {
+bool covers(const CostBox& one, Point point) {
   const Point offset = point - position(one.box.centre);
   return abs(dot(one.ahead, offset)) <= 0.5F * one.box.length_m &&
          abs(cross(one.ahead, offset)) <= 0.5F * one.box.width_m;
 }
-
-}  // namespace
 
 float modulation(const EgoState& ego, const Track& track, const Parameters& parameters) {
   constexpr float kNearM = 20.0F;
@@ -43,7 +39,7 @@ void place_obstacles(const Scene& scene, const Futures& futures, int step, const
 float cost_of(const CostBoxes& boxes, int agent, Point point) {
   float sum = 0.0F;
   for (const CostBox& one : boxes) {
-    if (one.agent == agent && inside(one, point)) sum += one.cost;
+    if (one.agent == agent && covers(one, point)) sum += one.cost;
   }
   return sum;
 }

@@ -32,6 +32,9 @@ using CostBoxes = BoundedVector<CostBox, Futures::kCapacity>;  ///< the modes of
 void place_obstacles(const Scene& scene, const Futures& futures, int step, const Parameters& parameters,
                      CostBoxes& boxes);
 
+/// Whether the point lies in the box.
+[[nodiscard]] bool covers(const CostBox& one, Point point);
+
 /// What vehicle `agent` alone costs at a point.
 [[nodiscard]] float cost_of(const CostBoxes& boxes, int agent, Point point);
 

@@ -16,9 +16,11 @@ float radius(float length_m, float width_m) {
 }
 
 /// \param ahead  unit vector of the box's heading
-float risk_of_box(const Field& field, const Box& box, Point ahead, float cost, Precision precision) {
+/// \param sliced_boxes  one less if it was one
+float risk_of_box(const Field& field, const Box& box, Point ahead, float cost, int& sliced_boxes) {
   const float risk = cost * field_over_box(field, box, ahead);
-  if (precision == Precision::kLines || risk < kWorthSlices) return risk;
+  if (sliced_boxes <= 0 || risk < kWorthSlices) return risk;
+  --sliced_boxes;
   return cost * field_over_slices(field, box);
 }
 
@@ -48,20 +50,39 @@ Driver driver_at(const StepInputs& inputs, int step) {
   return driver;
 }
 
+using Indices = BoundedVector<std::uint8_t, CostBoxes::kCapacity>;
+
+/// Sum of those boxes' costs that the point lies in. \param from  first of a run of `indices` of one agent
+/// \return where the next agent's run begins
+int add_run(const CostBoxes& felt, const Indices& indices, int from, Point point, float& cost) {
+  const int agent = felt[indices[from]].agent;
+  int i = from;
+  for (; i < indices.size() && felt[indices[i]].agent == agent; ++i) {
+    if (covers(felt[indices[i]], point)) cost += felt[indices[i]].cost;
+  }
+  return i;
+}
+
 /// What part of a box's risk is its own: M is the largest of any vehicle's, so that a vehicle pays only for
 /// what it adds to those before it. 4 x 4 sub-samples, weighted by the field.
 float own_part(const Field& field, const CostBoxes& felt, int index) {
   const CostBox& one = felt[index];
   const float reach_m = radius(one.box.length_m, one.box.width_m);
-  bool alone = true;
-  for (int i = 0; i < index && alone; ++i) {
+  Indices before;  // of other vehicles, on some of the same ground
+  Indices same;    // of this vehicle
+  for (int i = 0; i < felt.size(); ++i) {
     const CostBox& other = felt[i];
-    if (other.agent == one.agent) continue;
+    if (other.agent == one.agent) {
+      (void)same.push(static_cast<std::uint8_t>(i));
+      continue;
+    }
+    if (i > index) continue;
     const float both_m = reach_m + radius(other.box.length_m, other.box.width_m);
     const Point offset = position(other.box.centre) - position(one.box.centre);
-    alone = dot(offset, offset) > square(both_m) || separation(one.box, other.box) > 0.0F;
+    if (dot(offset, offset) > square(both_m) || separation(one.box, other.box) > 0.0F) continue;
+    (void)before.push(static_cast<std::uint8_t>(i));
   }
-  if (alone) return 1.0F;
+  if (before.empty()) return 1.0F;
   constexpr int kSamples = 4;
   float own = 0.0F;
   float whole = 0.0F;
@@ -74,23 +95,23 @@ float own_part(const Field& field, const CostBoxes& felt, int index) {
                         (left * one.box.width_m) * to_left;
     const float weight = field_at(field, point);
     if (weight <= 0.0F) continue;
-    float before = 0.0F;
-    int agent = -1;
-    for (int j = 0; j < index; ++j) {
-      if (felt[j].agent == one.agent || felt[j].agent == agent) continue;
-      agent = felt[j].agent;
-      before = max(before, cost_of(felt, agent, point));
+    float others = 0.0F;
+    for (int j = 0; j < before.size();) {
+      float cost = 0.0F;
+      j = add_run(felt, before, j, point, cost);
+      others = max(others, cost);
     }
-    const float mine = cost_of(felt, one.agent, point);
+    float mine = 0.0F;
+    (void)add_run(felt, same, 0, point, mine);
     whole += weight;
-    own += weight * max(mine - before, 0.0F) / max(mine, 1e-6F);
+    own += weight * max(mine - others, 0.0F) / max(mine, 1e-6F);
   }
   return whole > 0.0F ? own / whole : 1.0F;
 }
 
 /// R_ego of the vehicles: our field over their boxes. Calls each(field, box, part of it that counts, risk).
 template <typename Each>
-void for_felt(const StepInputs& inputs, const Field& field, int step, CostBoxes& felt, const Each& each) {
+void for_felt(StepInputs& inputs, const Field& field, int step, CostBoxes& felt, const Each& each) {
   felt.clear();
   float risks[CostBoxes::kCapacity];
   for (const Future& future : inputs.futures) {
@@ -101,7 +122,7 @@ void for_felt(const StepInputs& inputs, const Field& field, int step, CostBoxes&
     const Point ahead = direction(centre.heading_rad);
     const float cost =
         inputs.parameters.risk.cost_obstacle * future.probability * inputs.modulation[future.agent];
-    const float risk = risk_of_box(field, box, ahead, cost, inputs.precision);
+    const float risk = risk_of_box(field, box, ahead, cost, inputs.sliced_boxes);
     if (risk <= 0.0F) continue;
     risks[felt.size()] = risk;
     if (!felt.push({box, ahead, cost, future.agent})) break;
@@ -168,16 +189,16 @@ FieldGradient by_the_box(const FieldGradient& by_field, Point field_origin, Poin
 }  // namespace
 
 StepInputs step_inputs(const Scene& scene, const Futures& futures, const Trajectory& trajectory,
-                       const Parameters& parameters, Precision precision) {
+                       const Parameters& parameters, int sliced_boxes) {
   const FieldParams params = field_params(parameters, parameters.vehicle.width_m);
-  StepInputs inputs = {scene, futures, trajectory, parameters, precision, params, {}};
+  StepInputs inputs = {scene, futures, trajectory, parameters, sliced_boxes, params, {}};
   for (int i = 0; i < scene.agents.size(); ++i) {
     inputs.modulation[i] = modulation(scene.ego, scene.agents[i].track, parameters);
   }
   return inputs;
 }
 
-StepRisk risk_at(const StepInputs& inputs, int step, CostBoxes& felt) {
+StepRisk risk_at(StepInputs& inputs, int step, CostBoxes& felt) {
   const Driver driver = driver_at(inputs, step);
   StepRisk risk;
   for (int i = 0; i < inputs.scene.agents.size(); ++i) risk.share[i] = 0.0F;
@@ -186,14 +207,14 @@ StepRisk risk_at(const StepInputs& inputs, int step, CostBoxes& felt) {
     risk.share[one.agent] += part * whole;
   });
   for_feeling(inputs, driver, step, [&](const Future& future, const Field& field, float cost) {
-    const float value = risk_of_box(field, driver.box, driver.field.ahead, cost, inputs.precision);
+    const float value = risk_of_box(field, driver.box, driver.field.ahead, cost, inputs.sliced_boxes);
     risk.social += value;
     risk.share[future.agent] += inputs.parameters.risk.weight_social * value;
   });
   return risk;
 }
 
-StepSlope slope_at(const StepInputs& inputs, int step, CostBoxes& felt) {
+StepSlope slope_at(StepInputs& inputs, int step, CostBoxes& felt) {
   const Driver driver = driver_at(inputs, step);
   const TrajectoryPoint& point = inputs.trajectory.points[step + 1];
   const FieldSlopes slopes = field_slopes(driver.params, point.speed_mps, point.curvature_1pm,
