@@ -190,7 +190,8 @@ namespace s4tp::satp {
 template <typename Output, typename In>
 void multiply_rows(const Linear& layer, const std::int32_t* bias, int bias_stride, Rows<const In> inputs,
                    int count, Rows<typename Output::Type> outputs) {
-  constexpr int kTogether = sizeof(In) == 1 ? 2 : 3;  // where the stride is not known
+  // Where the stride is not known two inputs go together, but three where outputs are real numbers.
+  constexpr int kTogether = Output::kRescaled || sizeof(In) == 1 ? 2 : 3;
   int i = 0;
   while (i < count) {
     const std::int32_t* from = bias + i * bias_stride;
