@@ -80,8 +80,8 @@ template <typename Output, int kBatch, typename In>
 
 /// Of kBatch inputs and at least two rows.
 template <typename Output, int kBatch, typename In>
-void multiply_batch(const Linear& layer, int distance, const std::int32_t* bias, int bias_stride,
-                    Rows<const In> inputs, Rows<typename Output::Type> outputs) {
+void multiply_batch(const Linear& layer, const std::int32_t* bias, int bias_stride, Rows<const In> inputs,
+                    Rows<typename Output::Type> outputs) {
   std::uint32_t pairs[kMaxPairs * kBatch];
   const std::uint32_t* const end = pair_up_rows<kBatch>(inputs, layer.stride, pairs);
   const bool by_sixteen = layer.stride % 16 == 0;
@@ -98,7 +98,7 @@ void multiply_batch(const Linear& layer, int distance, const std::int32_t* bias,
       a[i] = from[0] * (1 << kShift<In>);
       b[i] = from[1] * (1 << kShift<In>);
     }
-    add_products<kBatch, 0>(weights + o * layer.stride, distance, pairs, end, by_sixteen, a, b);
+    add_products<kBatch, 0>(weights + o * layer.stride, layer.stride, pairs, end, by_sixteen, a, b);
     store_pair<Output, kBatch, In>(a, b, multiplier + o, {outputs.data + o, outputs.stride});
     if (o == last) return;
     o = o + 2 < last ? o + 2 : last;
@@ -169,18 +169,13 @@ bool multiply_if_known(const Linear& layer, const std::int32_t* bias, int bias_s
   return false;
 }
 
-// A single row is computed twice.
-template <typename Output, int kBatch, typename In>
-void multiply_row(const Linear& layer, const std::int32_t* bias, Rows<const In> inputs,
-                  Rows<typename Output::Type> outputs) {
-  const std::int32_t biases[2] = {*bias, *bias};
-  const std::int32_t multipliers[2] = {*layer.multiplier, *layer.multiplier};
-  typename Output::Type twice[kBatch][2];
-  Linear pair = layer;
-  pair.multiplier = multipliers;
-  pair.rows = 2;
-  multiply_batch<Output, kBatch, In>(pair, 0, biases, 0, inputs, {twice[0], 2});
-  for (int i = 0; i < kBatch; ++i) outputs[i][0] = twice[i][0];
+// A single row is not worth more.
+template <typename Output, typename In>
+void multiply_row(const Linear& layer, std::int32_t bias, const In* input, typename Output::Type* output) {
+  std::int32_t sum = bias;
+#pragma GCC unroll 4
+  for (int j = 0; j < layer.columns; ++j) sum += layer.weights[j] * input[j];
+  *output = output_of<Output, In>(sum * (1 << kShift<In>), *layer.multiplier);
 }
 
 }  // namespace s4tp::satp::dsp
@@ -190,28 +185,24 @@ namespace s4tp::satp {
 template <typename Output, typename In>
 void multiply_rows(const Linear& layer, const std::int32_t* bias, int bias_stride, Rows<const In> inputs,
                    int count, Rows<typename Output::Type> outputs) {
-  constexpr int kTogether = sizeof(In) == 1 ? 2 : 3;  // where the stride is not known
+  // Where the stride is not known two inputs go together, but three where outputs are real numbers.
+  constexpr int kTogether = Output::kRescaled || sizeof(In) == 1 ? 2 : 3;
   int i = 0;
   while (i < count) {
     const std::int32_t* from = bias + i * bias_stride;
     const Rows<const In> these{inputs[i], inputs.stride};
     const Rows<typename Output::Type> those{outputs[i], outputs.stride};
-    const bool several = count - i >= kTogether;
-    if (layer.rows == 1 && several && bias_stride == 0) {
-      dsp::multiply_row<Output, kTogether, In>(layer, from, these, those);
-      i += kTogether;
-    } else if (layer.rows == 1) {
-      dsp::multiply_row<Output, 2, In>(layer, from, {these.data, 0}, {those.data, 0});
+    if (layer.rows == 1) {
+      dsp::multiply_row<Output, In>(layer, *from, these.data, those.data);
       i += 1;
     } else if (count - i >= 3 && dsp::multiply_if_known<Output, In>(layer, from, bias_stride, these, those)) {
       i += 3;
-    } else if (several) {
-      dsp::multiply_batch<Output, kTogether, In>(layer, layer.stride, from, bias_stride, these, those);
+    } else if (count - i >= kTogether) {
+      dsp::multiply_batch<Output, kTogether, In>(layer, from, bias_stride, these, those);
       i += kTogether;
     } else {
       const int pair = i + 1 < count ? 1 : 0;  // a single input is computed twice
-      dsp::multiply_batch<Output, 2, In>(layer, layer.stride, from, pair * bias_stride,
-                                         {these.data, pair * these.stride},
+      dsp::multiply_batch<Output, 2, In>(layer, from, pair * bias_stride, {these.data, pair * these.stride},
                                          {those.data, pair * those.stride});
       i += 2;
     }
