@@ -2,6 +2,8 @@
 
 #include <memory>
 
+#include "algo/occupancy/lane_reach.hpp"
+#include "algo/sadrf/risk.hpp"
 #include "algo/safety/fail_safe.hpp"
 #include "algo/satp/predictor.hpp"
 #include "algo/trajectory/candidates.hpp"
@@ -61,6 +63,70 @@ Plan fail_safe_of(const ecu::PlanRecord& plan, const Parameters& parameters) {
                           planned_mps2 > 0.0F ? planned_mps2 : parameters.guard.braking_mps2, parameters,
                           result);
   return result;
+}
+
+std::vector<safety::ZoneOccupancy> claims_of(const ecu::PlanRecord& plan, const CycleRecord& cycle,
+                                             const Parameters& parameters) {
+  const Scene scene = scene_of(cycle);
+  std::vector<safety::ZoneOccupancy> claims(static_cast<std::size_t>(scene.agents.size()));
+  if (scene.map == nullptr || scene.ego_paths.empty()) return claims;
+  const int chosen = plan.explanation.chosen.path;
+  const EgoPath& path = scene.ego_paths[chosen < scene.ego_paths.size() ? chosen : 0];
+  const float lead_s = 0.001F * static_cast<float>(plan.plan.start_ms - scene.time_ms);
+  for (int i = 0; i < scene.agents.size(); ++i) {
+    safety::ZoneOccupancy& first = claims[static_cast<std::size_t>(i)];
+    for (const ConflictZone& zone : path.zones) {
+      if (zone.exit_s_m < path.frenet.s_m) continue;  // behind us
+      occupancy::LaneReach reach;
+      reach.measure(*scene.map, scene.agents[i], !zone.merging);
+      const safety::ZoneOccupancy when =
+          safety::zone_occupancy(scene, scene.agents[i], reach, zone, lead_s, parameters);
+      if (when.claim == safety::Claim::kNone) continue;
+      const bool comes = when.claim == safety::Claim::kMayCome;
+      const bool came = first.claim == safety::Claim::kMayCome;
+      if (first.claim == safety::Claim::kNone || (comes && !came) ||
+          (comes == came && when.from_s < first.from_s)) {
+        first = when;
+      }
+    }
+  }
+  return claims;
+}
+
+std::vector<float> risk_shares(const ecu::PlanRecord& plan, const CycleRecord& cycle,
+                               const Parameters& parameters) {
+  const Scene scene = scene_of(cycle);
+  DrivableArea area;
+  build_drivable(scene.map, area);
+  const auto predictor = std::make_unique<Predictor>();
+  KinematicSet others;
+  predictor->encode(scene, parameters, plan.plan.start_ms);
+  predictor->keep_going(others);
+  std::vector<float> shares;
+  float sum = 0.0F;
+  for (int i = 0; i < scene.agents.size(); ++i) {
+    Scene alone = scene;
+    alone.agents.clear();
+    (void)alone.agents.push(scene.agents[i]);
+    PredictionSet expected;
+    for (const AgentPrediction& one : cycle.prediction.agents) {
+      if (one.agent != i) continue;
+      (void)expected.agents.push(one);
+      expected.agents[0].agent = 0;
+    }
+    alone.watched = expected.agents.size();
+    KinematicSet going;
+    if (i < others.agents.size()) (void)going.agents.push(others.agents[i]);
+    RiskProfile profile{};
+    exact_risk(alone, area, expected, going, plan.plan.trajectory, parameters, profile);
+    float risk = 0.0F;
+    for (int step = 0; step < kHorizonSteps; ++step)
+      risk += profile.obstacle[step] + parameters.risk.weight_social * profile.social[step];
+    shares.push_back(risk);
+    sum += risk;
+  }
+  for (float& share : shares) share = sum > 0.0F ? share / sum : 0.0F;
+  return shares;
 }
 
 }  // namespace s4tp::telemetry
