@@ -1,15 +1,21 @@
 #include "sim_host/telemetry/derive.hpp"
 
+#include <algorithm>
 #include <memory>
 
 #include "algo/occupancy/lane_reach.hpp"
+#include "algo/occupancy/pace.hpp"
 #include "algo/sadrf/risk.hpp"
 #include "algo/safety/fail_safe.hpp"
 #include "algo/satp/predictor.hpp"
+#include "algo/scene/lane_path.hpp"
+#include "algo/trajectory/bicycle.hpp"
 #include "algo/trajectory/candidates.hpp"
 
 namespace s4tp::telemetry {
 namespace {
+
+constexpr float kMovingMps = 0.5F;
 
 Scene scene_of(const CycleRecord& cycle) {
   Scene scene = cycle.scene;
@@ -20,6 +26,24 @@ Scene scene_of(const CycleRecord& cycle) {
 bool same(const Candidate& a, const Candidate& b) {
   return a.path == b.path && a.intent == b.intent && a.acceleration_mps2 == b.acceleration_mps2 &&
          a.target_s_m == b.target_s_m && a.lateral_length_m == b.lateral_length_m && a.in_gap == b.in_gap;
+}
+
+/// When our box's centre is beyond the zone; after the horizon we go on as the guard takes us to.
+float leaves_s(const Scene& scene, const EgoPath& path, const Trajectory& trajectory,
+               const ConflictZone& zone, const Parameters& parameters) {
+  const float centre_m = rear_axle_to_centre_m(parameters);
+  float s_m = path.frenet.s_m;
+  for (int i = 0; i < kTrajectoryPoints; ++i) {
+    s_m = project(*scene.map, path.path, position(trajectory.points[i].rear_axle), s_m, 15.0F).s_m;
+    if (s_m + centre_m > zone.exit_s_m) return static_cast<float>(i) * kStepS;
+  }
+  constexpr float kGoesOnMps2 = 1.5F;
+  const float end_mps = trajectory.points[kHorizonSteps].speed_mps;
+  if (end_mps < kMovingMps) return occupancy::kNeverS;
+  const float limit_mps = path_point(*scene.map, path.path, zone.exit_s_m).speed_limit_mps;
+  return kHorizonSteps * kStepS +
+         occupancy::time_to_cover_s({end_mps, kGoesOnMps2, std::max(end_mps, limit_mps)},
+                                    zone.exit_s_m - s_m - centre_m);
 }
 
 }  // namespace
@@ -65,16 +89,17 @@ Plan fail_safe_of(const ecu::PlanRecord& plan, const Parameters& parameters) {
   return result;
 }
 
-std::vector<safety::ZoneOccupancy> claims_of(const ecu::PlanRecord& plan, const CycleRecord& cycle,
-                                             const Parameters& parameters) {
+std::vector<GroundClaim> claims_of(const ecu::PlanRecord& plan, const CycleRecord& cycle,
+                                   const Parameters& parameters) {
   const Scene scene = scene_of(cycle);
-  std::vector<safety::ZoneOccupancy> claims(static_cast<std::size_t>(scene.agents.size()));
+  std::vector<GroundClaim> claims(static_cast<std::size_t>(scene.agents.size()));
   if (scene.map == nullptr || scene.ego_paths.empty()) return claims;
   const int chosen = plan.explanation.chosen.path;
   const EgoPath& path = scene.ego_paths[chosen < scene.ego_paths.size() ? chosen : 0];
   const float lead_s = 0.001F * static_cast<float>(plan.plan.start_ms - scene.time_ms);
   for (int i = 0; i < scene.agents.size(); ++i) {
-    safety::ZoneOccupancy& first = claims[static_cast<std::size_t>(i)];
+    GroundClaim& claim = claims[static_cast<std::size_t>(i)];
+    const safety::ZoneOccupancy& first = claim.its;
     for (const ConflictZone& zone : path.zones) {
       if (zone.exit_s_m < path.frenet.s_m) continue;  // behind us
       occupancy::LaneReach reach;
@@ -86,7 +111,7 @@ std::vector<safety::ZoneOccupancy> claims_of(const ecu::PlanRecord& plan, const 
       const bool came = first.claim == safety::Claim::kMayCome;
       if (first.claim == safety::Claim::kNone || (comes && !came) ||
           (comes == came && when.from_s < first.from_s)) {
-        first = when;
+        claim = {when, leaves_s(scene, path, plan.plan.trajectory, zone, parameters)};
       }
     }
   }

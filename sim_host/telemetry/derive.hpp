@@ -30,11 +30,16 @@ struct RolledOut {
 /// TELE-012 The plan's fail-safe: what is driven if no further plan takes effect.
 [[nodiscard]] Plan fail_safe_of(const ecu::PlanRecord& plan, const Parameters& parameters);
 
+/// What a vehicle may claim on ground that it shares with us.
+struct GroundClaim {
+  safety::ZoneOccupancy its;
+  float we_leave_s = occupancy::kNeverS;  ///< after plan start; so large: the plan waits
+};
+
 /// TELE-013 What each vehicle of the scene may claim where its way meets the one we chose, in the scene's
 /// order: of its zones the one it may be in first. No claim where ways do not meet.
-[[nodiscard]] std::vector<safety::ZoneOccupancy> claims_of(const ecu::PlanRecord& plan,
-                                                           const CycleRecord& cycle,
-                                                           const Parameters& parameters);
+[[nodiscard]] std::vector<GroundClaim> claims_of(const ecu::PlanRecord& plan, const CycleRecord& cycle,
+                                                 const Parameters& parameters);
 
 /// TELE-014 What each vehicle of the scene adds to the plan's risk, in the scene's order: the risk, both
 /// sides, there would be with it alone, over the sum of these; zeros where there is none.

@@ -66,21 +66,24 @@ const AgentPrediction* futures_of(const CycleRecord& cycle, int agent) {
 }
 
 /// How likely a vehicle brakes for us [percent]; -1 where that is no question.
-long gives_way(const CycleRecord& cycle, int agent, const safety::ZoneOccupancy& claim) {
+long gives_way(const CycleRecord& cycle, int agent, const GroundClaim& claim) {
   const AgentPrediction* const futures = futures_of(cycle, agent);
   if (futures == nullptr) return -1;
   float part = 0.0F;
   for (const Mode& mode : futures->modes) part += mode.yields ? mode.probability : 0.0F;
-  return claim.claim == safety::Claim::kNone && part <= 0.0F ? -1 : percent(part);
+  return claim.its.claim == safety::Claim::kNone && part <= 0.0F ? -1 : percent(part);
 }
 
-std::string claim_words(const safety::ZoneOccupancy& claim) {
-  switch (claim.claim) {
+std::string claim_words(const GroundClaim& claim) {
+  switch (claim.its.claim) {
     case safety::Claim::kNone:
       return "";
     case safety::Claim::kMayCome:
-      if (claim.from_s <= 0.0F) return "is where our ways meet";
-      return view::format("may come first: there in %.1f s at the earliest", claim.from_s);
+      if (claim.its.from_s <= 0.0F) return "is where our ways meet";
+      return view::format("need not wait for us: it can be there in %.1f s", claim.its.from_s) +
+             (claim.we_leave_s < claim.its.from_s
+                  ? view::format("; we are out of its way in %.1f s", claim.we_leave_s)
+                  : "");
     case safety::Claim::kOwes:
       return "owes us the way: it has to stop for us";
     case safety::Claim::kCanStop:
@@ -100,11 +103,11 @@ int agent_of(const CycleRecord& cycle, int track) {
 
 /// What to look at when nobody holds us up.
 int most_relevant(const ecu::PlanRecord& plan, const CycleRecord& cycle,
-                  const std::vector<safety::ZoneOccupancy>& claims) {
+                  const std::vector<GroundClaim>& claims) {
   const safety::ZoneOccupancy* first = nullptr;
   int agent = -1;
   for (int i = 0; i < cycle.scene.agents.size(); ++i) {
-    const safety::ZoneOccupancy& one = claims[static_cast<std::size_t>(i)];
+    const safety::ZoneOccupancy& one = claims[static_cast<std::size_t>(i)].its;
     if (one.claim == safety::Claim::kNone) continue;
     const bool comes = one.claim == safety::Claim::kMayCome;
     const bool came = first != nullptr && first->claim == safety::Claim::kMayCome;
@@ -192,7 +195,7 @@ ordered_json risk_json(const HeatMap& map, const CycleRecord& cycle) {
 
 ordered_json vehicles_json(const ecu::PlanRecord& plan, const CycleRecord& cycle,
                            const campaign::CycleTrace& trace, const Parameters& parameters,
-                           const std::vector<safety::ZoneOccupancy>& claims) {
+                           const std::vector<GroundClaim>& claims) {
   const std::vector<float> shares = risk_shares(plan, cycle, parameters);
   ordered_json list = ordered_json::array();
   for (int i = 0; i < cycle.scene.agents.size(); ++i) {
@@ -229,7 +232,7 @@ ordered_json futures_json(const CycleRecord& cycle) {
 }  // namespace
 
 WhoMatters who_matters(const ecu::PlanRecord& plan, const CycleRecord& cycle,
-                       const std::vector<safety::ZoneOccupancy>& claims) {
+                       const std::vector<GroundClaim>& claims) {
   const campaign::CycleTrace trace = trace_of(plan, &cycle);
   const view::Reason reason = view::reason_of(trace);
   WhoMatters who;
@@ -237,14 +240,16 @@ WhoMatters who_matters(const ecu::PlanRecord& plan, const CycleRecord& cycle,
   who.holds_up = agent >= 0;
   if (agent < 0) agent = most_relevant(plan, cycle, claims);
   if (agent < 0) return who;
-  const safety::ZoneOccupancy& claim = claims[static_cast<std::size_t>(agent)];
+  GroundClaim claim = claims[static_cast<std::size_t>(agent)];
   who.track = cycle.scene.agents[agent].track.id;
   who.name = view::vehicle_name(trace, who.track);
-  who.claim = claim_words(claim);
   const safety::Verdict& verdict = plan.explanation.held_up.verdict;
-  const bool waits_for_it = reason.because == view::Because::kGivingWay && verdict.needed_s > 0.0F;
-  if (who.holds_up && waits_for_it && claim.claim == safety::Claim::kMayCome)
-    who.claim += view::format("; we would need until %.1f s", verdict.needed_s);
+  const bool waits_for_it = who.holds_up && reason.because == view::Because::kGivingWay &&
+                            verdict.needed_s > 0.0F && claim.its.claim == safety::Claim::kMayCome;
+  // Of the motion that was wanted most, as the words have it.
+  if (waits_for_it) claim = {{.claim = safety::Claim::kMayCome, .from_s = verdict.from_s}};
+  who.claim = claim_words(claim);
+  if (waits_for_it) who.claim += view::format("; we would need until %.1f s", verdict.needed_s);
   if (const long belief = gives_way(cycle, agent, claim); belief >= 0)
     who.belief = view::format("lets us go first with a probability of %ld %%", belief);
   return who;
@@ -279,7 +284,7 @@ ordered_json cycle_json(const ecu::PlanRecord& plan, const CycleRecord& cycle, c
                         const HeatMap* risk) {
   const campaign::CycleTrace trace = trace_of(plan, &cycle);
   const Explanation& e = plan.explanation;
-  const std::vector<safety::ZoneOccupancy> claims = claims_of(plan, cycle, parameters);
+  const std::vector<GroundClaim> claims = claims_of(plan, cycle, parameters);
   const WhoMatters who = who_matters(plan, cycle, claims);
   const EgoState& us = cycle.scene.ego;
   const auto rejected = [&](Rejection why) {

@@ -21,7 +21,7 @@ struct WhoMatters {
 
 /// VIEW-010 Of whom a reason names, it; else who may come first where ways meet, else whose risk is largest.
 [[nodiscard]] WhoMatters who_matters(const ecu::PlanRecord& plan, const CycleRecord& cycle,
-                                     const std::vector<safety::ZoneOccupancy>& claims);
+                                     const std::vector<GroundClaim>& claims);
 
 /// VIEW-011 Mode, faults, deadlines, bus.
 [[nodiscard]] nlohmann::ordered_json ecu_json(const IdentityRecord& identity,

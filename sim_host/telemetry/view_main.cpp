@@ -55,6 +55,7 @@ class LiveView {
   }
 
   void tell_cycle(const telemetry::CycleRecord& cycle) {
+    const std::uint64_t read_ms = now_ms();
     const Parameters& parameters = watch_.identity().parameters;
     // The picture takes tens of milliseconds: for who looks.
     const auto risk = server_.readers() > 0 ? std::make_unique<HeatMap>(telemetry::heat_map_of(watch_.plan(), cycle, parameters))
@@ -62,7 +63,7 @@ class LiveView {
     nlohmann::ordered_json json{{"kind", "cycle"}, {"number", ++number_}, {"ecu_number", ecus_}};
     json.update(telemetry::cycle_json(watch_.plan(), cycle, parameters, risk.get()));
     json["ecu"] = telemetry::ecu_json(watch_.identity(), watch_.control(), watch_.status());
-    json["at"] = now_ms();
+    json["at"] = read_ms;
     server_.publish(json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
   }
 

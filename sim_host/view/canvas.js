@@ -2,18 +2,33 @@
 'use strict';
 
 const element = (id) => document.getElementById(id);
-const style = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
-// A canvas of this id, cleared, in the size it is shown at; one unit is a CSS pixel.
+// A colour of the style sheet; looked up once, as that is slow.
+const colours = new Map();
+const style = (name) => {
+  if (!colours.has(name)) colours.set(name, getComputedStyle(document.documentElement).getPropertyValue(name).trim());
+  return colours.get(name);
+};
+matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => colours.clear());
+
+// Gives a canvas the pixels it is shown with. \return its size in CSS pixels, and how many pixels one of these is
+const fit = (canvas) => {
+  const ratio = window.devicePixelRatio || 1, width = canvas.clientWidth, height = canvas.clientHeight;
+  if (canvas.width !== Math.round(width * ratio) || canvas.height !== Math.round(height * ratio)) {
+    canvas.width = Math.round(width * ratio);
+    canvas.height = Math.round(height * ratio);
+  }
+  return { width, height, ratio };
+};
+// A canvas of this id, cleared; one unit is a CSS pixel.
 const canvasOf = (id) => {
-  const canvas = element(id), ratio = window.devicePixelRatio || 1;
-  canvas.width = Math.round(canvas.clientWidth * ratio);
-  canvas.height = Math.round(canvas.clientHeight * ratio);
-  const draw = canvas.getContext('2d');
+  const { width, height, ratio } = fit(element(id));
+  const draw = element(id).getContext('2d');
   draw.setTransform(ratio, 0, 0, ratio, 0, 0);
-  draw.clearRect(0, 0, canvas.clientWidth, canvas.clientHeight);
+  draw.clearRect(0, 0, width, height);
   draw.font = '12px system-ui, sans-serif';
-  return { draw, width: canvas.clientWidth, height: canvas.clientHeight };
+  draw.textAlign = 'left';
+  return { draw, width, height };
 };
 const curve = (draw, points, colour, width = 1.8, dash = []) => {
   draw.strokeStyle = colour;

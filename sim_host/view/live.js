@@ -56,7 +56,7 @@
       const x = stripX(newest - ago, width);
       curve(draw, [[x, 0], [x, height]], style('--stripe'), 1);
       draw.fillStyle = style('--soft');
-      if (ago) draw.fillText(`${(-ago * kCycleMs) / 1000} s`, x, height - 3);
+      if (ago && x > 20) draw.fillText(`${(-ago * kCycleMs) / 1000} s`, x, height - 3);
     }
     draw.textAlign = 'left';
     const every = Math.max(1, Math.floor(cycles.length / 600));
@@ -83,18 +83,24 @@
     curve(draw, [[stripX(shown, width), 0], [stripX(shown, width), height]], style('--ink'), 1.2);
   };
 
+  const whither = (future, line) => {
+    const [[x0, y0], [x1, y1]] = line.slice(0, 2), [[x2, y2], [x3, y3]] = line.slice(-2);
+    const begin = [x1 - x0, y1 - y0], end = [x3 - x2, y3 - y2];
+    const turn = Math.atan2(begin[0] * end[1] - begin[1] * end[0], begin[0] * end[0] + begin[1] * end[1]);
+    const way = Math.abs(turn) < 0.4 ? 'straight on' : turn > 0 ? 'turning left' : 'turning right';
+    return `${way}${future.yields ? ', letting us go first' : ''}`;
+  };
   const share = (percent, colour) => `<span class="bar"><i style="width: ${Math.min(100, percent)}%; background: ${colour}"></i></span>`;
   const tellWhy = (cycle) => {
     const who = cycle.who, it = who.id >= 0 ? `${who.name} (car ${who.id})` : 'nobody';
     element('words').textContent = cycle.words;
-    element('blocker_label').textContent = who.holds_up || who.id < 0 ? 'held up by' : 'held up by nobody; watching';
-    element('blocker').textContent = it;
+    element('blocker').textContent = who.holds_up || who.id < 0 ? it : `nobody; to watch: ${it}`;
     element('belief').textContent = who.belief ? `it ${who.belief}` : who.id >= 0 ? 'whether it lets us go first is no question' : '–';
     element('claim').textContent = who.claim ? `it ${who.claim}` : who.id >= 0 ? 'none: it drives where we drive, or our ways do not meet' : '–';
   };
   const tellVehicles = (cycle) => {
     const rows = [...cycle.vehicles].sort((a, b) => b.risk - a.risk);
-    element('vehicles').innerHTML = tableRow(['car', 'speed', 'lets us go first', 'share of our risk'], 'th') + rows.map((one) =>
+    element('vehicles').innerHTML = tableRow(['car', 'speed', 'lets us<br>go first', 'share of<br>our risk'], 'th') + rows.map((one) =>
       `<tr data-car="${one.id}" class="${one.id === picked ? 'now' : ''}"><td>${one.id}: ${escaped(one.name)}</td>` +
       `<td>${one.speed.toFixed(1)} m/s</td><td>${one.gives_way === null ? '–' : `${one.gives_way} %`}</td>` +
       `<td>${share(one.risk, 'rgb(var(--haze))')} ${one.risk} %</td></tr>`).join('');
@@ -105,7 +111,7 @@
       element('picked').textContent = `Car ${picked} is out of sight.`;
     } else {
       const futures = cycle.futures.filter(({ car }) => car === picked)
-        .map(({ percent, yields }) => `${percent} % ${yields ? 'lets us go first' : 'goes on'}`);
+        .map((one) => `${one.percent} % ${whither(one, pairs(one.line))}`);
       element('picked').textContent = `Car ${picked}, ${one.name}: ` +
         `${futures.length ? `expected: ${futures.join(', ')}` : 'expected to keep lane and speed'}. ` +
         `Its share of our risk: ${one.risk} %.${one.claim ? ` It ${one.claim}.` : ''}`;
@@ -137,7 +143,6 @@
     element('costs').innerHTML = costTable(cycle.cost, cycle.runner_up);
     const [count, infeasible, refused] = cycle.counts;
     element('counts').textContent = `${count} candidates: ${infeasible} beyond the car’s limits, ${refused} refused by the guard.`;
-    drawProfile('profile', cycle.risk);
     tellUnit(cycle);
     element('numbers').textContent = cycle.numbers.replace(/^ {2}/gm, '');
   };
@@ -163,7 +168,7 @@
   const intervals = [], costs = [], ages = [];
   let before = null;
   const quantile95 = (list) => [...list].sort((a, b) => a - b)[Math.ceil(0.95 * list.length) - 1] ?? 0;
-  const keep = (list, value) => { list.push(value); if (list.length > 600) list.shift(); };
+  const keep = (list, value) => { list.push(value); if (list.length > 150) list.shift(); };
   const measure = (cycle, began) => {
     keep(costs, performance.now() - began);
     if (before && cycle.number === before.number) return;
@@ -205,6 +210,7 @@
     const began = performance.now(), cycle = cycles[shown], ago = cycles[cycles.length - 1].number - cycle.number;
     scene.show(momentOf(shown));
     drawStrips(shown);
+    drawProfile('profile', cycle.risk);  // before the words move anything
     tell(cycle);
     element('clock').textContent = `${(cycle.t / 1000).toFixed(1)} s` +
       (held === null ? ', now' : `, ${((ago * kCycleMs) / 1000).toFixed(1)} s ago`);

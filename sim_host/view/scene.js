@@ -169,12 +169,7 @@ function makeScene(canvas) {
 
   const show = (moment) => {
     shown = moment;
-    const ratio = window.devicePixelRatio || 1;
-    const width = canvas.clientWidth, height = canvas.clientHeight;
-    if (canvas.width !== Math.round(width * ratio) || canvas.height !== Math.round(height * ratio)) {
-      canvas.width = Math.round(width * ratio);
-      canvas.height = Math.round(height * ratio);
-    }
+    const { width, height, ratio } = fit(canvas);
     const ego = moment.ego, scale = width / (2 * camera.reach_m);
     toPixels = (one) => [width / 2 + (one.x - ego.x) * scale, height / 2 - (one.y - ego.y) * scale];
     draw.setTransform(1, 0, 0, 1, 0, 0);
