@@ -165,8 +165,9 @@ Command add_run(CLI::App& tool) {
   bus->excludes(explain);
   run->add_flag("--realtime", options->realtime, "on a bus: 10 ms of host time a tick")->needs(bus);
   run->add_flag("--no-ecu", options->no_ecu, "on a bus: an ECU is there already")->needs(bus);
-  CLI::Option* const telemetry = run->add_option("--telemetry", options->telemetry,
-                  "on a bus, and live: shared memory the ECU tells what it does through (default /s4tp_ecu)");
+  CLI::Option* const telemetry = run->add_option(
+      "--telemetry", options->telemetry,
+      "on a bus, and live: shared memory the ECU tells what it does through (default /s4tp_ecu)");
   CLI::Option* const live =
       run->add_flag("--live", options->live, "at the pace of the clock, for ./s4tp view in another terminal");
   live->excludes(bus);

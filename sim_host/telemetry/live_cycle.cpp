@@ -6,6 +6,7 @@
 #include "algo/planner/planner.hpp"
 #include "algo/trajectory/bicycle.hpp"
 #include "sim_host/telemetry/watch.hpp"
+#include "sim_host/telemetry/who_matters.hpp"
 #include "sim_host/view/haze.hpp"
 #include "sim_host/view/html.hpp"
 #include "sim_host/view/plan_words.hpp"
@@ -20,10 +21,6 @@ constexpr std::uint8_t kNobody = 255;
 
 double rounded(float value) {
   return std::isfinite(value) ? std::round(100.0 * static_cast<double>(value)) / 100.0 : 0.0;
-}
-
-long percent(float part) {
-  return std::lround(100.0F * part);
 }
 
 void add(std::vector<double>& line, Point point) {
@@ -58,66 +55,6 @@ ordered_json road_json(const CycleRecord& cycle) {
   return lanes;
 }
 
-const AgentPrediction* futures_of(const CycleRecord& cycle, int agent) {
-  for (const AgentPrediction& one : cycle.prediction.agents) {
-    if (one.agent == agent) return &one;
-  }
-  return nullptr;
-}
-
-/// How likely a vehicle brakes for us [percent]; -1 where that is no question.
-long gives_way(const CycleRecord& cycle, int agent, const GroundClaim& claim) {
-  const AgentPrediction* const futures = futures_of(cycle, agent);
-  if (futures == nullptr) return -1;
-  float part = 0.0F;
-  for (const Mode& mode : futures->modes) part += mode.yields ? mode.probability : 0.0F;
-  return claim.its.claim == safety::Claim::kNone && part <= 0.0F ? -1 : percent(part);
-}
-
-std::string claim_words(const GroundClaim& claim) {
-  switch (claim.its.claim) {
-    case safety::Claim::kNone:
-      return "";
-    case safety::Claim::kMayCome:
-      if (claim.its.from_s <= 0.0F) return "is where our ways meet";
-      return view::format("need not wait for us: it can be there in %.1f s", claim.its.from_s) +
-             (claim.we_leave_s < claim.its.from_s
-                  ? view::format("; we are out of its way in %.1f s", claim.we_leave_s)
-                  : "");
-    case safety::Claim::kOwes:
-      return "owes us the way: it has to stop for us";
-    case safety::Claim::kCanStop:
-      return "has priority, but can still stop gently: it leaves us the way";
-    case safety::Claim::kStands:
-      return "has priority, but stands and has seen us stand: it leaves us the way";
-  }
-  return "";
-}
-
-int agent_of(const CycleRecord& cycle, int track) {
-  for (int i = 0; i < cycle.scene.agents.size(); ++i) {
-    if (cycle.scene.agents[i].track.id == track) return i;
-  }
-  return -1;
-}
-
-/// What to look at when nobody holds us up.
-int most_relevant(const ecu::PlanRecord& plan, const CycleRecord& cycle,
-                  const std::vector<GroundClaim>& claims) {
-  const safety::ZoneOccupancy* first = nullptr;
-  int agent = -1;
-  for (int i = 0; i < cycle.scene.agents.size(); ++i) {
-    const safety::ZoneOccupancy& one = claims[static_cast<std::size_t>(i)].its;
-    if (one.claim == safety::Claim::kNone) continue;
-    const bool comes = one.claim == safety::Claim::kMayCome;
-    const bool came = first != nullptr && first->claim == safety::Claim::kMayCome;
-    if (first != nullptr && (came || !comes) && (came != comes || first->from_s <= one.from_s)) continue;
-    first = &one;
-    agent = i;
-  }
-  return agent >= 0 ? agent : agent_of(cycle, plan.explanation.dominating_track);
-}
-
 std::vector<double> terms(const CostBreakdown& cost) {  // in tenths, as a replay has them
   std::vector<double> values;
   for (const float term : {cost.progress, cost.speed, cost.jerk, cost.lateral, cost.lane, cost.risk})
@@ -134,7 +71,8 @@ std::vector<long> peaks(const float (&series)[kHorizonSteps]) {
 
 ordered_json candidates_json(const ecu::PlanRecord& plan, const CycleRecord& cycle,
                              const Parameters& parameters) {
-  static constexpr const char* kWhy[] = {"", "beyond the car's limits", "", "refused by the guard", "left out"};
+  static constexpr const char* kWhy[] = {"", "beyond the car's limits", "", "refused by the guard",
+                                         "left out"};
   const std::vector<RolledOut> candidates = candidates_of(plan, cycle, parameters);
   float least = 0.0F;
   float most = 0.0F;
@@ -189,8 +127,12 @@ ordered_json risk_json(const HeatMap& map, const CycleRecord& cycle) {
   }
   const Pose& us = cycle.scene.ego.rear_axle;
   const Point corner = offset_point(us, -static_cast<float>(kHeatBehind), -0.5F * kHeatRows);
-  return {{"x", rounded(corner.x_m)},   {"y", rounded(corner.y_m)}, {"heading", us.heading_rad},
-          {"columns", kHeatColumns},    {"cell", 1},                {"grid", view::in_runs(letters)}};
+  return {{"x", rounded(corner.x_m)},
+          {"y", rounded(corner.y_m)},
+          {"heading", us.heading_rad},
+          {"columns", kHeatColumns},
+          {"cell", 1},
+          {"grid", view::in_runs(letters)}};
 }
 
 ordered_json vehicles_json(const ecu::PlanRecord& plan, const CycleRecord& cycle,
@@ -230,30 +172,6 @@ ordered_json futures_json(const CycleRecord& cycle) {
 }
 
 }  // namespace
-
-WhoMatters who_matters(const ecu::PlanRecord& plan, const CycleRecord& cycle,
-                       const std::vector<GroundClaim>& claims) {
-  const campaign::CycleTrace trace = trace_of(plan, &cycle);
-  const view::Reason reason = view::reason_of(trace);
-  WhoMatters who;
-  int agent = agent_of(cycle, reason.track);
-  who.holds_up = agent >= 0;
-  if (agent < 0) agent = most_relevant(plan, cycle, claims);
-  if (agent < 0) return who;
-  GroundClaim claim = claims[static_cast<std::size_t>(agent)];
-  who.track = cycle.scene.agents[agent].track.id;
-  who.name = view::vehicle_name(trace, who.track);
-  const safety::Verdict& verdict = plan.explanation.held_up.verdict;
-  const bool waits_for_it = who.holds_up && reason.because == view::Because::kGivingWay &&
-                            verdict.needed_s > 0.0F && claim.its.claim == safety::Claim::kMayCome;
-  // Of the motion that was wanted most, as the words have it.
-  if (waits_for_it) claim = {{.claim = safety::Claim::kMayCome, .from_s = verdict.from_s}};
-  who.claim = claim_words(claim);
-  if (waits_for_it) who.claim += view::format("; we would need until %.1f s", verdict.needed_s);
-  if (const long belief = gives_way(cycle, agent, claim); belief >= 0)
-    who.belief = view::format("lets us go first with a probability of %ld %%", belief);
-  return who;
-}
 
 ordered_json ecu_json(const IdentityRecord& identity, const ecu::ControlRecord& control,
                       const StatusRecord& status) {
@@ -300,14 +218,17 @@ ordered_json cycle_json(const ecu::PlanRecord& plan, const CycleRecord& cycle, c
       {"vehicles", vehicles_json(plan, cycle, trace, parameters, claims)},
       {"futures", futures_json(cycle)},
       {"plan", plan.plan.kind == PlanKind::kNone ? std::vector<double>{} : line_of(plan.plan.trajectory)},
-      {"fail_safe", plan.plan.kind == PlanKind::kDrive
-                        ? line_of(fail_safe_of(plan, parameters).trajectory)
-                        : std::vector<double>{}},
+      {"fail_safe", plan.plan.kind == PlanKind::kDrive ? line_of(fail_safe_of(plan, parameters).trajectory)
+                                                       : std::vector<double>{}},
       {"candidates", candidates_json(plan, cycle, parameters)},
       {"words", view::in_words(trace)},
       {"numbers", view::in_numbers(trace)},
-      {"who", {{"id", who.track}, {"holds_up", who.holds_up}, {"name", who.name}, {"belief", who.belief},
-               {"claim", who.claim}}},
+      {"who",
+       {{"id", who.track},
+        {"holds_up", who.holds_up},
+        {"name", who.name},
+        {"belief", who.belief},
+        {"claim", who.claim}}},
       {"riskiest", e.dominating_track == kNobody ? -1 : e.dominating_track},
       {"waited_s", rounded(cycle.scene.waited_s)},
       {"cost", terms(e.chosen_cost)},

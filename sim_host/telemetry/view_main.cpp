@@ -40,7 +40,8 @@ class LiveView {
 
  private:
   void tell_state() {
-    nlohmann::ordered_json state{{"kind", "state"}, {"present", watch_.present()}, {"absence", watch_.absence()}};
+    nlohmann::ordered_json state{
+        {"kind", "state"}, {"present", watch_.present()}, {"absence", watch_.absence()}};
     if (watch_.present()) {
       state["ecu"] = telemetry::ecu_json(watch_.identity(), watch_.control(), watch_.status());
       state["process"] = watch_.writer();
@@ -58,8 +59,10 @@ class LiveView {
     const std::uint64_t read_ms = now_ms();
     const Parameters& parameters = watch_.identity().parameters;
     // The picture takes tens of milliseconds: for who looks.
-    const auto risk = server_.readers() > 0 ? std::make_unique<HeatMap>(telemetry::heat_map_of(watch_.plan(), cycle, parameters))
-                                            : nullptr;
+    const auto risk =
+        server_.readers() > 0
+            ? std::make_unique<HeatMap>(telemetry::heat_map_of(watch_.plan(), cycle, parameters))
+            : nullptr;
     nlohmann::ordered_json json{{"kind", "cycle"}, {"number", ++number_}, {"ecu_number", ecus_}};
     json.update(telemetry::cycle_json(watch_.plan(), cycle, parameters, risk.get()));
     json["ecu"] = telemetry::ecu_json(watch_.identity(), watch_.control(), watch_.status());
@@ -83,9 +86,11 @@ int main(int argc, char** argv) {
   int port = 8470;
   CLI::App app{"a running ECU as a page for a browser (docs/view.md)"};
   app.add_option("--ecu", ecu, "its shared memory (default /s4tp_ecu)");
-  app.add_option("--port", port, "of the page (default 8470; 0: any that is free)")->check(CLI::Range(0, 65535));
+  app.add_option("--port", port, "of the page (default 8470; 0: any that is free)")
+      ->check(CLI::Range(0, 65535));
   app.add_option("--listen", address,
-                 "address to listen on (default 127.0.0.1: this machine only; with another one whoever reaches it sees the page)");
+                 "address to listen on (default 127.0.0.1: this machine only; with another one whoever "
+                 "reaches it sees the page)");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -93,7 +98,8 @@ int main(int argc, char** argv) {
   }
   try {
     const std::atomic<bool>& stop = processes::stop_on_signals();
-    const view::Page page{"s4tp, live", view::kLiveHtml, "", {view::kCanvasJs, view::kSceneJs, view::kLiveJs}};
+    const view::Page page{
+        "s4tp, live", view::kLiveHtml, "", {view::kCanvasJs, view::kSceneJs, view::kLiveJs}};
     telemetry::WebServer server(address, port, view::page_text(page, "img-src data:; connect-src 'self'"),
                                 kKeptCycles);
     std::cout << "the running ECU, live: http://" << (address == "0.0.0.0" ? "127.0.0.1" : address) << ':'

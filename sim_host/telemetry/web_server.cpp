@@ -41,7 +41,8 @@ WebServer::WebServer(const std::string& address, int port, std::string page, std
   if (port_ <= 0) {
     lws_context_destroy(context_);
     throw std::runtime_error(address + ", port " + std::to_string(port) +
-                             ": cannot be listened on; another view may be open there (--port takes another one, 0 any that is free)");
+                             ": cannot be listened on; another view may be open there (--port takes another "
+                             "one, 0 any that is free)");
   }
   access_ = std::make_unique<WebAccess>(address, port_);
 }
@@ -96,7 +97,8 @@ int WebServer::on_http(lws* connection, lws_callback_reasons reason, void* user,
   auto* const self = static_cast<WebServer*>(lws_context_user(lws_get_context(connection)));
   switch (reason) {
     case LWS_CALLBACK_HTTP_CONFIRM_UPGRADE:
-      if (self->welcome(connection) && header(connection, WSI_TOKEN_PROTOCOL) == self->protocols_[1].name) return 0;
+      if (self->welcome(connection) && header(connection, WSI_TOKEN_PROTOCOL) == self->protocols_[1].name)
+        return 0;
       return lws_return_http_status(connection, HTTP_STATUS_FORBIDDEN, nullptr) < 0 ? -1 : 1;
     case LWS_CALLBACK_HTTP:
       return self->send_page(connection, std::string(static_cast<const char*>(in), length));
@@ -179,7 +181,8 @@ int WebServer::write(lws* connection, const std::string& text) {
   room_.resize(LWS_PRE + text.size());
   std::copy(text.begin(), text.end(), room_.begin() + LWS_PRE);
   const bool page = &text == &page_;
-  return lws_write(connection, room_.data() + LWS_PRE, text.size(), page ? LWS_WRITE_HTTP_FINAL : LWS_WRITE_TEXT);
+  return lws_write(connection, room_.data() + LWS_PRE, text.size(),
+                   page ? LWS_WRITE_HTTP_FINAL : LWS_WRITE_TEXT);
 }
 
 }  // namespace s4tp::telemetry

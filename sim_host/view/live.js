@@ -130,6 +130,7 @@
       ['planning cycles, late', `${ecu.cycles}, ${ecu.late}`], ['gate', ecu.gate ? `limits: ${ecu.gate}` : 'nothing limited'],
     ].map((row) => tableRow(row)).join('');
   };
+  let told = 0;  // number of the cycle that the tables below show
   const tell = (cycle) => {
     tellWhy(cycle);
     element('mode').textContent = cycle.ecu.mode;
@@ -140,6 +141,9 @@
       [`${((cycle.steering * 180) / Math.PI).toFixed(1)}°`, 'steering'], [`${cycle.waited_s.toFixed(0)} s`, 'waited here'],
     ].map(([value, name]) => `<div><b>${value}</b>${name}</div>`).join('');
     tellVehicles(cycle);
+    // Tables of numbers could not be read ten times a second.
+    if (held === null && cycle.number < told + 5 && told <= cycle.number) return;
+    told = cycle.number;
     element('costs').innerHTML = costTable(cycle.cost, cycle.runner_up);
     const [count, infeasible, refused] = cycle.counts;
     element('counts').textContent = `${count} candidates: ${infeasible} beyond the car’s limits, ${refused} refused by the guard.`;
@@ -207,7 +211,8 @@
     element('time').max = Math.max(0, cycles.length - 1);
     element('time').value = Math.max(0, shown);
     if (shown < 0) return;
-    const began = performance.now(), cycle = cycles[shown], ago = cycles[cycles.length - 1].number - cycle.number;
+    const began = performance.now(), cycle = cycles[shown];
+    const ago = cycles[cycles.length - 1].number - cycle.number;
     scene.show(momentOf(shown));
     drawStrips(shown);
     drawProfile('profile', cycle.risk);  // before the words move anything

@@ -33,7 +33,6 @@ function makeScene(canvas) {
     draw.save();
     draw.translate(haze.x, haze.y);
     draw.rotate(haze.heading || 0);
-    draw.imageSmoothingQuality = 'high';
     draw.drawImage(hazeImage, 0, 0, haze.columns * haze.cell, hazeImage.height * haze.cell);
     draw.restore();
   };

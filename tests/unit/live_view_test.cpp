@@ -82,7 +82,8 @@ TEST(LiveCycle, SaysWhoHoldsUsUpAndWhyWeGo) {
     if (reason.because == view::Because::kGivingWay && reason.track >= 0) {
       ++waits;
       EXPECT_EQ(who.at("id").get<int>(), reason.track);
-      EXPECT_NE(json.at("words").get<std::string>().find(who.at("name").get<std::string>()), std::string::npos);
+      EXPECT_NE(json.at("words").get<std::string>().find(who.at("name").get<std::string>()),
+                std::string::npos);
     }
     const std::string claim = who.at("claim");
     const bool starts = reason.doing == view::Doing::kSettingOff || reason.doing == view::Doing::kFaster;
@@ -101,7 +102,8 @@ TEST(LiveCycle, TellsTheRecordsNumbers) {
   EXPECT_EQ(json.at("t"), one.plan.plan.start_ms);
   ASSERT_EQ(static_cast<int>(json.at("vehicles").size()), one.cycle.scene.agents.size());
   EXPECT_EQ(json.at("vehicles").at(0).at("id"), one.cycle.scene.agents[0].track.id);
-  EXPECT_NEAR(json.at("vehicles").at(0).at("x").get<double>(), one.cycle.scene.agents[0].track.centre.x_m, 0.006);
+  EXPECT_NEAR(json.at("vehicles").at(0).at("x").get<double>(), one.cycle.scene.agents[0].track.centre.x_m,
+              0.006);
   EXPECT_EQ(json.at("plan").size(), 32U);
   EXPECT_EQ(static_cast<int>(json.at("candidates").size()), one.cycle.candidates.size());
   double least = 2.0;
@@ -204,8 +206,9 @@ TEST(WebAccess, TakesOwnPagesOnly) {
   const WebAccess here("127.0.0.1", 8470);
   EXPECT_TRUE(here.takes_origin("", "localhost:8470"));
   EXPECT_TRUE(here.takes_origin("http://localhost:8470", "localhost:8470"));
-  for (const char* const origin : {"null", "http://evil.example", "https://localhost:8470", "http://localhost",
-                                   "http://localhost:84700", "http://127.0.0.1:8470", "file://"})
+  for (const char* const origin :
+       {"null", "http://evil.example", "https://localhost:8470", "http://localhost", "http://localhost:84700",
+        "http://127.0.0.1:8470", "file://"})
     EXPECT_FALSE(here.takes_origin(origin, "localhost:8470")) << origin;
 }
 
