@@ -94,7 +94,7 @@ WhoMatters who_matters(const ecu::PlanRecord& plan, const CycleRecord& cycle,
   who.claim = claim_words(claim);
   if (waits_for_it) who.claim += view::format("; we would need until %.1f s", verdict.needed_s);
   if (const long belief = gives_way(cycle, agent, claim); belief >= 0)
-    who.belief = view::format("lets us go first with a probability of %ld %%", belief);
+    who.belief = view::format("lets us go first with a probability of %ld\u00a0%%", belief);
   return who;
 }
 

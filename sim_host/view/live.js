@@ -5,7 +5,7 @@
   const kKept = 1800, kCycleMs = 100, kWayCycles = 400, kToldMost = 60;
   const cycles = [];
   let state = { present: false, absence: 'not connected yet' };
-  let connected = false, dirty = true;
+  let connected = false, asked = false;
   let held = null;    // number of the cycle shown; null: always the newest
   let picked = -1;
   const scene = makeScene(element('scene'));
@@ -204,7 +204,7 @@
   };
 
   const show = () => {
-    dirty = false;
+    asked = false;
     tellLink();
     const shown = indexShown();
     element('pause').textContent = held === null ? '❚❚ pause' : '▶ live';
@@ -223,30 +223,30 @@
     root.dataset.newest = cycles[cycles.length - 1].number;
     measure(cycle, began);
   };
-  const onFrame = () => {
-    if (dirty) show();
-    requestAnimationFrame(onFrame);
+  const redraw = () => {  // once a frame at most, and not when nothing has changed
+    if (!asked) requestAnimationFrame(show);
+    asked = true;
   };
-
-  const hold = (number) => { held = number; dirty = true; };
+  const hold = (number) => { held = number; redraw(); };
   const pause = () => hold(held === null && cycles.length ? cycles[cycles.length - 1].number : null);
   const step = (by) => {
     if (!cycles.length) return;
     const index = Math.min(cycles.length - 1, Math.max(0, indexShown() + by));
     hold(cycles[index].number);
   };
-  const pick = (car) => { picked = car === picked ? -1 : car; dirty = true; };
+  const pick = (car) => { picked = car === picked ? -1 : car; redraw(); };
 
   const connect = () => {
     const socket = new WebSocket(`ws://${location.host}/`, 's4tp-live');
     socket.onopen = () => {
-      connected = dirty = true;
+      connected = true;
+      redraw();
       cycles.length = 0;  // all that is kept comes again
       for (const { item } of story.splice(0)) item.remove();
     };
     socket.onmessage = (event) => {
       const message = JSON.parse(event.data);
-      dirty = true;
+      redraw();
       if (message.kind === 'state') { state = message; return; }
       cycles.push(message);
       if (cycles.length > kKept) cycles.shift();
@@ -254,7 +254,7 @@
     };
     socket.onclose = () => {
       connected = false;
-      dirty = true;
+      redraw();
       setTimeout(connect, 500);
     };
   };
@@ -281,11 +281,11 @@
     const row = event.target.closest('[data-car]');
     if (row) pick(Number(row.dataset.car));
   });
-  const zoom = (by) => { scene.zoom(by); dirty = true; };
+  const zoom = (by) => { scene.zoom(by); redraw(); };
   element('scene').addEventListener('wheel', (event) => { event.preventDefault(); zoom(event.deltaY > 0 ? 1.15 : 1 / 1.15); },
     { passive: false });
   for (const input of document.querySelectorAll('[data-layer]')) {
-    input.addEventListener('change', () => { scene.layers[input.dataset.layer] = input.checked; dirty = true; });
+    input.addEventListener('change', () => { scene.layers[input.dataset.layer] = input.checked; redraw(); });
   }
   document.addEventListener('keydown', (event) => {
     const keys = {
@@ -297,8 +297,8 @@
     event.preventDefault();
     keys[event.key]();
   });
-  window.addEventListener('resize', () => { dirty = true; });
-  matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => { dirty = true; });
+  window.addEventListener('resize', redraw);
+  matchMedia('(prefers-color-scheme: dark)').addEventListener('change', redraw);
   connect();
-  requestAnimationFrame(onFrame);
+  redraw();
 })();

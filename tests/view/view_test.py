@@ -182,7 +182,7 @@ def figures(browser):
 
 
 def main(view, tool, picture=None):
-    with tempfile.TemporaryDirectory(prefix="s4tp_view_") as name:
+    with tempfile.TemporaryDirectory(prefix="s4tp_view_", ignore_cleanup_errors=True) as name:
         folder = pathlib.Path(name)
         programs = Programs(view, tool, folder)
         browser = None
