@@ -117,12 +117,15 @@ def check_reasons(browser, port):
                        "(document.dispatchEvent(new KeyboardEvent('keydown', {key: ' '})), true)", 60),
           "nobody is said to hold us up: " + " | ".join(text(browser, name) for name in ("words", "blocker", "belief", "claim")))
     time.sleep(0.3)
+    # Who comes later gets the state first, then every message from the first one on.
     stream = WebSocket(port, "/", "s4tp-live")
-    number = frame(browser)
-    while True:
+    number, before = frame(browser), 0
+    check(json.loads(stream.receive())["kind"] == "state", "the state does not come first")
+    while before < number:
         message = json.loads(stream.receive())
-        if message["kind"] == "cycle" and message["number"] == number:
-            break
+        if message["kind"] == "cycle":
+            check(message["number"] == before + 1, f"message {message['number']} after {before}")
+            before = message["number"]
     who = message["who"]
     seen = {name: text(browser, name) for name in ("words", "blocker", "belief", "claim", "mode")}
     print(json.dumps(seen, ensure_ascii=False))
@@ -225,6 +228,7 @@ def main(view, tool, picture=None):
 
             # The server goes and comes back; so does the page.
             programs.end(server)
+            check(server.returncode == 0, f"told to stop the view exits with {server.returncode}")
             check(browser.wait("document.documentElement.dataset.link === 'closed'"), "the server's end is not noticed")
             programs.start_view(port)
             programs.drive("third")  # the second may have reached its goal
