@@ -113,10 +113,10 @@ void Guard::look_along(int path_index) {
     const float along_mps = max(0.0F, seen.along_mps);
     if (seen.centre_s_m > centre_s_m) {
       // It may have begun to brake when it was last seen.
-      const float age_s = 1e-3F * static_cast<float>(agent.age_ms);
-      const float rear_s_m = seen.centre_s_m - seen.half_length_m;
-      const float stop_s_m = rear_s_m - along_mps * age_s +
-                             occupancy::stopping_way_m(along_mps, parameters_->law.braking_max_mps2);
+      const float seen_s_m = seen.centre_s_m - seen.half_length_m - agent.coasted_m;
+      const float seen_mps = max(0.0F, along_mps - agent.coasted_mps);
+      const float stop_s_m =
+          seen_s_m + occupancy::stopping_way_m(seen_mps, parameters_->law.braking_max_mps2);
       if (stop_s_m >= sight.leader_stop_s_m) continue;
       sight.leader_stop_s_m = stop_s_m;
       sight.leader = static_cast<std::uint8_t>(i);

@@ -24,31 +24,41 @@ float grip_speed_mps(const Lane& lane) {
   return turned_rad < kBendRad ? kNeverS : sqrt(kGripMps2 * lane.length_m / turned_rad);
 }
 
+constexpr std::uint16_t kSeenMs = 250;  // not seen for longer, it may have set off
+
 float seconds(std::uint16_t time_ms) {
   return 1e-3F * static_cast<float>(time_ms);
+}
+
+// All that is known is the last sight; from then on the law alone bounds where a vehicle can be.
+float seen_mps(const Agent& agent) {
+  return max(agent.track.speed_mps - agent.coasted_mps, 0.0F);
 }
 
 /// D1: whoever owes us the way stops before the zone, if the duty's braking does it. The response runs once:
 /// from when the vehicle was first in sight.
 bool gives_way(const Agent& agent, float to_entry_m, const Parameters& parameters) {
   const auto& law = parameters.law;
-  const float response_s = max(0.0F, law.duty_response_s - seconds(agent.known_ms));
-  const float room_m = to_entry_m - agent.track.speed_mps * response_s;
-  return room_m > 0.0F && occupancy::stopping_way_m(agent.track.speed_mps, law.duty_braking_mps2) <= room_m;
+  const float known_s = seconds(agent.known_ms) - seconds(agent.age_ms);
+  const float response_s = max(0.0F, law.duty_response_s - max(0.0F, known_s));
+  const float room_m = to_entry_m - seen_mps(agent) * response_s;
+  return room_m > 0.0F && occupancy::stopping_way_m(seen_mps(agent), law.duty_braking_mps2) <= room_m;
 }
 
 /// L1.
-bool can_stop_gently(const Pace& fastest, float to_entry_m, const Parameters& parameters) {
+bool can_stop_gently(const Pace& fastest, float to_entry_m, float unseen_s, const Parameters& parameters) {
   const auto& law = parameters.law;
-  const float room_m = to_entry_m - kShortOfZoneM - occupancy::way_after_m(fastest, law.ask_response_s);
-  const float later_mps = occupancy::speed_after_mps(fastest, law.ask_response_s);
+  const float asked_s = unseen_s + law.ask_response_s;
+  const float room_m = to_entry_m - kShortOfZoneM - occupancy::way_after_m(fastest, asked_s);
+  const float later_mps = occupancy::speed_after_mps(fastest, asked_s);
   return room_m > 0.0F && square(later_mps) <= 2.0F * law.ask_braking_mps2 * room_m;
 }
 
 /// L2.
 bool stands_in_sight(const Scene& scene, const Agent& agent, const Parameters& parameters) {
-  return agent.track.speed_mps < kStandingMps && agent.track.acceleration_mps2 < kSetsOffMps2 &&
-         seconds(agent.stood_ms) >= parameters.law.seen_s && scene.waited_s >= parameters.law.seen_s;
+  return agent.age_ms <= kSeenMs && agent.track.speed_mps < kStandingMps &&
+         agent.track.acceleration_mps2 < kSetsOffMps2 && seconds(agent.stood_ms) >= parameters.law.seen_s &&
+         scene.waited_s >= parameters.law.seen_s;
 }
 
 }  // namespace
@@ -58,8 +68,8 @@ Pace fastest_legal(const Scene& scene, const Agent& agent, const ConflictZone& z
   const Lane& there = scene.map->lanes[zone.other_lane];
   float limit_mps = there.speed_limit_mps;
   if (agent.lane != kNoLaneIndex) limit_mps = max(limit_mps, scene.map->lanes[agent.lane].speed_limit_mps);
-  return {agent.track.speed_mps, parameters.law.gain_mps2,
-          max(parameters.law.over_limit * limit_mps, agent.track.speed_mps)};
+  const float now_mps = seen_mps(agent);
+  return {now_mps, parameters.law.gain_mps2, max(parameters.law.over_limit * limit_mps, now_mps)};
 }
 
 ZoneOccupancy zone_occupancy(const Scene& scene, const Agent& agent, const occupancy::LaneReach& reach,
@@ -72,11 +82,14 @@ ZoneOccupancy zone_occupancy(const Scene& scene, const Agent& agent, const occup
   result.to_exit_m = to_lane_m + zone.other_exit_m + longer_m;
   if (result.to_exit_m <= 0.0F) return result;
 
+  // Counted from the last sight, whatever we took the vehicle to do since.
+  const float unseen_s = seconds(agent.age_ms);
+  const float entry_m = result.to_entry_m + agent.coasted_m;
+  const float exit_m = result.to_exit_m + agent.coasted_m;
   const Pace fastest = fastest_legal(scene, agent, zone, parameters);
   result.claim = Claim::kMayCome;
   result.until_s =
-      occupancy::latest_time_s(agent.track.speed_mps, parameters.law.braking_max_mps2, result.to_exit_m) -
-      lead_s;
+      occupancy::latest_time_s(seen_mps(agent), parameters.law.braking_max_mps2, exit_m) - unseen_s - lead_s;
   if (result.to_entry_m <= 0.0F) {
     // Where it stands it is an obstacle like any other; the rest of the zone is left by whoever does not
     // move.
@@ -84,17 +97,17 @@ ZoneOccupancy zone_occupancy(const Scene& scene, const Agent& agent, const occup
     result.from_s = -lead_s;
     return result;
   }
-  result.from_s = occupancy::time_to_cover_s(fastest, result.to_entry_m) - lead_s;
+  result.from_s = occupancy::time_to_cover_s(fastest, entry_m) - unseen_s - lead_s;
   // A bend is driven no faster than grip lets it; braking for it is not counted on.
   const float grip_mps = grip_speed_mps(scene.map->lanes[zone.other_lane]);
   if (grip_mps < fastest.top_mps) {
-    const float in_bend_m = min(result.to_entry_m, max(zone.other_entry_m, 0.0F));
-    const float before_s = occupancy::time_to_cover_s(fastest, result.to_entry_m - in_bend_m);
-    result.from_s = max(result.from_s, before_s + in_bend_m / max(grip_mps, 1.0F) - lead_s);
+    const float in_bend_m = min(entry_m, max(zone.other_entry_m, 0.0F));
+    const float before_s = occupancy::time_to_cover_s(fastest, entry_m - in_bend_m);
+    result.from_s = max(result.from_s, before_s + in_bend_m / max(grip_mps, 1.0F) - unseen_s - lead_s);
   }
   if (zone.priority == Priority::kFirstHasPriority) {
-    if (gives_way(agent, result.to_entry_m, parameters)) result.claim = Claim::kOwes;
-  } else if (can_stop_gently(fastest, result.to_entry_m, parameters)) {
+    if (gives_way(agent, entry_m, parameters)) result.claim = Claim::kOwes;
+  } else if (can_stop_gently(fastest, entry_m, unseen_s, parameters)) {
     result.claim = Claim::kCanStop;
   } else if (stands_in_sight(scene, agent, parameters)) {
     result.claim = Claim::kStands;

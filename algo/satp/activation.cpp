@@ -1,5 +1,7 @@
 #include "algo/satp/activation.hpp"
 
+#include "algo/satp/lanes.hpp"
+
 namespace s4tp::satp {
 namespace {
 
@@ -20,12 +22,6 @@ constexpr double exp_at_compile_time(double x) {
   for (int i = 0; i < kHalvings; ++i) sum *= sum;
   return sum;
 }
-
-/// Where a stretch begins, and how far it rises: one word to load.
-struct Stretch {
-  std::int16_t value;
-  std::int16_t rise;
-};
 
 struct Table {
   Stretch stretches[kStretches];
@@ -61,28 +57,24 @@ constexpr Table kSigmoid = table_of(sigmoid_at);
 constexpr Table kTanh = table_of(tanh_at);
 constexpr Table kExp = table_of(exp_minus_at);
 
-std::int16_t look_up(const Table& table, std::int16_t x_q12) {
-  const std::int32_t from_start = x_q12 + 32768;
-  const Stretch& stretch = table.stretches[from_start >> 8];
-  return static_cast<std::int16_t>(stretch.value + ((stretch.rise * (from_start & 255) + 128) >> 8));
-}
-
 }  // namespace
 
 std::int16_t sigmoid_q15(std::int16_t x_q12) {
-  return look_up(kSigmoid, x_q12);
+  plain::look_up(kSigmoid.stretches, &x_q12, 1);
+  return x_q12;
 }
 
 std::int16_t tanh_q15(std::int16_t x_q12) {
-  return look_up(kTanh, x_q12);
+  plain::look_up(kTanh.stretches, &x_q12, 1);
+  return x_q12;
 }
 
 void sigmoid_q15(std::int16_t* values, int count) {
-  for (int i = 0; i < count; ++i) values[i] = look_up(kSigmoid, values[i]);
+  lanes::look_up(kSigmoid.stretches, values, count);
 }
 
 void tanh_q15(std::int16_t* values, int count) {
-  for (int i = 0; i < count; ++i) values[i] = look_up(kTanh, values[i]);
+  lanes::look_up(kTanh.stretches, values, count);
 }
 
 std::int32_t exp_minus_q15(std::int32_t x_q8) {

@@ -10,7 +10,7 @@ namespace s4tp::satp {
 /// \param x_q12  in 2^-12  \return in 2^-15; 1 is 32767
 [[nodiscard]] std::int16_t sigmoid_q15(std::int16_t x_q12);
 [[nodiscard]] std::int16_t tanh_q15(std::int16_t x_q12);
-/// Of `count` values in place.
+/// Of `count` values in place, a multiple of 8.
 void sigmoid_q15(std::int16_t* values, int count);
 void tanh_q15(std::int16_t* values, int count);
 

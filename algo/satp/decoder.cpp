@@ -6,8 +6,8 @@
 #include "algo/satp/embedding.hpp"
 #include "algo/satp/gru_cell.hpp"
 #include "algo/satp/kernels.hpp"
+#include "algo/satp/lanes.hpp"
 #include "algo/satp/linear.hpp"
-#include "algo/satp/requantize.hpp"
 #include "algo/satp/step_features.hpp"
 
 namespace s4tp::satp {
@@ -48,12 +48,7 @@ void mix_inputs(const Weights& weights, const Encoded& encoded, int hdv, const f
   }
   const std::int32_t multiplier = weights.words(kGruMix)[0];
   const std::int32_t gate = encoded.gate[hdv];
-  for (int k = 0; k < kModes; ++k) {
-    for (int c = 0; c < kEmbed; ++c) {
-      const std::int32_t sum = own[k][c] + ((gate * ours[k][c] + (1 << 14)) >> 15);
-      scratch.inputs[k][c] = static_cast<std::int8_t>(saturate_unsigned8(requantize(sum, multiplier)) - 128);
-    }
-  }
+  for (int k = 0; k < kModes; ++k) lanes::mix(own[k], ours[k], gate, multiplier, kEmbed, scratch.inputs[k]);
 }
 
 // Increments are what the vehicle does beyond keeping its speed.

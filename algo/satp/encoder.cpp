@@ -30,21 +30,37 @@ std::int8_t narrow(std::int32_t sum) {
   return static_cast<std::int8_t>(saturate8((sum + 32) >> 6));
 }
 
-// What a vehicle's past says of it, as of now. \param first  kEgoEmbed1 or kHdvEmbed1
-void encode_history(const Weights& weights, int first,
-                    const float (&history)[kHistorySamples][kHistoryFeatures], std::uint16_t valid,
-                    EncoderScratch& scratch, std::int8_t* output) {
+// What a vehicle's samples say of it, as it is now. \param now  the newest sample's row
+void look_back(const Weights& weights, int first, const Attention& block,
+               const float (&history)[kHistorySamples][kHistoryFeatures], std::uint16_t valid,
+               EncoderScratch& scratch, std::int8_t* now, std::int8_t* seen) {
   static_assert(padded(kHistoryFeatures) <= kMaxFeatures);
-  constexpr int kNow = kHistorySamples - 1;
   for (int j = 0; j < kHistorySamples; ++j) embed_features(history[j], kHistoryUnit, scratch.features[j]);
   linear_relu(weights.linear(first), {scratch.features[0], kMaxFeatures}, kHistorySamples,
               write(scratch.inner));
   linear_by_row(weights.linear(first + 1), read(scratch.inner), kHistorySamples, write(scratch.seen));
-  const Attention block = attention_at(weights, first + 2);
   auto& values = scratch.inner;  // it has served
   project(block, read(scratch.seen), kHistorySamples, write(scratch.keys), write(values));
-  attend(block, read(&scratch.seen[kNow]), 1, read(scratch.keys), read(values), kHistorySamples, valid,
-         scratch.attention, {output, kWidth});
+  std::memcpy(now, scratch.seen[kHistorySamples - 1], kWidth);
+  alignas(4) std::int8_t asked[kWidth];
+  ask(block, {now, kWidth}, 1, {asked, kWidth});
+  look(block, asked, read(scratch.keys), read(values), kHistorySamples, valid, seen);
+}
+
+// Each vehicle's past; ours has weights of its own.
+void encode_histories(const Weights& weights, const NetworkInput& input, EncoderScratch& scratch) {
+  auto& now = scratch.second;  // not needed yet
+  auto& histories = scratch.histories;
+  const Attention ours = attention_at(weights, kEgoAttention);
+  look_back(weights, kEgoEmbed1, ours, input.ego_history, input.ego_history_valid, scratch, now[0],
+            histories[0]);
+  finish(ours, read(now), 1, scratch.attention, write(histories));
+  const Attention theirs = attention_at(weights, kHdvAttention);
+  for (int i = 0; i < input.hdvs; ++i) {
+    look_back(weights, kHdvEmbed1, theirs, input.history[i], input.history_valid[i], scratch, now[1 + i],
+              histories[1 + i]);
+  }
+  finish(theirs, read(now + 1), input.hdvs, scratch.attention, write(histories + 1));
 }
 
 // Who is where around us enters here: histories are told in frames of their own.
@@ -82,86 +98,110 @@ void mix_agents(const Weights& weights, int agents, EncoderScratch& scratch) {
   look_around(attention_at(weights, kAgent2), agents, scratch.second, scratch, scratch.mixed);
 }
 
-// One lane path as its vehicle sees it.
-void encode_lane(const Weights& weights, const Attention& block,
-                 const float (&points)[kLanePoints][kLaneFeatures], int count, const std::int8_t* query,
-                 EncoderScratch& scratch, std::int8_t* output) {
+// One lane path as its vehicle sees it, before the rest of the block.
+void look_along(const Weights& weights, const Attention& block,
+                const float (&points)[kLanePoints][kLaneFeatures], int count, const std::int8_t* asked,
+                EncoderScratch& scratch, std::int8_t* seen) {
   static_assert(padded(kLaneFeatures) <= kMaxFeatures);
   for (int p = 0; p < count; ++p) embed_features(points[p], kLaneUnit, scratch.features[p]);
   linear_relu(weights.linear(kMapPoint1), {scratch.features[0], kMaxFeatures}, count, write(scratch.inner));
   linear_relu(weights.linear(kMapPoint2), read(scratch.inner), count, write(scratch.seen));
   auto& values = scratch.inner;
   project(block, read(scratch.seen), count, write(scratch.keys), write(values));
-  attend(block, {query, kWidth}, 1, read(scratch.keys), read(values), count, (1U << count) - 1U,
-         scratch.attention, {output, kWidth});
+  look(block, asked, read(scratch.keys), read(values), count, (1U << count) - 1U, seen);
 }
 
-// The lane paths a vehicle may take, weighed against each other.
-void encode_map(const Weights& weights, const NetworkInput& input, int hdv, const std::int8_t* query,
-                EncoderScratch& scratch, std::int8_t* output) {
-  const Attention block = attention_at(weights, kLane);
-  std::memset(scratch.lanes, 0, sizeof scratch.lanes);
-  std::uint32_t mask = 0;
-  for (int k = 0; k < kPathsPerAgent; ++k) {
-    const int count = input.lane_points[hdv][k];
-    if (count == 0) continue;
-    mask |= 1U << k;
-    encode_lane(weights, block, input.lane[hdv][k], count, query, scratch, scratch.lanes[k]);
-  }
+// The lane paths each vehicle may take, weighed against each other. \param outputs  a row each
+void encode_maps(const Weights& weights, const NetworkInput& input, EncoderScratch& scratch,
+                 std::int8_t (*outputs)[kWidth]) {
+  const Attention lane = attention_at(weights, kLane);
   const Attention route = attention_at(weights, kRoute);
-  auto& values = scratch.inner;
-  project(route, read(scratch.lanes), kPathsPerAgent, write(scratch.keys), write(values));
-  attend(route, {query, kWidth}, 1, read(scratch.keys), read(values), kPathsPerAgent, mask, scratch.attention,
-         {output, kWidth});
+  const auto* vehicles = scratch.mixed + 1;
+  auto& asked_of_lanes = scratch.agent_keys;  // these two have served
+  auto& asked_of_routes = scratch.agent_values;
+  ask(lane, read(vehicles), input.hdvs, write(asked_of_lanes));
+  ask(route, read(vehicles), input.hdvs, write(asked_of_routes));
+  for (int i = 0; i < input.hdvs; ++i) {
+    std::uint32_t mask = 0;
+    for (int k = 0; k < kPathsPerAgent; ++k) {
+      const int count = input.lane_points[i][k];
+      if (count == 0) continue;
+      mask |= 1U << k;
+      look_along(weights, lane, input.lane[i][k], count, asked_of_lanes[i], scratch, scratch.lanes[k]);
+    }
+    finish(lane, {vehicles[i], 0}, kPathsPerAgent, scratch.attention, write(scratch.lanes));
+    for (int k = 0; k < kPathsPerAgent; ++k) {
+      if ((mask >> k & 1U) == 0U) std::memset(scratch.lanes[k], 0, kWidth);
+    }
+    auto& values = scratch.inner;
+    project(route, read(scratch.lanes), kPathsPerAgent, write(scratch.keys), write(values));
+    look(route, asked_of_routes[i], read(scratch.keys), read(values), kPathsPerAgent, mask, outputs[i]);
+  }
+  finish(route, read(vehicles), input.hdvs, scratch.attention, write(outputs));
 }
 
-void encode_pair(const Weights& weights, const float (&pair)[kPairFeatures], std::int8_t* output) {
-  alignas(4) std::int16_t features[kPairFeatures];
-  alignas(4) std::int8_t inner[kWidth];
-  embed_features(pair, kPairUnit, features);
-  linear_relu(weights.linear(kPair1), {features, kPairFeatures}, 1, {inner, kWidth});
-  linear_relu(weights.linear(kPair2), {inner, kWidth}, 1, Rows<std::int8_t>{output, kWidth});
+// How at most kMaxBatch vehicles and we stand to each other. \param pairs  NetworkInput::pair
+void encode_pairs(const Weights& weights, const float (*pairs)[kPairFeatures], int count,
+                  std::int8_t (*outputs)[kWidth]) {
+  alignas(4) std::int16_t features[kMaxBatch][kPairFeatures];
+  alignas(4) std::int8_t inner[kMaxBatch][kWidth];
+  for (int i = 0; i < count; ++i) embed_features(pairs[i], kPairUnit, features[i]);
+  linear_relu(weights.linear(kPair1), {features[0], kPairFeatures}, count, write(inner));
+  linear_relu(weights.linear(kPair2), read(inner), count, write(outputs));
 }
 
-// How strongly our plan enters the vehicle's futures.
-std::int16_t interaction_gate(const Weights& weights, const std::int8_t* ours, const std::int8_t* theirs,
-                              const std::int8_t* pair) {
-  alignas(4) std::int8_t input[kScene];
-  alignas(4) std::int8_t inner[kWidth];
-  std::int16_t argument = 0;
-  std::memcpy(input, ours, kWidth);
-  std::memcpy(input + kWidth, theirs, kWidth);
-  std::memcpy(input + 2 * kWidth, pair, kWidth);
-  linear_relu(weights.linear(kGate1), {input, kScene}, 1, {inner, kWidth});
-  linear(weights.linear(kGate2), {inner, kWidth}, 1, Rows<std::int16_t>{&argument, 1});
-  return sigmoid_q15(argument);
+// Three parts side by side.
+void join(const std::int8_t* first, const std::int8_t* second, const std::int8_t* third,
+          std::int8_t* output) {
+  std::memcpy(output, first, kWidth);
+  std::memcpy(output + kWidth, second, kWidth);
+  std::memcpy(output + 2 * kWidth, third, kWidth);
+}
+
+// How strongly our plan enters the vehicles' futures. \param inputs  our history, theirs, pair
+void interaction_gates(const Weights& weights, Rows<const std::int8_t> inputs, int count,
+                       std::int16_t* gates) {
+  alignas(4) std::int8_t inner[kMaxBatch][kWidth];
+  linear_relu(weights.linear(kGate1), inputs, count, write(inner));
+  linear(weights.linear(kGate2), read(inner), count, Rows<std::int16_t>{gates, 1});
+  for (int i = 0; i < count; ++i) gates[i] = sigmoid_q15(gates[i]);
+}
+
+// States and gates of at most kMaxBatch vehicles, from `first` on.
+void start(const Weights& weights, const NetworkInput& input, int first, int count,
+           const std::int8_t (*maps)[kWidth], const EncoderScratch& scratch, Encoded& encoded) {
+  alignas(4) std::int8_t pairs[kMaxBatch][kWidth];
+  alignas(4) std::int8_t joined[kMaxBatch][kScene];
+  const Rows<const std::int8_t> scenes{joined[0], kScene};
+  encode_pairs(weights, input.pair + first, count, pairs);
+  for (int i = 0; i < count; ++i)
+    join(scratch.histories[0], scratch.histories[1 + first + i], pairs[i], joined[i]);
+  interaction_gates(weights, scenes, count, encoded.gate + first);
+  for (int i = 0; i < count; ++i) join(scratch.mixed[1 + first + i], maps[first + i], pairs[i], joined[i]);
+  auto& states = encoded.start[first];
+  constexpr int kStates = kMcuShape.modes * kMcuShape.hidden;
+  linear_by_bias(weights.linear(kStart), scenes, count, kMcuShape.modes,
+                 Rows<std::int16_t>{states[0], kMcuShape.hidden});
+  tanh_q15(states[0], count * kStates);
 }
 
 }  // namespace
 
 void encode(const Weights& weights, const NetworkInput& input, EncoderScratch& scratch, Encoded& encoded) {
   const int agents = 1 + input.hdvs;
-  encode_history(weights, kEgoEmbed1, input.ego_history, input.ego_history_valid, scratch,
-                 scratch.histories[0]);
-  for (int i = 0; i < input.hdvs; ++i) {
-    encode_history(weights, kHdvEmbed1, input.history[i], input.history_valid[i], scratch,
-                   scratch.histories[1 + i]);
-  }
+  encode_histories(weights, input, scratch);
   add_places(weights, input, agents, scratch);
   mix_agents(weights, agents, scratch);
 
+  auto& maps = scratch.tokens;  // they have served
+  encode_maps(weights, input, scratch, maps);
+
   encoded.hdvs = input.hdvs;
+  for (int i = 0; i < input.hdvs; i += kMaxBatch) {
+    const int count = input.hdvs - i < kMaxBatch ? input.hdvs - i : kMaxBatch;
+    start(weights, input, i, count, maps, scratch, encoded);
+  }
   for (int i = 0; i < input.hdvs; ++i) {
-    alignas(4) std::int8_t scene[kScene];
-    const std::int8_t* mixed = scratch.mixed[1 + i];
-    std::memcpy(scene, mixed, kWidth);
-    encode_map(weights, input, i, mixed, scratch, scene + kWidth);
-    encode_pair(weights, input.pair[i], scene + 2 * kWidth);
-    encoded.gate[i] =
-        interaction_gate(weights, scratch.histories[0], scratch.histories[1 + i], scene + 2 * kWidth);
-    linear_by_bias(weights.linear(kStart), scene, kMcuShape.modes,
-                   Rows<std::int16_t>{encoded.start[i][0], kMcuShape.hidden});
-    for (std::int16_t(&start)[kMcuShape.hidden] : encoded.start[i]) tanh_q15(start, kMcuShape.hidden);
     encoded.speed_mps[i] = input.speed_mps[i];
     encoded.anchor[i] = input.anchor[i];
     std::memcpy(encoded.pair[i], input.pair[i], sizeof encoded.pair[i]);

@@ -1,13 +1,12 @@
 #include "algo/satp/layer_norm.hpp"
 
-#include "algo/satp/requantize.hpp"
+#include "algo/satp/lanes.hpp"
 
 namespace s4tp::satp {
 namespace {
 
 constexpr int kWidth = kMcuShape.width;
-constexpr int kNormBits = 12;    // of the normalized value
-constexpr int kOutputBits = 20;  // gain 2^8, normalized value 2^12
+constexpr int kNormBits = 12;  // of the normalized value
 
 // sqrt(kWidth) * 2^28, for the compiler only.
 constexpr std::uint32_t root_of_width() {
@@ -37,15 +36,8 @@ std::uint32_t integer_sqrt(std::uint32_t x) {
   return root;
 }
 
-void layer_norm(const Norm& norm, const std::int32_t* values, std::int8_t* outputs) {
-  std::int32_t sum = 0;
-  for (int j = 0; j < kWidth; ++j) sum += values[j];
-  std::int32_t centred[kWidth];  // kWidth times the distance from the mean
-  std::uint64_t squares = 0;
-  for (int j = 0; j < kWidth; ++j) {
-    centred[j] = kWidth * values[j] - sum;
-    squares += static_cast<std::uint64_t>(static_cast<std::int64_t>(centred[j]) * centred[j]);
-  }
+void layer_norm(const Norm& norm, std::int32_t* values, std::int8_t* outputs) {
+  const std::uint64_t squares = lanes::centre(values, kWidth);
   // The square root of `squares` = root * 2^exponent, with 16 significant bits.
   int exponent = 0;
   std::uint64_t scaled = squares;
@@ -59,17 +51,11 @@ void layer_norm(const Norm& norm, const std::int32_t* values, std::int8_t* outpu
   }
   const std::uint32_t root = integer_sqrt(static_cast<std::uint32_t>(scaled));
   const std::int32_t factor = root == 0U ? 0 : static_cast<std::int32_t>(kRootOfWidth / root);
+  // Normalized values are values * factor / 2^shift, to nearest; shift is 1 .. 26. As they are below 2^15, both
+  // can be shifted up until the division is one by 2^32.
   const int shift = 28 - kNormBits + exponent;
-  const std::int64_t half = std::int64_t{1} << (shift - 1);
-  for (int j = 0; j < kWidth; ++j) {
-    const auto normalized =
-        static_cast<std::int32_t>((static_cast<std::int64_t>(centred[j]) * factor + half) >> shift);
-    const std::int32_t scaled_up = normalized * norm.gain[j];
-    // Gain and bias are bounded, their sum with a half is not: in 64 bits.
-    const std::int64_t output =
-        static_cast<std::int64_t>(scaled_up) + norm.bias[j] + (1 << (kOutputBits - 1));
-    outputs[j] = static_cast<std::int8_t>(saturate8(static_cast<std::int32_t>(output >> kOutputBits)));
-  }
+  const int of_factor = shift < 17 ? 15 : 32 - shift;
+  lanes::scale(values, 32 - shift - of_factor, factor << of_factor, norm.gain, norm.bias, kWidth, outputs);
 }
 
 }  // namespace s4tp::satp

@@ -9,8 +9,8 @@ namespace s4tp::satp {
 
 /// outputs = gain * (values - mean) / deviation + bias over kMcuShape.width values, int8. SATP-024 Scaling or
 /// shifting all values changes nothing but rounding; equal values give the bias.
-/// \pre |values| < 2^17
-void layer_norm(const Norm& norm, const std::int32_t* values, std::int8_t* outputs);
+/// \param values  are used up \pre |values| < 2^17
+void layer_norm(const Norm& norm, std::int32_t* values, std::int8_t* outputs);
 
 /// floor(sqrt(x))
 [[nodiscard]] std::uint32_t integer_sqrt(std::uint32_t x);

@@ -8,17 +8,10 @@
 
 #include <cstdint>
 
+#include "algo/satp/rows.hpp"
 #include "algo/satp/weight_image.hpp"
 
 namespace s4tp::satp {
-
-template <typename T>
-struct Rows {
-  T* data;
-  int stride;
-
-  [[nodiscard]] T* operator[](int index) const { return data + index * stride; }
-};
 
 void linear(const Linear& layer, Rows<const std::int8_t> inputs, int count, Rows<std::int8_t> outputs);
 void linear_relu(const Linear& layer, Rows<const std::int8_t> inputs, int count, Rows<std::int8_t> outputs);
@@ -29,8 +22,10 @@ void linear(const Linear& layer, Rows<const std::int16_t> inputs, int count, Row
 void linear_relu(const Linear& layer, Rows<const std::int16_t> inputs, int count, Rows<std::int16_t> outputs);
 /// Each row with a bias of its own: row i of the table is that of input i.
 void linear_by_row(const Linear& layer, Rows<const std::int8_t> inputs, int count, Rows<std::int8_t> outputs);
-/// One input, every row of the bias table: `outputs` has as many rows.
-void linear_by_bias(const Linear& layer, const std::int8_t* input, int bias_rows, Rows<std::int16_t> outputs);
+/// Every input with every row of the bias table: row i * bias_rows + k of the outputs is that of input i and
+/// bias row k. \pre count <= kMaxBatch, layer.rows <= kMaxRows
+void linear_by_bias(const Linear& layer, Rows<const std::int8_t> inputs, int count, int bias_rows,
+                    Rows<std::int16_t> outputs);
 /// Real numbers: sums times the layer's scales.
 void linear(const Linear& layer, Rows<const std::int16_t> inputs, int count, Rows<float> outputs);
 

@@ -35,6 +35,18 @@ namespace s4tp::satp {
 #endif
 }
 
+/// a + b, no further than int32 goes.
+[[nodiscard]] inline std::int32_t saturating_sum(std::int32_t a, std::int32_t b) {
+#if defined(__ARM_FEATURE_DSP) && __ARM_FEATURE_DSP && defined(__thumb__)
+  std::int32_t result = 0;
+  asm("qadd %0, %1, %2" : "=r"(result) : "r"(a), "r"(b));
+  return result;
+#else
+  const std::int64_t sum = static_cast<std::int64_t>(a) + b;
+  return static_cast<std::int32_t>(sum < INT32_MIN ? INT32_MIN : (sum > INT32_MAX ? INT32_MAX : sum));
+#endif
+}
+
 /// To the range of int8, of int16, and of a byte without sign.
 [[nodiscard]] inline std::int32_t saturate8(std::int32_t x) {
 #if defined(__ARM_FEATURE_DSP) && __ARM_FEATURE_DSP && defined(__thumb__)

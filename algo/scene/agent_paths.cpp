@@ -225,7 +225,10 @@ void bring_forward(const LaneMap* map, float seconds, Agent& agent) {
   const float moving_s = min(seconds, stop_s);
   const float travel_m =
       max(track.speed_mps * moving_s + 0.5F * track.acceleration_mps2 * square(moving_s), 0.0F);
-  track.speed_mps = max(track.speed_mps + track.acceleration_mps2 * moving_s, 0.0F);
+  const float later_mps = max(track.speed_mps + track.acceleration_mps2 * moving_s, 0.0F);
+  agent.coasted_m = travel_m;
+  agent.coasted_mps = later_mps - track.speed_mps;
+  track.speed_mps = later_mps;
   if (map == nullptr || agent.paths.empty()) {
     const float turn_rad = track.yaw_rate_radps * moving_s;
     track.centre.heading_rad = wrap_angle(track.centre.heading_rad + 0.5F * turn_rad);

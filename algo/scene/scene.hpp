@@ -26,6 +26,8 @@ struct Agent {
   std::uint16_t age_ms = 0;    ///< since it was last in a list; coasted meanwhile
   std::uint16_t stood_ms = 0;  ///< CORE-034 how long it has stood, and ...
   std::uint16_t known_ms = 0;  ///< ... how long it has been in sight; at most a minute
+  float coasted_m = 0.0F;      ///< of its way, since it was seen, and ...
+  float coasted_mps = 0.0F;    ///< ... the speed it was taken to gain
   LaneIndex lane = kNoLaneIndex;
   BoundedVector<LanePath, kPathsPerAgent> paths;  ///< ways it may go; the first is the likeliest
   float path_probability[kPathsPerAgent] = {};    ///< of each path; they add up to 1
@@ -83,16 +85,17 @@ class SceneBuilder {
   /// Forgets every track.
   void reset();
 
-  /// CORE-030 A track missing from the lists, or one of a late list, is coasted along its way for up to 500
-  /// ms, then dropped. CORE-031 The scene is a function of the calls since reset(): the same calls give the
-  /// same bits. CORE-032 No input makes the scene hold a value that is not finite, or an index that is out of
-  /// range. \param list_time_ms  vehicle time of `tracks`; a list older than the last one is ignored \param
-  /// map  may be null or empty: the scene then has no ego paths and the status says so \return kOk, kNoLane
-  /// (the scene is still usable for a minimum-risk manoeuvre), or kInvalidInput (the ego is not finite: the
-  /// scene is empty). CORE-033 What we have waited counts where we give way within 15 m, and is forgotten
-  /// only when that junction is left: a start is not judged by another measure than the rest of the crossing.
-  /// CORE-035 No vehicle is dropped for its id: those that share one are all kept, under ids that nobody has,
-  /// new ones in each list, without history; their number is told.
+  /// CORE-030 A track of a late list is coasted along its way for up to 500 ms; one that a fresh list lacks
+  /// for up to 1 s, or until another track is where it would be. CORE-031 The scene is a function of the
+  /// calls since reset(): the same calls give the same bits. CORE-032 No input makes the scene hold a value
+  /// that is not finite, or an index that is out of range. CORE-033 What we have waited counts where we give
+  /// way within 15 m, and is forgotten only when that junction is left: a start is not judged by another
+  /// measure than the rest of the crossing. CORE-035 No vehicle is dropped for its id: those that share one
+  /// are all kept, under ids that nobody has, new ones in each list, without history; their number is told.
+  /// \param list_time_ms  vehicle time of `tracks`; a list older than the last one is ignored
+  /// \param map  may be null or empty: the scene then has no ego paths and the status says so
+  /// \return kOk, kNoLane (the scene is still usable for a minimum-risk manoeuvre), or kInvalidInput (the ego
+  /// is not finite: the scene is empty)
   [[nodiscard]] Status build(std::uint32_t time_ms, const EgoState& ego, const TrackList& tracks,
                              std::uint32_t list_time_ms, const LaneMap* map, const Parameters& parameters,
                              Scene& scene);
@@ -116,6 +119,8 @@ class SceneBuilder {
   void advance_time(std::uint32_t time_ms);
   void take_list(const TrackList& tracks, std::uint32_t list_time_ms);
   int find_past(const Track& track, std::uint32_t list_time_ms) const;
+  /// Whether a vehicle that the newest list lacks would be where that list has another one.
+  [[nodiscard]] bool in_anothers_place(int index) const;
   void add_past(const Track& track, bool nameless, std::uint32_t list_time_ms);
   std::uint8_t spare_id(const TrackList& tracks);
 

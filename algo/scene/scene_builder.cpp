@@ -8,9 +8,10 @@
 namespace s4tp {
 namespace {
 
-constexpr std::int32_t kCoastMs = 500;  // CORE-030
-constexpr std::int32_t kFreshMs = 250;  // a pose older than this is not "seen" any more
-constexpr float kSameVehicleM = 2.0F;   // a new id this near a lost vehicle is that vehicle
+constexpr std::int32_t kCoastMs = 500;     // CORE-030: a list
+constexpr std::int32_t kMissingMs = 1000;  // a vehicle that fresh lists lack
+constexpr std::int32_t kFreshMs = 250;     // a pose older than this is not "seen" any more
+constexpr float kSameVehicleM = 2.0F;      // a new id this near a lost vehicle is that vehicle
 constexpr float kSameSpeedMps = 4.0F;
 constexpr float kJumpM = 8.0F;    // an id this far from where it should be is another vehicle
 constexpr float kHinderS = 2.5F;  // a vehicle within this headway explains another's braking
@@ -248,6 +249,18 @@ void SceneBuilder::take_list(const TrackList& tracks, std::uint32_t list_time_ms
   last_list_ms_ = list_time_ms;
 }
 
+bool SceneBuilder::in_anothers_place(int index) const {
+  const Past& missing = past_[index];
+  if (missing.seen_ms == last_list_ms_) return false;
+  const float seconds = 1e-3F * static_cast<float>(elapsed_ms(missing.seen_ms, last_list_ms_));
+  const Point place = coasted(missing.track, seconds);
+  for (const Past& seen : past_) {
+    const float half_m = 0.5F * min(missing.track.length_m, seen.track.length_m);
+    if (seen.seen_ms == last_list_ms_ && distance(position(seen.track.centre), place) < half_m) return true;
+  }
+  return false;
+}
+
 Status SceneBuilder::build(std::uint32_t time_ms, const EgoState& ego, const TrackList& tracks,
                            std::uint32_t list_time_ms, const LaneMap* map, const Parameters& parameters,
                            Scene& scene) {
@@ -288,7 +301,8 @@ Status SceneBuilder::build(std::uint32_t time_ms, const EgoState& ego, const Tra
   scene.ego_history = ego_history_;
 
   for (int i = past_.size() - 1; i >= 0; --i) {
-    if (elapsed_ms(past_[i].seen_ms, time_ms) > kCoastMs) past_.swap_remove(i);
+    const bool lost = elapsed_ms(past_[i].seen_ms, time_ms) > kMissingMs;
+    if (lost || in_anothers_place(i)) past_.swap_remove(i);
   }
   for (Past& past : past_) {
     const std::int32_t age_ms = elapsed_ms(past.seen_ms, time_ms) > 0 ? elapsed_ms(past.seen_ms, time_ms) : 0;

@@ -16,12 +16,18 @@ namespace s4tp::baselines {
 /// moves.
 template <bool kGuarded>
 class StaticDrfPlanner final : public PlanningCycle {
+ public:
+  // No network: it was taught by drivers who move.
+  StaticDrfPlanner() { (void)use_weights(nullptr, 0); }
+
+ private:
   void believe(Scene& scene) const override {
     // A vehicle that goes no way is predicted to stay, and to arrive nowhere.
     for (Agent& agent : scene.agents) {
       agent.track.speed_mps = 0.0F;
       agent.track.acceleration_mps2 = 0.0F;
       agent.track.yaw_rate_radps = 0.0F;
+      agent.coasted_mps = 0.0F;
       agent.lane = kNoLaneIndex;
       agent.paths.clear();
       for (History::Sample& sample : agent.history.samples) sample = {agent.track.centre, 0.0F};

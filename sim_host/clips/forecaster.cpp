@@ -104,12 +104,17 @@ class AlongLane final : public Forecaster {
 }  // namespace
 
 const std::vector<std::string>& forecaster_names() {
-  static const std::vector<std::string> names{"kinematic", "constant_velocity", "constant_acceleration",
-                                              "constant_turn_rate", "lane_following"};
+  static const std::vector<std::string> names{"satp",
+                                              "kinematic",
+                                              "constant_velocity",
+                                              "constant_acceleration",
+                                              "constant_turn_rate",
+                                              "lane_following"};
   return names;
 }
 
 std::unique_ptr<Forecaster> make_forecaster(const std::string& name) {
+  if (name == "satp") return make_satp_forecaster();
   if (name == "kinematic") return make_kinematic_forecaster();
   if (name == "constant_velocity") return std::make_unique<Steady>(false, false);
   if (name == "constant_acceleration") return std::make_unique<Steady>(true, false);

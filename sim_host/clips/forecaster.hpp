@@ -35,11 +35,13 @@ class Forecaster {
 /// CLIP-002 constant_velocity keeps speed and heading; constant_acceleration the mean acceleration of the
 /// last second, down to a standstill; constant_turn_rate the mean turn rate of it; lane_following goes along
 /// the lane at constant speed, its offset kept, onto the successor of least turn; off every lane it is
-/// constant_velocity. kinematic is the firmware's predictor on the firmware's scene.
-/// \throws std::invalid_argument naming those there are
+/// constant_velocity. kinematic and satp are the firmware's predictors on the firmware's scene, the second
+/// with the weights the build carries.
+/// \throws std::invalid_argument naming those there are, or why satp has no weights
 [[nodiscard]] std::unique_ptr<Forecaster> make_forecaster(const std::string& name);
 
-/// The firmware's kinematic predictor (kinematic_forecaster.cpp).
+/// The firmware's predictors (firmware_forecaster.cpp).
 [[nodiscard]] std::unique_ptr<Forecaster> make_kinematic_forecaster();
+[[nodiscard]] std::unique_ptr<Forecaster> make_satp_forecaster();
 
 }  // namespace s4tp::clips

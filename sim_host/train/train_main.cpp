@@ -109,6 +109,10 @@ void add_run(CLI::App& tool, RunOptions& options) {
       ->capture_default_str();
   command.add_option("--rate", training.rate, "of Adam, at most; it falls to 0 at the end")
       ->capture_default_str();
+  command
+      .add_option("--rough", training.rough, "share of scenes whose tracks are seen as roughly as real ones")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
   command.add_option("--passes", training.passes, "times a scene is seen at most")->capture_default_str();
   command.add_option("--validate-every", training.validate_every, "steps between points of the curve")
       ->check(CLI::Range(1, 1000000))

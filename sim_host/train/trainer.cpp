@@ -14,6 +14,7 @@
 #include <string>
 
 #include "sim_host/train/random_number.hpp"
+#include "sim_host/train/rough_tracks.hpp"
 
 namespace s4tp::train {
 namespace {
@@ -21,7 +22,7 @@ namespace {
 using torch::Tensor;
 
 // What a random number is for, on top of the seed.
-enum Purpose : std::uint64_t { kOrder = 1000, kNoPlan = 2000 };
+enum Purpose : std::uint64_t { kOrder = 1000, kNoPlan = 2000, kRough = 3000, kHowRough = 4000 };
 
 constexpr int kCurveColumns = 9;
 constexpr double kWarmUpShare = 0.02;                 // of the steps
@@ -99,11 +100,17 @@ Batch Trainer::next_batch(std::vector<float>& has_plan) {
     shuffle(order_, options_.seed + kOrder + static_cast<std::uint64_t>(pass));
     pass_ = pass;
   }
+  std::vector<Sample> scenes(static_cast<std::size_t>(options_.batch));
   std::vector<const Sample*> samples;
   for (std::int64_t i = 0; i < options_.batch; ++i) {
-    const Sample& sample = set_[order_[static_cast<std::size_t>(step_ % batches * options_.batch + i)]];
+    Sample& sample = scenes[static_cast<std::size_t>(i)];
+    sample = set_[order_[static_cast<std::size_t>(step_ % batches * options_.batch + i)]];
     samples.push_back(&sample);
     const auto draw = static_cast<std::uint64_t>(step_ * options_.batch + i);
+    if (random_share(options_.seed + kRough, draw) < options_.rough) {
+      roughen_tracks(random_share(options_.seed + kHowRough, draw),
+                     random_number(options_.seed + kHowRough, draw), sample.input);
+    }
     const bool hidden = random_share(options_.seed + kNoPlan, draw) < options_.no_plan;
     has_plan.insert(has_plan.end(), static_cast<std::size_t>(sample.input.hdvs), hidden ? 0.0F : 1.0F);
   }
@@ -184,11 +191,12 @@ Tensor Trainer::fingerprint() const {
   for (std::size_t i = 0; i < training_.size(); i += 1 + training_.size() / 1000) {
     data += set_[training_[i]].input.speed_mps[0] + static_cast<double>(set_[training_[i]].road % 1000);
   }
-  return torch::tensor({static_cast<double>(network_->shape().id), static_cast<double>(options_.seed),
-                        static_cast<double>(steps_), static_cast<double>(options_.batch), options_.rate,
-                        options_.clip, options_.no_plan, static_cast<double>(options_.validate_every),
-                        static_cast<double>(training_.size()), data},
-                       torch::kFloat64);
+  return torch::tensor(
+      {static_cast<double>(network_->shape().id), static_cast<double>(options_.seed),
+       static_cast<double>(steps_), static_cast<double>(options_.batch), options_.rate, options_.clip,
+       options_.no_plan, options_.rough, static_cast<double>(options_.validate_every),
+       static_cast<double>(training_.size()), data},
+      torch::kFloat64);
 }
 
 void Trainer::save(const std::filesystem::path& file) const {

@@ -1,5 +1,5 @@
 #pragma once
-/// A world made of nothing but frames, around an Ecu with a planner a test can script.
+/// A world made of nothing but frames, around an Ecu with a planner a test can script, or any other.
 
 #include <cmath>
 #include <cstring>
@@ -127,9 +127,10 @@ struct Records final : hal::Telemetry {
   }
 };
 
-class Rig {
+template <class PlannerT>
+class BasicRig {
  public:
-  Rig() { map_sender.update(straight_map()); }
+  BasicRig() { map_sender.update(straight_map()); }
 
   Status start(const Parameters& parameters = {}) {
     return ecu.init(parameters, {ecu_port, nullptr, &cycles, &watchdog, &records});
@@ -185,7 +186,7 @@ class Rig {
   hal::sim::NullCycleCounter cycles;
   hal::sim::NullWatchdog watchdog;
   Records records;
-  Ecu<FakePlanner> ecu;
+  Ecu<PlannerT> ecu;
   Plant plant;
 
   bool motion = true;
@@ -288,5 +289,7 @@ class Rig {
   wire::E2eSender tick_sender_;
   wire::TrackListSender track_sender_;
 };
+
+using Rig = BasicRig<FakePlanner>;
 
 }  // namespace s4tp::ecu

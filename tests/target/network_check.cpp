@@ -1,13 +1,15 @@
-/// The network alone, with random weights: the bits of what it predicts, fast kernels against the plain
-/// reference, and what it costs in SysTick counts. Exit code: 0 the bits are the golden ones and the kernels
+/// The network alone, with random weights: the bits of what it predicts, fast kernels and elementwise
+/// arithmetic against their plain words (SATP-020, SATP-027), and what it costs in SysTick counts. Exit code: 0 the bits are the golden ones and the kernels
 /// agree, 1 they are not.
 
 #include <cstring>
 
 #include "algo/satp/kernels.hpp"
+#include "algo/satp/linear.hpp"
 #include "firmware/targets/platform.hpp"
 #include "firmware/targets/text.hpp"
 #include "tests/support/golden_network.hpp"
+#include "tests/support/lane_agreement.hpp"
 
 namespace s4tp::targets {
 namespace {
@@ -27,26 +29,72 @@ alignas(8) std::int8_t weights8[kMost * kMost];
 alignas(8) std::int8_t inputs8[satp::kMaxBatch * kMost];
 alignas(8) std::int16_t inputs16[satp::kMaxBatch * kMost];
 std::int32_t biases[satp::kMaxBatch * kMost];
+std::int32_t multipliers[kMost];
+alignas(8) std::int8_t outputs8[satp::kMaxBatch * kMost];
+alignas(8) std::int16_t outputs16[satp::kMaxBatch * kMost];
 std::int32_t fast[satp::kMaxBatch][satp::kMaxRows];
 std::int32_t plain[satp::kMaxBatch][satp::kMaxRows];
+test::LaneAgreement lanes;
 
-/// Counts of one call of a kernel on a layer of that size; < 0 when its bits are not the reference's.
+/// The rounding rule in plain words, and the ends of a type's range.
+std::int32_t rescaled(std::int32_t sum, std::int32_t multiplier, int shift, std::int32_t low,
+                      std::int32_t high) {
+  const std::int64_t product = static_cast<std::int64_t>(sum) * multiplier;
+  const std::int64_t q = (product + (std::int64_t{1} << (shift - 1))) >> shift;
+  return static_cast<std::int32_t>(q < low ? low : (q > high ? high : q));
+}
+
+/// Whether `outputs` is what the plain sums become. \param offset  of the type's values: 128 behind a ReLU
+template <typename In, typename Out>
+bool outputs_agree(const satp::Linear& layer, std::int32_t batch, const Out* outputs, std::int32_t low,
+                   std::int32_t high, std::int32_t offset) {
+  constexpr int kShift = sizeof(In) == 1 ? 24 : 32;
+  for (int b = 0; b < batch; ++b) {
+    for (int o = 0; o < layer.rows; ++o) {
+      if (outputs[b * kMost + o] + offset != rescaled(plain[b][o], layer.multiplier[o], kShift, low, high))
+        return false;
+    }
+  }
+  return true;
+}
+
+/// Counts of one call of a layer of that size, rescaling included; < 0 when a kernel's bits are not the
+/// reference's or an output is not what they become.
 template <typename In>
 std::int32_t try_kernel(std::int32_t rows, std::int32_t columns, std::int32_t batch, const In* inputs) {
   const satp::Linear layer{weights8,
                            biases,
-                           biases,
+                           multipliers,
                            static_cast<std::int16_t>(rows),
                            static_cast<std::int16_t>(columns),
                            static_cast<std::int16_t>((columns + 3) / 4 * 4)};
   std::memset(fast, 0, sizeof fast);
   std::memset(plain, 0, sizeof plain);
   satp::reference::multiply(layer, biases, kMost, inputs, kMost, batch, plain);
-  const std::uint32_t began = counts_now();
   satp::multiply(layer, biases, kMost, inputs, kMost, batch, fast);
-  const std::uint32_t ended = counts_now();
   for (int b = 0; b < batch; ++b) {
     if (std::memcmp(fast[b], plain[b], sizeof(std::int32_t) * static_cast<unsigned>(rows)) != 0) return -1;
+  }
+
+  const satp::Rows<const In> from{inputs, kMost};
+  const satp::Rows<std::int8_t> to8{outputs8, kMost};
+  const satp::Rows<std::int16_t> to16{outputs16, kMost};
+  satp::reference::multiply(layer, biases, 0, inputs, kMost, batch, plain);
+  const std::uint32_t began = counts_now();
+  linear(layer, from, batch, to16);
+  const std::uint32_t ended = counts_now();
+  if (!outputs_agree<In>(layer, batch, outputs16, -32768, 32767, 0)) return -1;
+  linear_relu(layer, from, batch, to8);
+  if (!outputs_agree<In>(layer, batch, outputs8, 0, 255, 128)) return -1;
+  if constexpr (sizeof(In) == 1) {
+    linear(layer, from, batch, to8);
+    if (!outputs_agree<In>(layer, batch, outputs8, -128, 127, 0)) return -1;
+    satp::reference::multiply(layer, biases, rows, inputs, kMost, batch, plain);
+    linear_by_row(layer, from, batch, to8);
+    if (!outputs_agree<In>(layer, batch, outputs8, -128, 127, 0)) return -1;
+  } else {
+    linear_relu(layer, from, batch, to16);
+    if (!outputs_agree<In>(layer, batch, outputs16, 0, 32767, 0)) return -1;
   }
   return static_cast<std::int32_t>(ended - began);
 }
@@ -76,6 +124,8 @@ bool kernels_agree() {
     for (std::int16_t& value : inputs16)
       value = static_cast<std::int16_t>(round == 0 ? -32768 : random.integer(-32768, 32767));
     for (std::int32_t& bias : biases) bias = random.integer(-1000000, 1000000);
+    for (std::int32_t& multiplier : multipliers)
+      multiplier = static_cast<std::int32_t>(random.next() >> static_cast<unsigned>(random.integer(1, 24)));
     for (std::int32_t batch = 1; batch <= satp::kMaxBatch; ++batch) {
       for (const Size& size : kSizes) {
         const std::int32_t counts = try_kernel(size.rows, size.columns, batch, inputs8);
@@ -93,6 +143,16 @@ bool kernels_agree() {
     }
   }
   return agree;
+}
+
+bool lanes_agree() {
+  constexpr int kRounds = 300;
+  const char* different = lanes.first_difference(test::kGoldenSeed, kRounds);
+  if (different == nullptr) return true;
+  print("elementwise arithmetic is not what its plain words say: ");
+  print(different);
+  print("\n");
+  return false;
 }
 
 void print_cost(const satp::Weights& weights) {
@@ -116,7 +176,7 @@ void print_cost(const satp::Weights& weights) {
 
 int run(const char*, bool) {
   start_counting();
-  const bool agree = kernels_agree();
+  const bool agree = kernels_agree() && lanes_agree();
   test::make_random_image(test::kGoldenSeed, image);
   satp::Weights weights;
   const satp::WeightStatus status = satp::Weights::check(image, sizeof image, weights);

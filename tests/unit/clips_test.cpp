@@ -67,15 +67,31 @@ TEST_F(Clips, FloorsAreWhatTheySay) {
   EXPECT_THROW((void)make_forecaster("crystal_ball"), std::invalid_argument);
 }
 
-// The firmware's predictor sees the lane and the speed: at 10 m/s it is nearer than 6 m after 3 s (it may
-// expect speeding up to the limit), and keeps to the lane.
-TEST_F(Clips, TheFirmwaresPredictorDrivesAlongTheLane) {
+// The firmware's predictors see the lane and the speed: at 10 m/s they are nearer than 6 m after 3 s (they may
+// expect speeding up to the limit), and keep to the lane; a future's probabilities add up to 1.
+TEST_F(Clips, TheFirmwaresPredictorsDriveAlongTheLane) {
   const Clip straight = clip(0.0);
-  const std::vector<ClipFuture> futures = make_forecaster("kinematic")->forecast(straight, 0, 15);
-  ASSERT_FALSE(futures.empty());
-  const world::Vec2 truth = straight.vehicles[0].states.at(45).centre;
-  EXPECT_NEAR(futures.front().places.back().x, truth.x, 6.0);
-  EXPECT_NEAR(futures.front().places.back().y, 0.0, 1.0);
+  for (const char* name : {"kinematic", "satp"}) {
+    SCOPED_TRACE(name);
+    const std::vector<ClipFuture> futures = make_forecaster(name)->forecast(straight, 0, 15);
+    ASSERT_FALSE(futures.empty());
+    const world::Vec2 truth = straight.vehicles[0].states.at(45).centre;
+    EXPECT_NEAR(futures.front().places.back().x, truth.x, 6.0);
+    EXPECT_NEAR(futures.front().places.back().y, 0.0, 1.0);
+    double sum = 0.0;
+    for (const ClipFuture& future : futures) sum += future.probability;
+    EXPECT_NEAR(sum, 1.0, 1e-4);
+  }
+}
+
+// The learned predictor is another one than the kinematic: three futures of its own where that has one lane
+// and nobody to react to.
+TEST_F(Clips, TheLearnedPredictorAnswersForItself) {
+  const Clip straight = clip(1.0);
+  const std::vector<ClipFuture> learned = make_forecaster("satp")->forecast(straight, 0, 15);
+  const std::vector<ClipFuture> kinematic = make_forecaster("kinematic")->forecast(straight, 0, 15);
+  EXPECT_EQ(learned.size(), 3U);
+  EXPECT_NE(learned.front().places.back().x, kinematic.front().places.back().x);
 }
 
 // CLIP-001 Another time step, or a lane without bounds, is refused with the file's name.

@@ -183,7 +183,9 @@ TEST(Guard, AnOldSightingCounts) {
   for (const std::uint16_t age_ms : {std::uint16_t{0}, std::uint16_t{300}}) {
     SharedGround road(Priority::kFirstHasPriority);
     road.scene.ego_paths[0].zones.clear();
-    road.leader(20.0F + 5.0F + 10.0F, 12.0F).age_ms = age_ms;
+    Agent& leader = road.leader(20.0F + 5.0F + 10.0F, 12.0F);
+    leader.age_ms = age_ms;
+    leader.coasted_m = 0.012F * static_cast<float>(age_ms);
     EXPECT_EQ(road.cause(20.0F, 12.0F, 0.2F), age_ms == 0 ? Cause::kNone : Cause::kLeader) << age_ms;
   }
 }

@@ -162,5 +162,41 @@ TEST(LegalOccupancy, BendsAreDrivenAsFastAsTheyAllow) {
   }
 }
 
+// LEGAL-005 Not seen for 0.4 s and taken to have driven 4 m at 10 m/s meanwhile, a vehicle is as near as by the law
+// since its last sight: the same bits as seen then, with a plan that begins 0.4 s later.
+TEST(LegalOccupancy, CountsFromTheLastSight) {
+  for (const float to_entry_m : {12.0F, 30.0F, 60.0F, -2.0F}) {
+    const Approach then(Priority::kFirstYields, to_entry_m, 10.0F);
+    Approach now(Priority::kFirstYields, to_entry_m - 4.0F, 10.0F);
+    now.agent().age_ms = 400;
+    now.agent().coasted_m = 4.0F;
+    if (to_entry_m > 4.0F) {
+      EXPECT_NEAR(now.when().from_s, then.when(0.4F).from_s, 1e-3F) << to_entry_m;
+    }
+    EXPECT_NEAR(now.when().until_s, then.when(0.4F).until_s, 1e-3F) << to_entry_m;
+  }
+}
+
+// LEGAL-005 Taken to brake from 10 to 8 m/s, it may as well have gained 2 m/s^2: it is counted on at 10.
+TEST(LegalOccupancy, WhatItWasTakenToDoIsNotCountedOn) {
+  const Approach then(Priority::kFirstYields, 30.0F, 10.0F);
+  Approach now(Priority::kFirstYields, 26.4F, 8.0F);
+  now.agent().age_ms = 400;
+  now.agent().coasted_m = 3.6F;
+  now.agent().coasted_mps = -2.0F;
+  EXPECT_NEAR(now.when().from_s, then.when(0.4F).from_s, 1e-3F);
+}
+
+// LEGAL-004, LEGAL-005 Who stood at the last sight may have set off since: after 250 ms it is not passed any more.
+TEST(LegalOccupancy, WhoIsNotSeenMayHaveSetOff) {
+  Approach approach(Priority::kFirstYields, 1.0F, 0.0F);
+  approach.agent().stood_ms = 5000;
+  approach.scene.waited_s = 5.0F;
+  approach.agent().age_ms = 200;
+  EXPECT_EQ(approach.claim(), Claim::kStands);
+  approach.agent().age_ms = 300;
+  EXPECT_EQ(approach.claim(), Claim::kMayCome);
+}
+
 }  // namespace
 }  // namespace s4tp::safety

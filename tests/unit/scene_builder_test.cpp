@@ -343,31 +343,43 @@ TEST(SceneBuilder, KeepsSixteenOfOneId) {
   }
 }
 
-// CORE-030 A vehicle that drops out of the lists goes on for 500 ms at its speed, then it is gone.
+// CORE-030 A vehicle that drops out of the lists goes on for a second at its speed, then it is gone.
 TEST(SceneBuilder, CoastsThenDrops) {
   Drive drive;
   drive.step({test::car(1, 50.0F, 0.0F, 0.0F, 10.0F)});
-  for (int i = 1; i <= 5; ++i) {
+  for (int i = 1; i <= 10; ++i) {
     drive.step({});
     ASSERT_EQ(drive.scene.agents.size(), 1) << i;
     EXPECT_NEAR(drive.scene.agents[0].track.centre.x_m, 50.0F + static_cast<float>(i), 1e-2F);
+    EXPECT_NEAR(drive.scene.agents[0].coasted_m, static_cast<float>(i), 1e-2F);
     EXPECT_EQ(drive.scene.agents[0].age_ms, 100 * i);
   }
   drive.step({});
   EXPECT_EQ(drive.scene.agents.size(), 0);
 }
 
-// CORE-030 The same when the lists themselves stop coming.
-TEST(SceneBuilder, DropsAllWhenListsStop) {
+// CORE-030 Two steps after it was seen at 50 m and 10 m/s, a vehicle is missing at 52 m: a faster one there under
+// another id is its place taken, one 6 m beside is not.
+TEST(SceneBuilder, NobodyIsMissingInAnothersPlace) {
+  for (const float beside_m : {0.0F, 6.0F}) {
+    Drive drive;
+    drive.step({test::car(1, 50.0F, 0.0F, 0.0F, 10.0F)});
+    drive.step({});
+    drive.step({test::car(2, 52.0F, beside_m, 0.0F, 19.0F)});
+    EXPECT_EQ(drive.scene.agents.size(), beside_m > 0.0F ? 2 : 1);
+  }
+}
+
+// CORE-030 Lists that stop coming are refused after 500 ms; what they told of goes no later than a missing one.
+TEST(SceneBuilder, ListsThatStopAreRefused) {
   Drive drive;
   drive.step({test::car(1, 50.0F, 0.0F, 0.0F, 10.0F)});
   const std::uint32_t last_ms = drive.now_ms;
-  for (int i = 1; i <= 5; ++i) {
+  for (int i = 1; i <= 11; ++i) {
     drive.step_without_list(last_ms);
-    ASSERT_EQ(drive.scene.agents.size(), 1) << i;
+    EXPECT_EQ(drive.scene.list_refused, i > 5) << i;
+    EXPECT_EQ(drive.scene.agents.size(), i <= 10 ? 1 : 0) << i;
   }
-  drive.step_without_list(last_ms);
-  EXPECT_EQ(drive.scene.agents.size(), 0);
 }
 
 // Eleven samples 1 m apart after eleven cycles at 10 m/s; before, the missing ones are masked.

@@ -1,11 +1,16 @@
-// The firmware's predictor on a clip: the vehicle asked about is watched, who is nearest stands in our place.
+// The firmware's predictors on a clip: the vehicle asked about is watched, the nearest other one stands in our
+// place.
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
-#include "algo/satp/predictor.hpp"
+#include "algo/satp/satp_predictor.hpp"
+#include "algo/satp/shipped_weights.hpp"
 #include "algo/scene/scene.hpp"
 #include "sim_host/clips/forecaster.hpp"
 #include "sim_host/world/box.hpp"
@@ -117,8 +122,11 @@ std::vector<std::size_t> around(const Clip& clip, std::size_t vehicle, int step)
   return result;
 }
 
-class Kinematic final : public Forecaster {
+/// Without weights SatpPredictor is the kinematic predictor to the bit (SATP-052).
+class Firmware final : public Forecaster {
  public:
+  explicit Firmware(const satp::Weights& weights) : weights_(weights) {}
+
   std::vector<ClipFuture> forecast(const Clip& clip, std::size_t vehicle, int step) const override {
     const world::Vec2 origin = clip.vehicles[vehicle].states.at(step).centre;
     LaneMap map;
@@ -144,10 +152,11 @@ class Kinematic final : public Forecaster {
       (void)builder.build(time_ms, ego_of(we), tracks, time_ms, &map, parameters_,
                           scene);  // off every lane: still a scene
     }
-    Predictor predictor;
-    predictor.encode(scene, parameters_, scene.time_ms);
+    const auto predictor = std::make_unique<SatpPredictor>();  // too large for the stack
+    const auto scratch = std::make_unique<satp::EncoderScratch>();
+    predictor->encode(weights_, scene, parameters_, scene.time_ms, nullptr, nullptr, *scratch);
     PredictionSet prediction;
-    predictor.decode(nullptr, kMaxPredictionWork, prediction);
+    predictor->decode(nullptr, kMaxPredictionWork, prediction);
     for (const AgentPrediction& agent : prediction.agents) {
       if (scene.agents[agent.agent].track.id != kAsked) continue;
       std::vector<ClipFuture> futures;
@@ -166,13 +175,26 @@ class Kinematic final : public Forecaster {
   }
 
  private:
+  satp::Weights weights_;
   Parameters parameters_;
 };
 
 }  // namespace
 
 std::unique_ptr<Forecaster> make_kinematic_forecaster() {
-  return std::make_unique<Kinematic>();
+  return std::make_unique<Firmware>(satp::Weights{});
+}
+
+std::unique_ptr<Forecaster> make_satp_forecaster() {
+  const satp::ShippedWeights shipped = satp::shipped_weights();
+  satp::Weights weights;
+  const satp::WeightStatus status = satp::Weights::check(shipped.image, shipped.size_bytes, weights);
+  if (status != satp::WeightStatus::kOk) {
+    throw std::invalid_argument(std::string("no predictor 'satp': this build's weights are ") +
+                                satp::weight_status_name(status) +
+                                "; configure with -DS4TP_LEARNED_PREDICTOR=ON to carry them");
+  }
+  return std::make_unique<Firmware>(weights);
 }
 
 }  // namespace s4tp::clips

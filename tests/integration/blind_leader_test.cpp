@@ -1,0 +1,95 @@
+// The leader brakes as hard as can be while its track stops coming: nobody is hit, whichever comes first.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+
+#include "algo/planner/planner.hpp"
+#include "tests/support/ecu_rig.hpp"
+
+namespace s4tp::ecu {
+namespace {
+
+constexpr double kFollowing_mps = 11.0;
+constexpr double kHardest_mps2 = 8.0;
+constexpr double kLength_m = 4.5;
+constexpr int kClosing = 700;   // ticks after which the ego still closes up, ...
+constexpr int kSettled = 1300;  // ... and after which the gap is the planner's own
+
+/// What the perception does from the fault's tick on.
+enum class Blind { kNoLists, kNoLeader, kEverySecond };
+
+const char* name_of(Blind blind) {
+  constexpr const char* kNames[] = {"lists stop", "the leader is missing for 0.9 s",
+                                    "every second list is lost"};
+  return kNames[static_cast<int>(blind)];
+}
+
+struct Outcome {
+  double least_gap_m = 1e3;
+  double followed_at_m = 0.0;
+  bool stood = false;
+};
+
+/// Follows a leader that brakes at tick `brakes`; the fault comes `onset` ticks later.
+Outcome follow(Blind blind, int brakes, int onset) {
+  const auto rig = std::make_unique<BasicRig<Planner>>();
+  Outcome outcome;
+  EXPECT_EQ(rig->start(), Status::kOk);
+  rig->plant.speed_mps = kFollowing_mps;
+  double leader_m = 45.0;  // its centre
+  double leader_mps = kFollowing_mps;
+  rig->engage = true;
+  for (int tick = 0; tick < brakes + 600; ++tick) {
+    const int since = tick - brakes - onset;
+    const bool missing = blind == Blind::kNoLeader && since >= 0 && since < 90;
+    if (blind == Blind::kNoLists && since >= 0) rig->tracks = false;
+    if (blind == Blind::kEverySecond && since >= 0) rig->tracks = since / 10 % 2 == 1;
+    rig->track_list.count = missing ? 0 : 1;
+    wire::Track& track = rig->track_list.items[0];
+    track.id = 7;
+    track.x_m = static_cast<float>(leader_m);
+    track.speed_mps = static_cast<float>(leader_mps);
+    track.acceleration_mps2 = tick >= brakes && leader_mps > 0.0 ? static_cast<float>(-kHardest_mps2) : 0.0F;
+    track.length_m = static_cast<float>(kLength_m);
+    track.width_m = 1.8F;
+    rig->tick();
+    if (tick >= brakes) leader_mps = std::max(0.0, leader_mps - 0.01 * kHardest_mps2);
+    leader_m += 0.01 * leader_mps;
+    const Parameters parameters;
+    const double front_m = rig->plant.x_m + static_cast<double>(parameters.vehicle.length_m -
+                                                                parameters.vehicle.rear_overhang_m);
+    const double gap_m = leader_m - 0.5 * kLength_m - front_m;
+    if (tick == brakes) outcome.followed_at_m = gap_m;
+    if (tick >= brakes) outcome.least_gap_m = std::min(outcome.least_gap_m, gap_m);
+    if (tick == brakes - 61) {
+      EXPECT_EQ(rig->ecu.mode(), Mode::kDriving);
+    }
+    outcome.stood = outcome.stood || (tick > brakes && rig->plant.speed_mps < 0.05);
+  }
+  return outcome;
+}
+
+// At 11 m/s the leader brakes at 8 m/s^2, while the ego closes up to it or has done so; from 0.6 s before it to 0.4
+// s after it the perception goes blind.
+TEST(BlindLeader, IsNotHit) {
+  for (const Blind blind : {Blind::kNoLists, Blind::kNoLeader, Blind::kEverySecond}) {
+    for (const int brakes : {kClosing, kSettled}) {
+      double least_m = 1e3;
+      double followed_m = 0.0;
+      for (int onset = -60; onset <= 40; onset += 20) {
+        const Outcome outcome = follow(blind, brakes, onset);
+        EXPECT_GT(outcome.least_gap_m, 0.0) << name_of(blind) << ", from " << 10 * onset << " ms";
+        EXPECT_TRUE(outcome.stood) << name_of(blind) << ", from " << 10 * onset << " ms";
+        least_m = std::min(least_m, outcome.least_gap_m);
+        followed_m = outcome.followed_at_m;
+      }
+      std::printf("%s: followed at %.1f m, least gap %.2f m\n", name_of(blind), followed_m, least_m);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace s4tp::ecu
