@@ -56,6 +56,7 @@ class Programs:
             if process.poll() is None:
                 process.kill()
                 process.wait()
+        pathlib.Path("/dev/shm" + self.memory).unlink(missing_ok=True)  # whoever is killed leaves it behind
 
 
 def check_access(port):
