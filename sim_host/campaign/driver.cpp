@@ -30,6 +30,7 @@ class EcuOnBus final : public Driver {
 
   void inject_deadline_miss() override { ecu_->inject_deadline_miss(); }
   const ecu::EcuCore& core() const override { return ecu_->core(); }
+  const hal::Can& bus() const override { return *ecu_port_; }
 
  private:
   static constexpr std::uint32_t kTickMs = 10;

@@ -8,6 +8,7 @@
 #include "algo/core/parameters.hpp"
 #include "algo/planner/probe.hpp"
 #include "firmware/wire/frame.hpp"
+#include "hal/can.hpp"
 #include "hal/telemetry.hpp"
 #include "sim_host/campaign/any_ecu.hpp"
 
@@ -23,6 +24,8 @@ class Driver {
   virtual void inject_deadline_miss() = 0;
   /// What the ECU believes of the world, and its mode.
   [[nodiscard]] virtual const ecu::EcuCore& core() const = 0;
+  /// The ECU's end of the bus.
+  [[nodiscard]] virtual const hal::Can& bus() const = 0;
 };
 
 /// \param telemetry  may be null  \throws as make_ecu()

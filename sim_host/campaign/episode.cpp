@@ -24,9 +24,12 @@ EpisodeResult run_episode(const world::Scenario& scenario, const EpisodeOptions&
   EpisodeResult result;
   result.trace = std::make_unique<Trace>();
   Trace* const trace = options.trace ? result.trace.get() : nullptr;
+  if (options.onlooker != nullptr) options.onlooker->begin(trace);
+  hal::Telemetry* const telemetry = options.onlooker != nullptr ? options.onlooker->telemetry() : trace;
+  Probe* const probe = options.onlooker != nullptr ? options.onlooker->probe() : trace;
   const bool by_sumo = find_planner(options.planner).drives_in_sumo;
   const auto driver =
-      by_sumo ? nullptr : make_driver(options.planner, options.guarded, options.parameters, trace, trace);
+      by_sumo ? nullptr : make_driver(options.planner, options.guarded, options.parameters, telemetry, probe);
   world::WorldOptions world_options;
   world_options.seed = options.seed;
   world_options.engine = options.engine;
@@ -56,6 +59,7 @@ EpisodeResult run_episode(const world::Scenario& scenario, const EpisodeOptions&
     }
     if (driver) driver->tick(delivered, from_ecu);
     for (const wire::Frame& frame : from_ecu) world.receive(frame);
+    if (driver && options.onlooker != nullptr) options.onlooker->ticked(*driver);
     if (log) {
       log->write(tick * 10'000, delivered);
       log->write(tick * 10'000, from_ecu);

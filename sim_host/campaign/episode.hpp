@@ -10,6 +10,7 @@
 
 #include "algo/core/parameters.hpp"
 #include "firmware/wire/frame.hpp"
+#include "sim_host/campaign/driver.hpp"
 #include "sim_host/campaign/trace.hpp"
 #include "sim_host/world/perception.hpp"
 #include "sim_host/world/recording.hpp"
@@ -17,6 +18,18 @@
 #include "sim_host/world/traffic_engine.hpp"
 
 namespace s4tp::campaign {
+
+/// Looks on while the ECU drives; the drive is the same to the bit.
+class Onlooker {
+ public:
+  virtual ~Onlooker() = default;
+  /// Before the ECU is made. \param trace  where all that is seen goes as well, or null
+  virtual void begin(Trace* trace) = 0;
+  [[nodiscard]] virtual hal::Telemetry* telemetry() = 0;
+  [[nodiscard]] virtual Probe* probe() = 0;
+  /// After each tick of the ECU.
+  virtual void ticked(const Driver& driver) = 0;
+};
 
 struct EpisodeOptions {
   std::uint64_t seed = 0;
@@ -27,6 +40,7 @@ struct EpisodeOptions {
   Parameters parameters;
   std::optional<std::filesystem::path> log;  ///< candump log of every frame on the bus
   bool trace = false;                        ///< keep what the planner thought
+  Onlooker* onlooker = nullptr;
   /// Disturbs the bus: false drops the frame on its way to the ECU. Called with the time since entry [s].
   std::function<bool(double time_s, const wire::Frame& frame)> passes;
   /// Times since entry at which the running planning cycle misses its deadline [s].

@@ -12,7 +12,7 @@
 #include "sim_host/processes/drive_on_bus.hpp"
 #include "sim_host/processes/drive_on_target.hpp"
 #include "sim_host/processes/emulated_board.hpp"
-#include "sim_host/telemetry/records.hpp"
+#include "sim_host/telemetry/live_drive.hpp"
 #include "sim_host/view/episode_picture.hpp"
 #include "sim_host/view/explanation_table.hpp"
 #include "sim_host/view/plan_words.hpp"
@@ -40,6 +40,7 @@ struct RunOptions {
   bool machine = false;
   fs::path log;
   bool explain = false;
+  bool live = false;
   std::string telemetry = telemetry::kDefaultName;
 };
 
@@ -54,6 +55,8 @@ int run_one(const RunOptions& run) {
   options.parameters = run.common.parameters();
   options.trace = true;
   if (!run.log.empty()) options.log = run.log;
+  telemetry::LiveDrive live(run.telemetry, run.planner, options.parameters);
+  if (run.live) options.onlooker = &live;
   const campaign::EpisodeResult result = campaign::run_episode(scenario, options);
 
   fs::create_directories(run.common.out);
@@ -162,14 +165,17 @@ Command add_run(CLI::App& tool) {
   bus->excludes(explain);
   run->add_flag("--realtime", options->realtime, "on a bus: 10 ms of host time a tick")->needs(bus);
   run->add_flag("--no-ecu", options->no_ecu, "on a bus: an ECU is there already")->needs(bus);
-  run->add_option("--telemetry", options->telemetry,
-                  "on a bus: shared memory the ECU tells what it does through (default /s4tp_ecu)")
-      ->needs(bus);
+  CLI::Option* const telemetry = run->add_option(
+      "--telemetry", options->telemetry,
+      "on a bus, and live: shared memory the ECU tells what it does through (default /s4tp_ecu)");
+  CLI::Option* const live =
+      run->add_flag("--live", options->live, "at the pace of the clock, for ./s4tp view in another terminal");
+  live->excludes(bus);
   CLI::Option* const target =
       run->add_option("--target", options->target,
                       "the ECU's image on an emulated board: m7, m55 (no picture then)")
           ->check(CLI::IsMember(processes::board_targets()))
-          ->excludes(bus, planner, guard, explain);
+          ->excludes(bus, planner, guard, explain, live);
   run->add_option("--image", options->image,
                   "of that board (default: build/TARGET/firmware/targets/ecu_lockstep)")
       ->needs(target);
@@ -183,6 +189,8 @@ Command add_run(CLI::App& tool) {
   return {run, [=] {
             options->common.choose_out();
             if (!options->target.empty()) return run_on_target(*options);
+            if (telemetry->count() > 0 && bus->count() + live->count() == 0)
+              throw std::runtime_error("--telemetry: with --bus or --live only");
             if (options->bus.empty()) return run_one(*options);
             if (!needs_machine(options->bus, options->machine)) return run_on_bus(*options);
             if (options->no_ecu) throw std::runtime_error("--no-ecu: there is no other ECU in the machine");

@@ -1,13 +1,21 @@
 #include "sim_host/telemetry/derive.hpp"
 
+#include <algorithm>
 #include <memory>
 
+#include "algo/occupancy/lane_reach.hpp"
+#include "algo/occupancy/pace.hpp"
+#include "algo/sadrf/risk.hpp"
 #include "algo/safety/fail_safe.hpp"
 #include "algo/satp/predictor.hpp"
+#include "algo/scene/lane_path.hpp"
+#include "algo/trajectory/bicycle.hpp"
 #include "algo/trajectory/candidates.hpp"
 
 namespace s4tp::telemetry {
 namespace {
+
+constexpr float kMovingMps = 0.5F;
 
 Scene scene_of(const CycleRecord& cycle) {
   Scene scene = cycle.scene;
@@ -18,6 +26,24 @@ Scene scene_of(const CycleRecord& cycle) {
 bool same(const Candidate& a, const Candidate& b) {
   return a.path == b.path && a.intent == b.intent && a.acceleration_mps2 == b.acceleration_mps2 &&
          a.target_s_m == b.target_s_m && a.lateral_length_m == b.lateral_length_m && a.in_gap == b.in_gap;
+}
+
+/// When our box's centre is beyond the zone; after the horizon we go on as the guard takes us to.
+float leaves_s(const Scene& scene, const EgoPath& path, const Trajectory& trajectory,
+               const ConflictZone& zone, const Parameters& parameters) {
+  const float centre_m = rear_axle_to_centre_m(parameters);
+  float s_m = path.frenet.s_m;
+  for (int i = 0; i < kTrajectoryPoints; ++i) {
+    s_m = project(*scene.map, path.path, position(trajectory.points[i].rear_axle), s_m, 15.0F).s_m;
+    if (s_m + centre_m > zone.exit_s_m) return static_cast<float>(i) * kStepS;
+  }
+  constexpr float kGoesOnMps2 = 1.5F;
+  const float end_mps = trajectory.points[kHorizonSteps].speed_mps;
+  if (end_mps < kMovingMps) return occupancy::kNeverS;
+  const float limit_mps = path_point(*scene.map, path.path, zone.exit_s_m).speed_limit_mps;
+  return kHorizonSteps * kStepS +
+         occupancy::time_to_cover_s({end_mps, kGoesOnMps2, std::max(end_mps, limit_mps)},
+                                    zone.exit_s_m - s_m - centre_m);
 }
 
 }  // namespace
@@ -61,6 +87,71 @@ Plan fail_safe_of(const ecu::PlanRecord& plan, const Parameters& parameters) {
                           planned_mps2 > 0.0F ? planned_mps2 : parameters.guard.braking_mps2, parameters,
                           result);
   return result;
+}
+
+std::vector<GroundClaim> claims_of(const ecu::PlanRecord& plan, const CycleRecord& cycle,
+                                   const Parameters& parameters) {
+  const Scene scene = scene_of(cycle);
+  std::vector<GroundClaim> claims(static_cast<std::size_t>(scene.agents.size()));
+  if (scene.map == nullptr || scene.ego_paths.empty()) return claims;
+  const int chosen = plan.explanation.chosen.path;
+  const EgoPath& path = scene.ego_paths[chosen < scene.ego_paths.size() ? chosen : 0];
+  const float lead_s = 0.001F * static_cast<float>(plan.plan.start_ms - scene.time_ms);
+  for (int i = 0; i < scene.agents.size(); ++i) {
+    GroundClaim& claim = claims[static_cast<std::size_t>(i)];
+    const safety::ZoneOccupancy& first = claim.its;
+    for (const ConflictZone& zone : path.zones) {
+      if (zone.exit_s_m < path.frenet.s_m) continue;  // behind us
+      occupancy::LaneReach reach;
+      reach.measure(*scene.map, scene.agents[i], !zone.merging);
+      const safety::ZoneOccupancy when =
+          safety::zone_occupancy(scene, scene.agents[i], reach, zone, lead_s, parameters);
+      if (when.claim == safety::Claim::kNone) continue;
+      const bool comes = when.claim == safety::Claim::kMayCome;
+      const bool came = first.claim == safety::Claim::kMayCome;
+      if (first.claim == safety::Claim::kNone || (comes && !came) ||
+          (comes == came && when.from_s < first.from_s)) {
+        claim = {when, leaves_s(scene, path, plan.plan.trajectory, zone, parameters)};
+      }
+    }
+  }
+  return claims;
+}
+
+std::vector<float> risk_shares(const ecu::PlanRecord& plan, const CycleRecord& cycle,
+                               const Parameters& parameters) {
+  const Scene scene = scene_of(cycle);
+  DrivableArea area;
+  build_drivable(scene.map, area);
+  const auto predictor = std::make_unique<Predictor>();
+  KinematicSet others;
+  predictor->encode(scene, parameters, plan.plan.start_ms);
+  predictor->keep_going(others);
+  std::vector<float> shares;
+  float sum = 0.0F;
+  for (int i = 0; i < scene.agents.size(); ++i) {
+    Scene alone = scene;
+    alone.agents.clear();
+    (void)alone.agents.push(scene.agents[i]);
+    PredictionSet expected;
+    for (const AgentPrediction& one : cycle.prediction.agents) {
+      if (one.agent != i) continue;
+      (void)expected.agents.push(one);
+      expected.agents[0].agent = 0;
+    }
+    alone.watched = expected.agents.size();
+    KinematicSet going;
+    if (i < others.agents.size()) (void)going.agents.push(others.agents[i]);
+    RiskProfile profile{};
+    exact_risk(alone, area, expected, going, plan.plan.trajectory, parameters, profile);
+    float risk = 0.0F;
+    for (int step = 0; step < kHorizonSteps; ++step)
+      risk += profile.obstacle[step] + parameters.risk.weight_social * profile.social[step];
+    shares.push_back(risk);
+    sum += risk;
+  }
+  for (float& share : shares) share = sum > 0.0F ? share / sum : 0.0F;
+  return shares;
 }
 
 }  // namespace s4tp::telemetry

@@ -6,6 +6,7 @@
 
 #include "algo/core/trajectory.hpp"
 #include "algo/sadrf/heat_map.hpp"
+#include "algo/safety/legal_occupancy.hpp"
 #include "sim_host/telemetry/records.hpp"
 
 namespace s4tp::telemetry {
@@ -28,5 +29,21 @@ struct RolledOut {
 
 /// TELE-012 The plan's fail-safe: what is driven if no further plan takes effect.
 [[nodiscard]] Plan fail_safe_of(const ecu::PlanRecord& plan, const Parameters& parameters);
+
+/// What a vehicle may claim on ground that it shares with us.
+struct GroundClaim {
+  safety::ZoneOccupancy its;
+  float we_leave_s = occupancy::kNeverS;  ///< after plan start; so large: the plan waits
+};
+
+/// TELE-013 What each vehicle of the scene may claim where its way meets the one we chose, in the scene's
+/// order: of its zones the one it may be in first. No claim where ways do not meet.
+[[nodiscard]] std::vector<GroundClaim> claims_of(const ecu::PlanRecord& plan, const CycleRecord& cycle,
+                                                 const Parameters& parameters);
+
+/// TELE-014 What each vehicle of the scene adds to the plan's risk, in the scene's order: the risk, both
+/// sides, there would be with it alone, over the sum of these; zeros where there is none.
+[[nodiscard]] std::vector<float> risk_shares(const ecu::PlanRecord& plan, const CycleRecord& cycle,
+                                             const Parameters& parameters);
 
 }  // namespace s4tp::telemetry

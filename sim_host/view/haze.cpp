@@ -9,7 +9,6 @@ namespace {
 constexpr double kFullRisk = 12.0;     // painted deepest
 constexpr double kFaintest = 0.08;     // below it nothing is painted
 constexpr float kMaxCurvature = 0.2F;  // 1/m
-constexpr int kLevels = 15;
 
 Field field_of(const world::CarState& car, world::Vec2 origin) {
   const auto length_m = static_cast<float>(car.length_m);
@@ -43,25 +42,25 @@ double Haze::at(world::Vec2 point) const {
 std::string Haze::grid(world::Vec2 low, world::Vec2 high, double cell_m) const {
   const auto columns = static_cast<int>(std::ceil((high.x - low.x) / cell_m));
   const auto rows = static_cast<int>(std::ceil((high.y - low.y) / cell_m));
-  std::string text;
-  int repeated = 0;
-  char last = 0;
-  const auto flush = [&] {
-    if (repeated > 1) text += std::to_string(repeated);
-    if (repeated > 0) text += last;
-    repeated = 0;
-  };
+  std::string letters;
   for (int row = 0; row < rows; ++row) {
     for (int column = 0; column < columns; ++column) {
       const double depth = at({low.x + (column + 0.5) * cell_m, low.y + (row + 0.5) * cell_m});
-      const char letter = static_cast<char>('a' + std::lround(kLevels * depth));
-      if (letter != last) flush();
-      last = letter;
-      ++repeated;
+      letters += static_cast<char>('a' + std::lround(kDeepest * depth));
     }
   }
-  if (text.empty() && last == 'a') return {};
-  flush();
+  return in_runs(letters);
+}
+
+std::string in_runs(const std::string& letters) {
+  if (letters.find_first_not_of('a') == std::string::npos) return {};
+  std::string text;
+  for (std::size_t i = 0; i < letters.size();) {
+    const std::size_t end = std::min(letters.find_first_not_of(letters[i], i), letters.size());
+    if (end - i > 1) text += std::to_string(end - i);
+    text += letters[i];
+    i = end;
+  }
   return text;
 }
 

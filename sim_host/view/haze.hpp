@@ -9,6 +9,11 @@
 
 namespace s4tp::view {
 
+/// How deep a picture of risk is painted, as letters: "a" nothing to "p" deepest.
+inline constexpr int kDeepest = 15;
+/// A letter a cell, and before it how often it comes when that is more than once. Empty: "a" everywhere.
+[[nodiscard]] std::string in_runs(const std::string& letters);
+
 /// Of true states, so whoever drives the ego has one. Every car keeps its speed and its turn.
 class Haze {
  public:
@@ -18,8 +23,7 @@ class Haze {
   /// How deep to paint a place: 0 nothing .. 1, the root of the risk so that faint parts show.
   [[nodiscard]] double at(world::Vec2 point) const;
 
-  /// The same on a grid of square cells as text: row by row from the lowest, a letter a cell, "a" nothing to
-  /// "p" deepest, and before it how often it comes when that is more than once. Empty: nothing anywhere.
+  /// The same on a grid of square cells as text: in_runs(), row by row from the lowest.
   [[nodiscard]] std::string grid(world::Vec2 low, world::Vec2 high, double cell_m) const;
 
  private:

@@ -61,22 +61,25 @@ std::string packed(const std::string& text) {
   return result;
 }
 
+std::string page_text(const Page& page, const std::string& policy) {
+  std::string text =
+      "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; "
+      "script-src 'unsafe-inline'; " +
+      policy +
+      "\">\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<link rel=\"icon\" "
+      "href=\"data:,\">\n<title>" +
+      escaped(page.title) + "</title>\n<style>\n" + kPageCss + "</style>\n</head>\n<body>\n" + page.body;
+  if (!page.data.empty()) {
+    text += "<script type=\"text/plain\" id=\"data\">" + packed(page.data) + "</script>\n";
+  }
+  for (const char* const script : page.scripts) text += std::string("<script>\n") + script + "</script>\n";
+  return text + "</body>\n</html>\n";
+}
+
 void write_page(const Page& page, const std::filesystem::path& file) {
   std::ofstream out(file);
-  out << "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-         "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src "
-         "'unsafe-inline'; "
-         "script-src 'unsafe-inline'; img-src data: file:\">\n"
-         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<link rel=\"icon\" "
-         "href=\"data:,\">\n<title>"
-      << escaped(page.title) << "</title>\n<style>\n"
-      << kPageCss << "</style>\n</head>\n<body>\n"
-      << page.body;
-  if (!page.data.empty()) {
-    out << "<script type=\"text/plain\" id=\"data\">" << packed(page.data) << "</script>\n";
-  }
-  for (const char* const script : page.scripts) out << "<script>\n" << script << "</script>\n";
-  out << "</body>\n</html>\n";
+  out << page_text(page, "img-src data: file:");
   if (!out.flush()) throw std::runtime_error(file.string() + ": cannot be written");
 }
 

@@ -11,9 +11,13 @@ namespace s4tp::view {
 /// Style and scripts, the bytes of the files of the same name beside this one.
 extern const char* const kPageCss;
 extern const char* const kReportJs;
+extern const char* const kCanvasJs;
+extern const char* const kSceneJs;
 extern const char* const kReplayHtml;
 extern const char* const kReplaySceneJs;
 extern const char* const kReplayJs;
+extern const char* const kLiveHtml;
+extern const char* const kLiveJs;
 
 /// For text and for attributes in double quotes.
 [[nodiscard]] std::string escaped(const std::string& text);
@@ -30,6 +34,9 @@ struct Page {
   std::string data;                  ///< for the scripts, which find it packed() in #data; may be empty
   std::vector<const char*> scripts;  ///< run in this order, after the body
 };
+
+/// The whole page. \param policy  where a browser may fetch from, besides what is in the page
+[[nodiscard]] std::string page_text(const Page& page, const std::string& policy);
 
 /// VIEW-002 Opened from disk the page asks the network for nothing and has no error on the console.
 /// \throws std::runtime_error when the file cannot be written

@@ -284,6 +284,10 @@ std::string in_words(const campaign::CycleTrace& cycle) {
   return words;
 }
 
+std::string vehicle_name(const campaign::CycleTrace& cycle, int track) {
+  return name_of(cycle, track);
+}
+
 std::string in_numbers(const campaign::CycleTrace& cycle) {
   const Explanation& e = cycle.record.explanation;
   std::string lines = format("  %s, %.1f m/s", status_name(e.status), start_of(cycle).speed_mps);

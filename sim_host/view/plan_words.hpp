@@ -46,6 +46,9 @@ struct Reason {
 /// One sentence or two.
 [[nodiscard]] std::string in_words(const campaign::CycleTrace& cycle);
 
+/// A vehicle as a passenger would name it: "the oncoming car"; "somebody" where the track is not known.
+[[nodiscard]] std::string vehicle_name(const campaign::CycleTrace& cycle, int track);
+
 /// Several lines, without a newline at the end.
 [[nodiscard]] std::string in_numbers(const campaign::CycleTrace& cycle);
 

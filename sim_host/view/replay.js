@@ -4,12 +4,11 @@
 (async () => {
   const bytes = Uint8Array.from(atob(document.getElementById('data').textContent), (digit) => digit.charCodeAt(0));
   const data = await new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream('deflate'))).json();
-  const element = (id) => document.getElementById(id);
-  const scene = makeScene(element('scene'), data);
+  const replay = makeReplay(data);
+  const scene = makeScene(element('scene'));
   const first = data.frames[0].t, last = data.frames[data.frames.length - 1].t;
   const kStep = 100;  // ms, of a frame and of a plan
   let time = first, playing = false, before = 0;
-  const style = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
   // Words hold until others are said; a click on them shows the moment they begin.
   const story = data.cycles.filter((cycle) => cycle.words).map((cycle) => {
@@ -24,27 +23,6 @@
   element('told').hidden = story.length < 2;
   for (let i = 1; i < data.cycles.length; ++i) data.cycles[i].words ??= data.cycles[i - 1].words;
   const peak = (cycle, parts) => (cycle.risk ? Math.max(0, ...parts.flatMap((part) => cycle.risk[part])) : 0);
-  const big = (value) => (Math.abs(value) >= 1000 ? `${(value / 1000).toFixed(1)}k` : value.toFixed(0));
-
-  const canvasOf = (id) => {
-    const canvas = element(id), ratio = window.devicePixelRatio || 1;
-    canvas.width = Math.round(canvas.clientWidth * ratio);
-    canvas.height = Math.round(canvas.clientHeight * ratio);
-    const draw = canvas.getContext('2d');
-    draw.setTransform(ratio, 0, 0, ratio, 0, 0);
-    draw.clearRect(0, 0, canvas.clientWidth, canvas.clientHeight);
-    draw.font = '12px system-ui, sans-serif';
-    return { draw, width: canvas.clientWidth, height: canvas.clientHeight };
-  };
-  const curve = (draw, points, colour, width = 1.8, dash = []) => {
-    draw.strokeStyle = colour;
-    draw.lineWidth = width;
-    draw.setLineDash(dash);
-    draw.beginPath();
-    points.forEach(([x, y], i) => (i ? draw.lineTo(x, y) : draw.moveTo(x, y)));
-    draw.stroke();
-    draw.setLineDash([]);
-  };
 
   // Over the whole episode: speed, gap, risk.
   const strips = [
@@ -81,34 +59,6 @@
     curve(draw, [[x(time), 0], [x(time), height]], style('--ink'), 1.2);
   };
 
-  // Over the 3 s of the plan in force.
-  const drawProfile = (cycle) => {
-    const { draw, width, height } = canvasOf('profile');
-    if (!cycle || !cycle.risk) return;
-    const most = Math.max(1, ...cycle.risk.flat());
-    const names = ['ours on cars', 'on the road’s edge', 'theirs on us'];
-    const colours = [style('--ego'), style('--soft'), `rgb(${style('--haze')})`];
-    const x = (i) => 4 + ((width - 8) * (i + 1)) / 15;
-    curve(draw, [[4, height - 16], [width - 4, height - 16]], style('--line'), 1);
-    let left = 4;
-    cycle.risk.forEach((series, part) => {
-      curve(draw, series.map((value, i) => [x(i), height - 16 - ((height - 50) * value) / most]), colours[part], 2,
-        [[], [2, 3], [7, 3]][part]);
-      curve(draw, [[left, 20], [left + 18, 20]], colours[part], 2, [[], [2, 3], [7, 3]][part]);
-      draw.fillStyle = style('--ink');
-      draw.fillText(names[part], left + 22, 24);
-      left += 36 + draw.measureText(names[part]).width;
-    });
-    draw.fillStyle = style('--soft');
-    draw.fillText('now', 4, height - 3);
-    draw.textAlign = 'right';
-    draw.fillText(`in 3 s; highest ${big(most)}`, width - 4, height - 3);
-    draw.textAlign = 'left';
-  };
-
-  const kTerms = ['progress', 'speed', 'jerk', 'sideways', 'lane', 'risk'];
-  const row = (cells, tag = 'td') => `<tr>${cells.map((cell) => `<${tag}>${cell}</${tag}>`).join('')}</tr>`;
-  const number = (tenths) => (tenths / 10).toFixed(1);
   const tell = (now) => {
     const cycle = now.cycle >= 0 ? data.cycles[now.cycle] : null;
     const frame = data.frames[now.index];
@@ -123,7 +73,7 @@
       [`${((frame.ego[5] / 1000) * 180 / Math.PI).toFixed(1)}°`, 'steering'],
       [frame.gap_cm < 0 ? 'alone' : `${(frame.gap_cm / 100).toFixed(1)} m`, 'gap'], [mode ? mode[1] : '–', 'ECU'],
     ].map(([value, name]) => `<div><b>${value}</b>${name}</div>`).join('');
-    drawProfile(cycle);
+    drawProfile('profile', cycle && cycle.risk);
     const current = story.filter(({ t }) => t <= time).pop();
     for (const one of story) one.button.classList.toggle('now', one === current);
     const list = element('story'), top = current ? current.button.offsetTop : 0;
@@ -132,11 +82,7 @@
     element('reasons').hidden = !explained;
     if (!explained) return;
     const [count, infeasible, refused] = cycle.candidates;
-    const sum = (costs) => costs.reduce((a, b) => a + b, 0);
-    const other = sum(cycle.runner_up.map(Math.abs)) > 0;
-    element('costs').innerHTML = row(['cost', 'this plan', 'next best'], 'th') +
-      kTerms.map((name, i) => row([name, number(cycle.cost[i]), other ? number(cycle.runner_up[i]) : '–'])).join('') +
-      row(['sum', number(sum(cycle.cost)), other ? number(sum(cycle.runner_up)) : '–'], 'th');
+    element('costs').innerHTML = costTable(cycle.cost, cycle.runner_up);
     const who = (id) => (id >= 0 ? `car ${id}` : 'nobody');
     element('numbers').textContent = cycle.numbers.replace(/^ {2}/gm, '');
     element('counts').textContent = `${count} candidates; rejected: ${infeasible} beyond the car's limits, ` +
@@ -145,7 +91,8 @@
 
   const show = (t) => {
     time = Math.min(last, Math.max(first, t));
-    const now = scene.show(time);
+    const now = replay(time);
+    scene.show(now.moment);
     element('time').value = time;
     element('clock').textContent = `${(time / 1000).toFixed(2)} s of ${(last / 1000).toFixed(2)} s`;
     document.documentElement.dataset.end = (data.end_ms / 1000).toFixed(2);
@@ -188,7 +135,7 @@
   element('strip').addEventListener('pointerdown', seek);
   element('strip').addEventListener('pointermove', seek);
   const zoom = (by) => {
-    scene.camera.reach_m = Math.min(150, Math.max(12, scene.camera.reach_m * by));
+    scene.zoom(by);
     show(time);
   };
   element('scene').addEventListener('wheel', (event) => { event.preventDefault(); zoom(event.deltaY > 0 ? 1.15 : 1 / 1.15); },

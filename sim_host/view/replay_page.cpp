@@ -50,7 +50,7 @@ void write_replay(const Replayed& episode, const std::filesystem::path& file) {
   page.body += "<p class=\"soft\">Drive it again: <code>" + escaped(episode.command) + "</code></p>\n";
   page.body += kReplayHtml;
   page.data = replay_data(episode).dump();
-  page.scripts = {kReplaySceneJs, kReplayJs};
+  page.scripts = {kCanvasJs, kSceneJs, kReplaySceneJs, kReplayJs};
   write_page(page, file);
 }
 
