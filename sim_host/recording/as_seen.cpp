@@ -39,15 +39,21 @@ world::CarState state_of(const EgoState& ego, const Parameters& parameters) {
 
 }  // namespace
 
+world::Snapshot snapshot_of(const ecu::EcuCore& core, const Parameters& parameters) {
+  const ecu::Inputs& inputs = core.inputs();
+  world::Snapshot now;
+  now.ego = state_of(inputs.ego(), parameters);
+  now.ego_steering_rad = inputs.ego().steering_rad;
+  for (const Track& track : inputs.tracks()) now.others.push_back(state_of(track));
+  return now;
+}
+
 void AsSeen::look(const ecu::EcuCore& core, const Parameters& parameters, double time_s) {
   const ecu::Inputs& inputs = core.inputs();
   clock_s_ = core.now_ms() / 1000.0 - time_s;
   if (ticks_++ % kTicksPerSnapshot != 0 || !inputs.ego_known()) return;
-  world::Snapshot& now = recording_.snapshots.emplace_back();
-  now.time_s = time_s;
-  now.ego = state_of(inputs.ego(), parameters);
-  now.ego_steering_rad = inputs.ego().steering_rad;
-  for (const Track& track : inputs.tracks()) now.others.push_back(state_of(track));
+  recording_.snapshots.push_back(snapshot_of(core, parameters));
+  recording_.snapshots.back().time_s = time_s;
   const wire::Map* const map = inputs.map();
   if (map != nullptr && inputs.map_revision() != revision_) {
     revision_ = inputs.map_revision();
@@ -66,15 +72,15 @@ world::Recording AsSeen::recording() const {
 }
 
 void AsSeen::keep_lanes(const wire::Map& map) {
-  for (const Lane& lane : map.lanes) {
+  for (const wire::Lane& lane : map.lanes) {
     if (!lane.present || lane.point_count < 2) continue;
-    const Point& first = lane.points[0];
-    const Point& last = lane.points[lane.point_count - 1];
-    const std::array<long, 4> ends{std::lround(first.x_m), std::lround(first.y_m), std::lround(last.x_m),
-                                   std::lround(last.y_m)};
-    if (!known_.insert(ends).second) continue;
     std::vector<world::Vec2> points;
-    for (int i = 0; i < lane.point_count; ++i) points.push_back({lane.points[i].x_m, lane.points[i].y_m});
+    for (int i = 0; i < lane.point_count; ++i) points.push_back({lane.x_m[i], lane.y_m[i]});
+    const world::Vec2 first = points.front();
+    const world::Vec2 last = points.back();
+    const std::array<long, 4> ends{std::lround(first.x), std::lround(first.y), std::lround(last.x),
+                                   std::lround(last.y)};
+    if (!known_.insert(ends).second) continue;
     try {
       world::NetworkLane drawn;
       drawn.centre = world::Polyline(points);

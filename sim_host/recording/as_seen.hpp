@@ -13,6 +13,9 @@
 
 namespace s4tp::recording {
 
+/// \pre core.inputs().ego_known()
+[[nodiscard]] world::Snapshot snapshot_of(const ecu::EcuCore& core, const Parameters& parameters);
+
 /// Coordinates are the odometry frame's. Vehicles are those of the track lists, with their ids and errors;
 /// lanes are those of the map on the bus; nothing is known of a goal or of touches.
 class AsSeen {

@@ -39,15 +39,18 @@ CutMade write_cut(const fs::path& file, double moment_s, const fs::path& folder)
   if (!has_note(file)) {
     throw std::runtime_error(
         file.string() + ": no " + note_folder(file).string() +
-        " beside it, so of what world it is nobody knows; --cut takes what ./s4tp run --record wrote");
+        " beside it (./s4tp run --record writes one), so of what world it is nobody knows; --scenario NAME "
+        "names its roads, for the same start with default drivers");
   }
   const DriveNote note = read_note(file);
   const world::Scenario scenario = scenario_of(file);
   TickReader reader(file);
   if (reader.series().begins_later()) {
-    throw std::runtime_error(file.string() +
-                             ": the drive's beginning was not kept, and without it the drive cannot be made "
-                             "again; --record-keep 0 keeps all");
+    throw std::runtime_error(
+        file.string() +
+        ": the drive's beginning was not kept (--record-keep 0 keeps all), and without it "
+        "the drive cannot be made again; --scenario NAME makes the same start with default "
+        "drivers");
   }
   const long moment_tick = note.take_over_tick + std::lround(moment_s / kTick_s);
   WorldRerun rerun(note, scenario);
@@ -64,7 +67,8 @@ CutMade write_cut(const fs::path& file, double moment_s, const fs::path& folder)
   }
   if (rerun.agreement().differing > 0) {
     throw std::runtime_error("this program's world is not the one of the recording (" + note.versions +
-                             " then, " + versions_here() + " now): " + rerun.agreement().first);
+                             " then, " + versions_here() + " now): " + rerun.agreement().first +
+                             "; --scenario NAME makes the same start with default drivers");
   }
 
   CutMade made;
@@ -78,9 +82,6 @@ CutMade write_cut(const fs::path& file, double moment_s, const fs::path& folder)
   made.start_tick = cut.start_tick;
   made.start_s = (made.start_tick - note.take_over_tick) * kTick_s;
 
-  if (fs::exists(folder) && !(fs::is_directory(folder) && fs::is_empty(folder))) {
-    throw std::runtime_error(folder.string() + ": is there already; name another --out");
-  }
   fs::create_directories(folder);
   const fs::path driven = scenario.cut ? scenario.cut->of : scenario.files.front();
   fs::copy(scenario_folder(file), folder / "drive", fs::copy_options::recursive);

@@ -1,6 +1,8 @@
 """Drives recorded, replayed and cut, as a user does it. S4TP_BUILD names the host's build folder."""
 
+import base64
 import json
+import math
 import os
 import pathlib
 import re
@@ -9,6 +11,7 @@ import socket
 import subprocess
 import tempfile
 import unittest
+import zlib
 
 import can
 
@@ -154,10 +157,10 @@ class Recording(unittest.TestCase):
         lines = self.lines()[:400]
         others = ["(0000000000.000000) can1 12345678#0102\n", "(0000000000.000000) can1 123##1010203\n", "(0000000000.000000) can1 7DF#R\n"]
         said = run("replay", self.recording_of("".join(others + lines)), folder=self.folder, code=2)
-        self.assertIn("passed over 3 frames", said)
+        self.assertIn("passed over 3 frames of other kinds", said)
         self.assertRegex(said, " 0 differ\n")
 
-    # REC-020 A changed frame of the ECU's is found: time, tick, file, line, both frames and the byte. --from leaves out what was before.
+    # REC-020, REC-021 A changed frame of the ECU's is found: time, tick, file, line, both frames and the byte. --from leaves out what was before.
     def test_the_first_difference_is_named(self):
         lines = self.lines()
         at = next(i for i, line in enumerate(lines) if line.startswith("(0000000010.") and COMMAND in line)
@@ -177,9 +180,61 @@ class Recording(unittest.TestCase):
     def test_the_page_is_the_drives(self):
         said = run("replay", "drive.log", "--view", "--from", 5, "--out", self.folder / "page", folder=self.kept)
         self.assertIn(f"replay: {self.folder}/page/replay.html#t=5.00", said)
-        data = [re.search(r'id="data"[^>]*>([^<]*)<', (place / "replay.html").read_text(encoding="utf-8")).group(1)
-                for place in (self.kept / "driven", self.folder / "page")]
-        self.assertEqual(data[0], data[1])
+        self.assertEqual(page_data(self.folder / "page/replay.html"), page_data(self.kept / "driven/replay.html"))
+
+    # REC-040, REC-041 Without its note a recording still has a page: poses and words as the ECU had them, at most a tick's way beside
+    # the true ones; so does one whose world draws other traffic, and that is said.
+    def test_a_page_from_the_bus_alone(self):
+        truth = page_data(self.kept / "driven/replay.html")
+        (self.folder / "alone.log").write_text("".join(self.lines()), encoding="ascii")
+        said = run("replay", "alone.log", "--view", "--out", "alone", folder=self.folder)
+        self.assertIn("the page shows what the ECU was told", said)
+        seen = page_data(self.folder / "alone/replay.html")
+        self.assertGreater(len(seen["road"]), 10)
+        true_places = {frame["t"]: frame["ego"][:2] for frame in truth["frames"]}
+        compared = 0
+        for frame in seen["frames"]:
+            place = true_places.get(round((frame["t"] - 10 * PRE_ROLL) / 100) * 100)  # a log's time has the pre-roll in it
+            if place is not None:
+                compared += 1
+                self.assertLess(math.dist(place, frame["ego"][:2]) * truth["unit_m"], 1.5)  # 0.1 s at 13.9 m/s
+        self.assertGreater(compared, 300)
+        self.assertEqual([cycle["words"] for cycle in truth["cycles"] if "words" in cycle][-5:],
+                         [cycle["words"] for cycle in seen["cycles"] if "words" in cycle][-5:])
+        self.assertEqual({len(cycle["plan"]) for cycle in seen["cycles"]}, {32})
+        # The same frames under the note of another seed: not that world.
+        name = self.recording_of("".join(self.lines()))
+        note = self.folder / "part.log.drive/drive.json"
+        note.write_text(note.read_text(encoding="utf-8").replace('"seed": 7', '"seed": 8'), encoding="utf-8")
+        said = run("replay", name, "--view", "--out", "other", folder=self.folder)
+        self.assertIn("this program's world is not the recording's", said)
+        self.assertRegex(run("replay", name, "--cut", 5, "--out", "c", folder=self.folder, code=2), "recorded .*, now .*--scenario NAME")
+        self.assertFalse((self.folder / "c").exists())
+
+    # REC-031 A log of roads that are known becomes a scenario that starts as things stood: our place and speed, the others on their
+    # lanes; what could not be kept is counted.
+    def test_the_same_start_on_known_roads(self):
+        truth = page_data(self.kept / "driven/replay.html")
+        (self.folder / "alone.log").write_text("".join(self.lines()), encoding="ascii")
+        cut = ("--out", "start", "--scenario", "left_turn")
+        said = run("replay", "alone.log", "--cut", 14, *cut, folder=self.folder)  # 4 s after the log's beginning: 1 s after take-over
+        told, there, waiting, left_out = map(int, re.search(r"of (\d+) vehicles told (\d+) are there .*?, (\d+) find .*?, (\d+) were",
+                                                            said).groups())
+        self.assertEqual(told, there + waiting + left_out)
+        self.assertGreater(there, 0)
+        run("run", "--scenario", "start", "--out", "out", folder=self.folder, code=None)
+        start = page_data(self.folder / "out/replay.html")
+        was = next(frame for frame in truth["frames"] if frame["t"] == 1000)
+        now = start["frames"][0]
+        self.assertLess(abs(was["ego"][3] - now["ego"][3]), 30)  # cm/s
+        # Lengths are counted from where the drive began, to 0.1 m: places differ by as much as the beginnings do.
+        moved = place_in(self.folder / "start/scenario.toml") - place_in(self.kept / "drive.log.drive/scenario/left_turn/scenario.toml")
+        self.assertLess(abs(moved - math.dist(was["ego"][:2], truth["frames"][0]["ego"][:2]) * truth["unit_m"]), 1.0)
+        self.assertEqual(len(start["frames"][2]["cars"]) // 5, there)
+        # Before its lane begins, as in the pre-roll, there is no start, and where the log holds no pose there is none to make.
+        self.assertIn("on none of its lanes", run("replay", "alone.log", "--cut", 12, *cut[2:], "--out", "c", folder=self.folder, code=2))
+        self.assertIn("holds no pose of ours", run("replay", "alone.log", "--cut", 5, *cut[2:], "--out", "c", folder=self.folder, code=2))
+        self.assertFalse((self.folder / "c").exists())
 
     # REC-022, REC-030 A drive's failure becomes a test: cut out, it goes on to the same end with the same bits.
     def test_a_failure_becomes_a_test(self):
@@ -240,7 +295,7 @@ class Recording(unittest.TestCase):
         (self.folder / "there/file").write_text("", encoding="utf-8")
         self.assertIn("name another --out", run("replay", name, "--cut", 5, "--out", "there", folder=self.folder, code=2))
         (self.folder / "alone.log").write_text("".join(lines), encoding="ascii")
-        self.assertIn("what ./s4tp run --record wrote", run("replay", "alone.log", "--cut", 5, "--out", "c", folder=self.folder, code=2))
+        self.assertIn("./s4tp run --record writes one", run("replay", "alone.log", "--cut", 5, "--out", "c", folder=self.folder, code=2))
         self.assertIn("./s4tp run --record FILE makes one", run("replay", "nothing.log", folder=self.folder, code=2))
         note = self.folder / "part.log.drive/drive.json"
         for text, what in (("{", "drive.json"), ("{}", "kind"), (note.read_text(encoding="utf-8").replace('"seed": 7', '"seed": -7'), "seed"),
@@ -268,6 +323,17 @@ def ecu_messages():
     """Ids of what the DBC says the ECU sends."""
     dbc = pathlib.Path(__file__).resolve().parents[2] / "firmware/wire/s4tp.dbc"
     return [int(number) for number in re.findall(r"^BO_ (\d+) \w+: \d+ ECU", dbc.read_text(encoding="utf-8"), re.M)]
+
+
+def page_data(page):
+    """What a page's scripts find in it."""
+    packed = re.search(r'id="data"[^>]*>([^<]*)<', page.read_text(encoding="utf-8")).group(1)
+    return json.loads(zlib.decompress(base64.b64decode(packed)))
+
+
+def place_in(scenario):
+    """Where on its lane a mission starts."""
+    return float(re.search(r"start_pos_m = ([\d.]+)", scenario.read_text(encoding="utf-8")).group(1))
 
 
 def time_us(line):
