@@ -4,6 +4,7 @@
 #include <iostream>
 #include <limits>
 #include <optional>
+#include <regex>
 #include <stdexcept>
 
 #include "sim_host/campaign/planner_registry.hpp"
@@ -32,6 +33,22 @@ struct ReplayOptions {
   std::optional<double> cut_s;
   std::string roads;
 };
+
+/// A moment, not "nan" and no number beyond any drive.
+const CLI::Validator kMoment{
+    [](const std::string& text) {
+      double value = 0.0;
+      const bool good = CLI::detail::lexical_cast(text, value) && std::abs(value) <= 1e8;
+      return good ? std::string() : text + ": accepted is a time in seconds, such as 12.5";
+    },
+    "TIME_S"};
+
+/// A name as a shell takes it back.
+std::string word(const fs::path& path) {
+  const std::string text = path.string();
+  const bool plain = text.find_first_of(" \t\"'\\$&;|<>()*?[]#~`!") == std::string::npos;
+  return plain ? text : '\'' + std::regex_replace(text, std::regex("'"), "'\\''") + '\'';
+}
 
 recording::PlaybackOptions playback_options(const ReplayOptions& options) {
   recording::PlaybackOptions playback;
@@ -68,7 +85,7 @@ int cut_same_start(const ReplayOptions& options) {
   std::cout << options.common.out.string() << ": the start 10 s before; of " << made.told << " vehicles told "
             << made.there << " are there with default drivers, " << made.told - made.left_out - made.there
             << " find no room at once, " << made.left_out << " were inside junctions or beside the road\n"
-            << "drive it: ./s4tp run --scenario " << options.common.out.string() << '\n';
+            << "drive it: ./s4tp run --scenario " << word(options.common.out) << '\n';
   return kDone;
 }
 
@@ -84,14 +101,18 @@ int cut(const ReplayOptions& options) {
   if (!options.roads.empty()) return cut_same_start(options);
   const recording::CutMade made = recording::write_cut(options.file, *options.cut_s, folder);
   const DriveNote note = recording::read_note(options.file);
-  std::string command = "./s4tp run --scenario " + folder.string();
+  std::string command = "./s4tp run --scenario " + word(folder);
   if (!note.planner.empty() && note.planner != "s4tp") command += " --planner " + note.planner;
   if (!note.guarded) command += " --guard off";
   if (fs::exists(folder / "parameters.toml")) {
-    command += " --parameters " + (folder / "parameters.toml").string();
+    command += " --parameters " + word(folder / "parameters.toml");
   }
-  std::cout << folder.string() << ": the drive's world as recorded until "
-            << format("%.2f s (tick %d)", made.start_s, made.start_tick) << "; from then on who drives does\n"
+  std::cout << folder.string() << ": the drive's world"
+            << (made.start_tick > 0
+                    ? format(" as recorded until %.2f s (tick %d); from then on who drives does",
+                             made.start_s, made.start_tick)
+                    : std::string(" from its beginning"))
+            << '\n'
             << "the same drive again, to the bit: " << command << '\n';
   return kDone;
 }
@@ -107,14 +128,17 @@ Command add_replay(CLI::App& tool) {
   options->common.out = fs::path("out") / "replay";
   replay_app->add_option("FILE", options->file, "recording (run --record) or log in candump's format")
       ->required();
-  CLI::Option* const from = replay_app->add_option("--from", options->from_s,
-                                                   "judge, and show, from then on [s]; 0: the ECU takes over "
-                                                   "(a log: it begins). It is played from its start");
+  CLI::Option* const from = replay_app
+                                ->add_option("--from", options->from_s,
+                                             "judge, and show, from then on [s]; 0: the ECU takes over "
+                                             "(a log: it begins). It is played from its start")
+                                ->check(kMoment);
   CLI::Option* const view = replay_app->add_flag("--view", options->view, "also write DIR/replay.html");
   CLI::Option* const cut_option =
       replay_app
           ->add_option("--cut", options->cut_s,
                        "make of this moment [s] a scenario in DIR that begins 10 s before it")
+          ->check(kMoment)
           ->excludes(from, view);
   replay_app
       ->add_option("--scenario", options->roads,

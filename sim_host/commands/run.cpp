@@ -71,6 +71,7 @@ struct RunOptions {
 std::unique_ptr<recording::Recorder> make_recorder(const RunOptions& run, const world::Scenario& scenario,
                                                    recording::Meeting meeting, const std::string& planner) {
   if (run.record.empty()) return nullptr;
+  if (!std::isfinite(run.record_size_mb)) throw std::runtime_error("--record-size-mb: accepted is a number");
   recording::DriveNote note;
   note.scenario = scenario.name;
   note.flavour = run.common.flavour;

@@ -296,6 +296,7 @@ class Recording(unittest.TestCase):
         self.assertIn("name another --out", run("replay", name, "--cut", 5, "--out", "there", folder=self.folder, code=2))
         (self.folder / "alone.log").write_text("".join(lines), encoding="ascii")
         self.assertIn("./s4tp run --record writes one", run("replay", "alone.log", "--cut", 5, "--out", "c", folder=self.folder, code=2))
+        self.assertIn("accepted is a time in seconds", run("replay", name, "--cut", "nan", "--out", "c", folder=self.folder, code=2))
         self.assertIn("./s4tp run --record FILE makes one", run("replay", "nothing.log", folder=self.folder, code=2))
         note = self.folder / "part.log.drive/drive.json"
         for text, what in (("{", "drive.json"), ("{}", "kind"), (note.read_text(encoding="utf-8").replace('"seed": 7', '"seed": -7'), "seed"),
