@@ -9,6 +9,8 @@
 namespace s4tp::recording {
 namespace {
 
+constexpr unsigned kCounterMask = 0xF;
+
 const wire::MessageInfo* find_message(std::uint32_t id) {
   const auto* const found = std::find_if(std::begin(wire::kMessages), std::end(wire::kMessages),
                                          [id](const wire::MessageInfo& message) { return message.id == id; });
@@ -35,7 +37,12 @@ std::string words(const wire::Frame& frame) {
 }
 
 bool same(const wire::Frame& a, const wire::Frame& b) {
-  return a.id == b.id && a.length == b.length && std::equal(a.data, a.data + a.length, b.data);
+  if (a.id != b.id || a.length != b.length) return false;
+  if (std::equal(a.data, a.data + a.length, b.data)) return true;
+  wire::CycleStatistics first;
+  wire::CycleStatistics second;
+  return wire::decode(a, first) && wire::decode(b, second) && first.slips == second.slips &&
+         (a.data[1] & kCounterMask) == (b.data[1] & kCounterMask);
 }
 
 bool TickReader::next(RecordedTick& tick) {

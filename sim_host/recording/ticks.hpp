@@ -25,6 +25,8 @@ struct RecordedTick {
 [[nodiscard]] bool sent_by_ecu(const wire::Frame& frame);
 /// "Command 020#0102030405060708"
 [[nodiscard]] std::string words(const wire::Frame& frame);
+/// REC-023 To the bit; of CycleStatistics what a cycle cost is left out, as it is the processor's and not the
+/// drive's.
 [[nodiscard]] bool same(const wire::Frame& a, const wire::Frame& b);
 
 class TickReader {

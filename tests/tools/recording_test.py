@@ -176,6 +176,16 @@ class Recording(unittest.TestCase):
         self.assertRegex(later, r" 0 differ\nbefore that 1 of \d+ differ, first at 7\.0")
         self.assertIn("cannot be judged", run("replay", name, "--from", 1000, folder=self.folder, code=2))
 
+    # REC-023 What a cycle cost on another processor is no difference; a missed deadline is.
+    def test_costs_are_the_processors(self):
+        lines = self.lines()
+        at = next(i for i, line in enumerate(lines) if line.startswith("(0000000010.") and " 031#" in line)
+        head, data = lines[at].rstrip("\n").split("#")
+        for changed, differing in (("FFA" + data[3] + "BCDE" + data[8:], 0), (data[:-2] + "01", 1)):  # CRC and cost; slips
+            name = self.recording_of("".join(lines[:at] + [f"{head}#{changed}\n"] + lines[at + 1:]))
+            said = run("replay", name, folder=self.folder, code=differing)
+            self.assertRegex(said, rf" {differing} differ\n")
+
     # The page of a recording shows the drive that the page of the drive shows.
     def test_the_page_is_the_drives(self):
         said = run("replay", "drive.log", "--view", "--from", 5, "--out", self.folder / "page", folder=self.kept)
