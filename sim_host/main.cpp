@@ -12,10 +12,10 @@ int main(int argc, char** argv) {
   using namespace s4tp::commands;
   CLI::App tool{"s4tp: drives a virtual vehicle over CAN frames", "s4tp"};
   tool.require_subcommand(1);
-  const std::vector<Command> commands{add_demo(tool),   add_eval(tool),    add_run(tool),
-                                      add_record(tool), add_traffic(tool), add_coupling(tool),
-                                      add_faults(tool), add_risk(tool),    add_roads(tool),
-                                      add_train(tool),  add_predict(tool)};
+  const std::vector<Command> commands{add_demo(tool),     add_eval(tool),   add_run(tool),
+                                      add_record(tool),   add_replay(tool), add_traffic(tool),
+                                      add_coupling(tool), add_faults(tool), add_risk(tool),
+                                      add_roads(tool),    add_train(tool),  add_predict(tool)};
   try {
     std::vector<std::string> arguments = with_lists_joined({argv + 1, argv + argc});
     std::reverse(arguments.begin(), arguments.end());  // as CLI11 takes them

@@ -64,6 +64,10 @@ EpisodeResult run_episode(const world::Scenario& scenario, const EpisodeOptions&
       log->write(tick * 10'000, delivered);
       log->write(tick * 10'000, from_ecu);
     }
+    if (options.record) {
+      options.record(tick * 10'000, delivered);
+      options.record(tick * 10'000, from_ecu);
+    }
   }
   result.origin = world.origin();
   result.recording = world.recording();

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "algo/core/parameters.hpp"
 #include "firmware/wire/frame.hpp"
@@ -41,6 +42,8 @@ struct EpisodeOptions {
   std::optional<std::filesystem::path> log;  ///< candump log of every frame on the bus
   bool trace = false;                        ///< keep what the planner thought
   Onlooker* onlooker = nullptr;
+  /// Also told every frame of that log, tick by tick; time is vehicle time.
+  std::function<void(std::uint64_t time_us, const std::vector<wire::Frame>&)> record;
   /// Disturbs the bus: false drops the frame on its way to the ECU. Called with the time since entry [s].
   std::function<bool(double time_s, const wire::Frame& frame)> passes;
   /// Times since entry at which the running planning cycle misses its deadline [s].

@@ -32,6 +32,7 @@ struct Command {
 [[nodiscard]] Command add_eval_report(CLI::App& eval);
 [[nodiscard]] Command add_run(CLI::App& tool);
 [[nodiscard]] Command add_record(CLI::App& tool);
+[[nodiscard]] Command add_replay(CLI::App& tool);
 [[nodiscard]] Command add_traffic(CLI::App& tool);
 [[nodiscard]] Command add_coupling(CLI::App& tool);
 [[nodiscard]] Command add_faults(CLI::App& tool);

@@ -1,6 +1,11 @@
+#include <cmath>
 #include <fstream>
+#include <iomanip>
 #include <iostream>
+#include <memory>
+#include <sstream>
 #include <stdexcept>
+#include <utility>
 
 #include "sim_host/campaign/any_ecu.hpp"
 #include "sim_host/campaign/bus_log.hpp"
@@ -12,17 +17,34 @@
 #include "sim_host/processes/drive_on_bus.hpp"
 #include "sim_host/processes/drive_on_target.hpp"
 #include "sim_host/processes/emulated_board.hpp"
+#include "sim_host/recording/recorder.hpp"
 #include "sim_host/telemetry/live_drive.hpp"
+#include "sim_host/telemetry/records.hpp"
 #include "sim_host/view/episode_picture.hpp"
 #include "sim_host/view/explanation_table.hpp"
 #include "sim_host/view/plan_words.hpp"
 #include "sim_host/view/replay.hpp"
 #include "sim_host/view/report.hpp"
+#include "sim_host/world/cut.hpp"
+#include "sim_host/world/world.hpp"
 
 namespace s4tp::commands {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr double kTick_s = 0.01;
+
+/// Since the ECU takes over.
+double cut_start_s(const world::Scenario& scenario) {
+  return scenario.cut->start_tick * kTick_s - world::WorldOptions{}.pre_roll_s;
+}
+
+std::string format_s(double time_s) {
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(2) << time_s << " s";
+  return text.str();
+}
 
 struct RunOptions {
   CommonOptions common;
@@ -42,10 +64,52 @@ struct RunOptions {
   bool explain = false;
   bool live = false;
   std::string telemetry = telemetry::kDefaultName;
+  fs::path record;
+  double record_size_mb = 256.0;
+  int record_keep = 0;
 };
 
-int run_one(const RunOptions& run) {
-  const world::Scenario scenario = run.common.find_scenario(run.scenario);
+/// The drive is this planner's, as the recording notes it; empty: of an ECU that was there already.
+std::unique_ptr<recording::Recorder> make_recorder(const RunOptions& run, const world::Scenario& scenario,
+                                                   recording::Meeting meeting, const std::string& planner) {
+  if (run.record.empty()) return nullptr;
+  if (!std::isfinite(run.record_size_mb)) throw std::runtime_error("--record-size-mb: accepted is a number");
+  recording::DriveNote note;
+  note.scenario = scenario.name;
+  note.flavour = run.common.flavour;
+  note.seed = run.common.seed;
+  note.traffic = run.common.traffic;
+  note.perception = run.perception;
+  note.planner = planner;
+  note.guarded = run.guarded();
+  note.parameters = run.common.parameters();
+  note.meeting = meeting;
+  note.take_over_tick = static_cast<int>(std::lround(world::WorldOptions{}.pre_roll_s / kTick_s));
+  const auto bytes = static_cast<std::uint64_t>(run.record_size_mb * 1e6);
+  return std::make_unique<recording::Recorder>(run.record, recording::SeriesLimits{bytes, run.record_keep},
+                                               std::move(note), scenario);
+}
+
+void finish(recording::Recorder& recorder, const RunOptions& run) {
+  if (recorder.finish()) std::cout << "recording: " << run.record.string() << '\n';
+}
+
+/// The scenario asked for. Of a cut also its seed, its traffic and its perception.
+world::Scenario scenario_of(RunOptions& run) {
+  world::Scenario scenario = run.common.find_scenario(run.scenario);
+  if (scenario.cut) {
+    run.common.seed = scenario.cut->seed;
+    run.common.traffic = scenario.cut->traffic;
+    run.common.flavour = scenario.cut->flavour;
+    run.perception = scenario.cut->perception;
+    std::cout << "cut: seed " << run.common.seed << "; until " << format_s(cut_start_s(scenario))
+              << " the vehicle does what was recorded\n";
+  }
+  return scenario;
+}
+
+int run_one(RunOptions run) {
+  const world::Scenario scenario = scenario_of(run);
   campaign::EpisodeOptions options;
   options.seed = run.common.seed;
   options.planner = run.planner;
@@ -57,6 +121,11 @@ int run_one(const RunOptions& run) {
   if (!run.log.empty()) options.log = run.log;
   telemetry::LiveDrive live(run.telemetry, run.planner, options.parameters);
   if (run.live) options.onlooker = &live;
+  if (!run.record.empty() && campaign::find_planner(run.planner).drives_in_sumo) {
+    throw std::runtime_error("--record: " + run.planner + " runs on no ECU, so there is nothing to replay");
+  }
+  const auto recorder = make_recorder(run, scenario, recording::Meeting::kInProcess, run.planner);
+  if (recorder) options.record = recording::sink(*recorder);
   const campaign::EpisodeResult result = campaign::run_episode(scenario, options);
 
   fs::create_directories(run.common.out);
@@ -86,11 +155,13 @@ int run_one(const RunOptions& run) {
   std::cout << "picture: " << picture.string() << "\nreplay: " << replay.string()
             << "\nreasons: " << reasons.string() << '\n';
   if (!run.log.empty()) std::cout << "bus log: " << run.log.string() << '\n';
+  if (recorder) finish(*recorder, run);
   return result.recording.ending == world::Ending::kGoal ? 0 : kNotGoodEnough;
 }
 
 /// The same episode, with the ECU at the other end of a real bus.
-int run_on_bus(const RunOptions& run) {
+int run_on_bus(RunOptions run) {
+  const world::Scenario scenario = scenario_of(run);
   const bool calls = run.bus.starts_with("slcan:tcp:");
   processes::DriveOptions options;
   const bool starts = !run.no_ecu;
@@ -118,14 +189,20 @@ int run_on_bus(const RunOptions& run) {
     if (run.realtime) ecu.push_back("--realtime");
     ecu.insert(ecu.end(), {"--telemetry", run.telemetry});
   }
-  return processes::drive_on_bus(run.common.find_scenario(run.scenario), options, std::cout);
+  const auto meeting = run.realtime ? recording::Meeting::kRealTime : recording::Meeting::kLockStep;
+  const auto recorder = make_recorder(run, scenario, meeting, starts ? run.planner : "");
+  if (recorder) options.world.record = recording::sink(*recorder);
+  const int code = processes::drive_on_bus(scenario, options, std::cout);
+  if (recorder) finish(*recorder, run);
+  return code;
 }
 
 /// The same episode, with the ECU's image on an emulated board.
-int run_on_target(const RunOptions& run) {
+int run_on_target(RunOptions run) {
   if (!run.common.parameters_file.empty()) {
     throw std::runtime_error("--parameters: an image has its own; --target drives with those");
   }
+  const world::Scenario scenario = scenario_of(run);
   processes::TargetOptions options;
   options.target = run.target;
   options.image = run.image;
@@ -135,7 +212,11 @@ int run_on_target(const RunOptions& run) {
   options.world.ecu_note = campaign::ecu_note("s4tp", true, Parameters{});
   if (!run.log.empty()) options.world.log = run.log;
   options.out = run.common.out;
-  return processes::drive_on_target(run.common.find_scenario(run.scenario), options, std::cout);
+  const auto recorder = make_recorder(run, scenario, recording::Meeting::kLockStep, "s4tp");
+  if (recorder) options.world.record = recording::sink(*recorder);
+  const int code = processes::drive_on_target(scenario, options, std::cout);
+  if (recorder) finish(*recorder, run);
+  return code;
 }
 
 }  // namespace
@@ -158,6 +239,16 @@ Command add_run(CLI::App& tool) {
   CLI::Option* const explain = run->add_flag("--explain", options->explain,
                                              "say in words, and in numbers, why the car does what it does");
   run->add_option("--log", options->log, "write every frame on the bus here, in candump's format");
+  CLI::Option* const record = run->add_option(
+      "--record", options->record, "record the drive here: ./s4tp replay plays it again (docs/recording.md)");
+  run->add_option("--record-size-mb", options->record_size_mb,
+                  "size at which the next file FILE.1, FILE.2, ... begins (default 256)")
+      ->check(CLI::Range(0.001, 1e6))
+      ->needs(record);
+  run->add_option("--record-keep", options->record_keep,
+                  "keep so many files, the newest (default 0: all); without the first one no exact replay")
+      ->check(CLI::Range(0, 1'000'000))
+      ->needs(record);
   CLI::Option* const bus =
       run->add_option("--bus", options->bus,
                       "ECU and world as two processes on can0, vcan0, slcan:tcp:HOST:PORT, "
@@ -196,7 +287,9 @@ Command add_run(CLI::App& tool) {
             if (options->no_ecu) throw std::runtime_error("--no-ecu: there is no other ECU in the machine");
             fs::create_directories(options->common.out);
             std::vector<fs::path> written{options->common.out};
-            if (!options->log.empty()) written.push_back(fs::absolute(options->log).parent_path());
+            for (const fs::path& file : {options->log, options->record}) {
+              if (!file.empty()) written.push_back(fs::absolute(file).parent_path());
+            }
             std::vector<std::string> arguments = arguments_of(*run, machine);
             if (options->common.out_named->count() == 0) {
               arguments.push_back("--out=" + options->common.out.string());

@@ -92,7 +92,7 @@ void measure_distances(const std::vector<const Snapshot*>& driven, EpisodeMetric
 /// What came before take-over is evidence too: who has been ahead for how long.
 void measure_encounters(const world::Recording& recording, const world::Scenario& scenario,
                         const std::vector<const Snapshot*>& driven, EpisodeMetrics& result) {
-  if (driven.empty()) return;
+  if (driven.empty() || scenario.mission.edges.empty()) return;  // of a drive elsewhere no way is known
   const world::RouteGuide guide = mission_guide(scenario);
   const std::span<const Snapshot> upto(
       recording.snapshots.data(), static_cast<std::size_t>(driven.back() - recording.snapshots.data()) + 1);

@@ -12,6 +12,7 @@
 #include "sim_host/campaign/bus_log.hpp"
 #include "sim_host/campaign/frames.hpp"
 #include "sim_host/processes/bus_end.hpp"
+#include "sim_host/world/tick_echo.hpp"
 #include "sim_host/world/world.hpp"
 
 namespace s4tp::processes {
@@ -23,8 +24,6 @@ using std::chrono::steady_clock;
 
 constexpr seconds kLinkBackWithin{30};
 constexpr milliseconds kLook{50};
-constexpr unsigned kEchoMask = 0xFFF;
-constexpr unsigned kOldestEcho = 10;
 constexpr int kToldUnanswered = 5;
 constexpr int kPriority = 60;  // below an ECU of the same machine
 constexpr std::uint64_t kQuiet_us =
@@ -143,7 +142,7 @@ class Session {
       if (!timer.take()) continue;
       report.wake_ups.add(timer.wake_up().late_us);
       report.wake_ups.add_slips(timer.wake_up().skipped);
-      if (result_.ticks > 0 && !take_frames(kOldestEcho)) ++result_.unanswered;
+      if (result_.ticks > 0 && !take_frames(world::kOldestEcho)) ++result_.unanswered;
       begin_tick();
       // Frames stay in the socket until the tick; only the link is looked after.
       for (auto now_us = clock.now_us(); now_us + kQuiet_us + 1000U <= timer.due_us();
@@ -193,17 +192,14 @@ class Session {
   }
 
   [[nodiscard]] bool answers(const wire::Frame& frame, unsigned oldest) const {
-    wire::Command command;
-    if (!wire::e2e_crc_fits(frame) || !wire::decode(frame, command)) return false;
-    // The ECU does not trust the first TICK frame it sees, so its first command echoes 0.
-    if (!first_answer_ && command.tick == 0) return true;
-    const unsigned age = (static_cast<unsigned>(result_.ticks) - command.tick) & kEchoMask;
-    return age <= oldest;
+    return world::answers_tick(frame, static_cast<unsigned>(result_.ticks), oldest, !first_answer_);
   }
 
   void log(const std::vector<wire::Frame>& frames) {
     constexpr std::uint64_t kTick_us = 10'000;
-    if (log_) log_->write(static_cast<std::uint64_t>(result_.ticks - 1) * kTick_us, frames);
+    const std::uint64_t time_us = static_cast<std::uint64_t>(result_.ticks - 1) * kTick_us;
+    if (log_) log_->write(time_us, frames);
+    if (options_.record) options_.record(time_us, frames);
   }
 
   [[nodiscard]] bool usable() const {

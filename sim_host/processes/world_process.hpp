@@ -8,6 +8,7 @@
 #include <optional>
 #include <ostream>
 #include <string>
+#include <vector>
 
 #include "hal/linux/linux_can.hpp"
 #include "sim_host/processes/realtime_report.hpp"
@@ -26,10 +27,12 @@ struct WorldProcessOptions {
   bool realtime = false;
   int wait_s = 10;                           ///< for a sign of the ECU; 0: begin at once
   std::optional<std::filesystem::path> log;  ///< every frame of the bus from the first tick on
-  std::string ecu_note;                      ///< for the log's first line, campaign::ecu_note()
-  int answer_within_ms = 1000;               ///< lock-step: after that the next tick begins all the same
-  int dead_after_ms = 2000;                  ///< lock-step: without any answer
-  std::function<bool()> ecu_lives;           ///< may be empty; false ends the wait for it
+  /// Also told every frame of that log; time is vehicle time.
+  std::function<void(std::uint64_t time_us, const std::vector<wire::Frame>&)> record;
+  std::string ecu_note;             ///< for the log's first line, campaign::ecu_note()
+  int answer_within_ms = 1000;      ///< lock-step: after that the next tick begins all the same
+  int dead_after_ms = 2000;         ///< lock-step: without any answer
+  std::function<bool()> ecu_lives;  ///< may be empty; false ends the wait for it
   hal::linux_host::RealtimeKernel* kernel = nullptr;  ///< realtime: null is the one we run on
   /// Lock-step with an ECU that is given little time: so long for each answer, twice that before it is dead.
   void wait_for_answers(int seconds) {

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "sim_host/world/cut.hpp"
 #include "sim_host/world/find_route.hpp"
 #include "sim_host/world/route_file.hpp"
 #include "sim_host/world/toml_table.hpp"
@@ -125,7 +126,8 @@ DriverModel read_driver(TomlTable& table, const DriverModel& base) {
 }
 
 /// [traffic.driver] is what all have in common; [[traffic.mix]], or the file it names, the kinds of them.
-std::vector<DriverModel> read_drivers(TomlTable& traffic, const std::filesystem::path& folder) {
+std::vector<DriverModel> read_drivers(TomlTable& traffic, const std::filesystem::path& folder,
+                                      std::vector<std::filesystem::path>& files) {
   TomlTable common = traffic.table("driver");
   const DriverModel base = read_driver(common, {});
   common.no_other_keys();
@@ -151,6 +153,7 @@ std::vector<DriverModel> read_drivers(TomlTable& traffic, const std::filesystem:
   }
   const std::filesystem::path file = folder / mix->as_string().str;
   const toml::value document = parse_toml(file);
+  files.push_back(file);
   TomlTable table(file.string(), "", document);
   const std::vector<DriverModel> drivers = read(table.tables("mix"));
   table.no_other_keys();
@@ -225,13 +228,14 @@ void read_traffic(TomlTable traffic, Scenario& scenario) {
         traffic.fail("routes", "there is no file " + file.string());
       }
       scenario.route_files.push_back(file);
+      scenario.files.push_back(file);
       scenario.demands.push_back(load_demand(file, scenario.network));
       for (const std::string& note : scenario.demands.back().notes) {
         scenario.notes.push_back(file.string() + ": " + note);
       }
     }
   } else {
-    const std::vector<DriverModel> drivers = read_drivers(traffic, scenario.folder);
+    const std::vector<DriverModel> drivers = read_drivers(traffic, scenario.folder, scenario.files);
     double cars = 0.0;
     for (const TomlTable& flow : traffic.tables("flow")) {
       scenario.flows.push_back(read_flow(flow, scenario.network, drivers));
@@ -275,19 +279,8 @@ toml::value in_flavour(toml::value document, const std::string& file, const std:
   return document;
 }
 
-}  // namespace
-
-std::filesystem::path scenario_path(const std::filesystem::path& shipped, const std::string& name) {
-  const std::filesystem::path folder = shipped / name;
-  return std::filesystem::is_regular_file(folder / "scenario.toml") ? folder : std::filesystem::path(name);
-}
-
-RouteGuide mission_guide(const Scenario& scenario) {
-  const Mission& mission = scenario.mission;
-  return {scenario.network, mission.edges, mission.goal_lane, mission.goal_s_m};
-}
-
-Scenario load_scenario(const std::filesystem::path& path, const std::string& flavour) {
+/// \param may_be_cut  false for what a cut was cut out of
+Scenario load(const std::filesystem::path& path, const std::string& flavour, bool may_be_cut) {
   namespace fs = std::filesystem;
   const bool is_file = path.extension() == ".toml" && !fs::is_directory(path);
   const fs::path file = is_file ? path : path / "scenario.toml";
@@ -301,17 +294,30 @@ Scenario load_scenario(const std::filesystem::path& path, const std::string& fla
   require_utf8(whole.filename() == "scenario.toml" ? whole.parent_path().filename() : whole.stem());
   const std::string shown = file.string() + (flavour.empty() ? "" : " (" + flavour + ")");
   const toml::value document = in_flavour(parse_toml(file), shown, flavour);
+  const std::string name =
+      (whole.filename() == "scenario.toml" ? whole.parent_path().filename() : whole.stem()).string();
   TomlTable table(shown, "", document);
+  if (document.is_table() && document.contains("cut")) {
+    Cut cut = read_cut(table.table("cut"), file);
+    table.no_other_keys();
+    if (!may_be_cut) table.fail("cut", "expected a scenario that is no cut itself");
+    Scenario scenario = load(cut.of, cut.flavour, false);
+    scenario.name = name;
+    scenario.files.insert(scenario.files.begin(), {file, cut.commands_file});
+    scenario.cut = std::make_shared<const Cut>(std::move(cut));
+    return scenario;
+  }
   Scenario scenario;
   scenario.folder = file.parent_path();
-  scenario.name =
-      (whole.filename() == "scenario.toml" ? whole.parent_path().filename() : whole.stem()).string();
+  scenario.name = name;
   scenario.flavour = flavour;
+  scenario.files.push_back(file);
   TomlTable network = table.table("network");
   scenario.network_file = scenario.folder / network.text("file");
   if (!fs::is_regular_file(scenario.network_file)) {
     network.fail("file", "there is no file " + scenario.network_file.string());
   }
+  scenario.files.push_back(scenario.network_file);
   network.no_other_keys();
   scenario.network = load_network(scenario.network_file);
   static_cast<void>(table.require("mission"));
@@ -319,6 +325,22 @@ Scenario load_scenario(const std::filesystem::path& path, const std::string& fla
   read_traffic(table.table("traffic"), scenario);
   table.no_other_keys();
   return scenario;
+}
+
+}  // namespace
+
+std::filesystem::path scenario_path(const std::filesystem::path& shipped, const std::string& name) {
+  const std::filesystem::path folder = shipped / name;
+  return std::filesystem::is_regular_file(folder / "scenario.toml") ? folder : std::filesystem::path(name);
+}
+
+RouteGuide mission_guide(const Scenario& scenario) {
+  const Mission& mission = scenario.mission;
+  return {scenario.network, mission.edges, mission.goal_lane, mission.goal_s_m};
+}
+
+Scenario load_scenario(const std::filesystem::path& path, const std::string& flavour) {
+  return load(path, flavour, true);
 }
 
 }  // namespace s4tp::world

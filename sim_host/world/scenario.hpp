@@ -2,6 +2,7 @@
 /// A scenario: a network, a mission and traffic, described by a scenario.toml (sim_host/scenarios/README.md).
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,8 @@ struct Mission {
   double time_limit_s = 80.0;  ///< after entry
 };
 
+struct Cut;
+
 struct Scenario {
   std::string name;
   std::string flavour;  ///< which of the file's [flavour.NAME] tables is in force; empty: none
@@ -29,9 +32,11 @@ struct Scenario {
   std::vector<std::filesystem::path> route_files;  ///< the episode of seed s takes file s modulo their number
   Network network;
   Mission mission;
-  std::vector<FlowGroup> flows;    ///< where there are no route files
-  std::vector<Demand> demands;     ///< what the route files say, in their order
-  std::vector<std::string> notes;  ///< what was left out because it does no harm, one line each
+  std::vector<FlowGroup> flows;              ///< where there are no route files
+  std::vector<Demand> demands;               ///< what the route files say, in their order
+  std::vector<std::string> notes;            ///< what was left out because it does no harm, one line each
+  std::vector<std::filesystem::path> files;  ///< all that was read, the scenario.toml first
+  std::shared_ptr<const Cut> cut;            ///< null: driven from its beginning
 };
 
 /// The way of the mission. \param scenario  its network must outlive the guide

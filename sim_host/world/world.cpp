@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "sim_host/world/box.hpp"
+#include "sim_host/world/cut.hpp"
 #include "sim_host/world/ego_road.hpp"
 #include "sim_host/world/judge/attribution.hpp"
 #include "sim_host/world/traffic_engine.hpp"
@@ -20,6 +21,16 @@ namespace {
 constexpr double kTick_s = 0.01;
 constexpr int kDeadTicks = 200;
 constexpr double kAfterTouch_s = 1.0;
+
+/// A cut's world is the one that was recorded.
+WorldOptions as_recorded(WorldOptions options, const Scenario& scenario) {
+  if (!scenario.cut) return options;
+  if (options.ego_by_traffic) throw std::invalid_argument("a cut needs an ECU; SUMO's driver is none");
+  options.seed = scenario.cut->seed;
+  options.engine = engine_of(scenario.cut->traffic);
+  options.perception = perception_preset(scenario.cut->perception);
+  return options;
+}
 
 Vec2 rounded(Vec2 point) {  // as MapOrigin can say it
   return {std::round(point.x * 10.0) / 10.0, std::round(point.y * 10.0) / 10.0};
@@ -37,6 +48,10 @@ struct World::Impl {
   void judge();
   void end(Ending ending);
   [[nodiscard]] Snapshot snapshot() const;
+  /// Whether the vehicle does in this tick what was recorded.
+  [[nodiscard]] bool follows_recording() const {
+    return scenario.cut && tick_number <= scenario.cut->start_tick;
+  }
 
   const Scenario& scenario;
   const Network& network;
@@ -64,7 +79,7 @@ World::Impl::Impl(const Scenario& with_scenario, const WorldOptions& with_option
     : scenario(with_scenario),
       network(with_scenario.network),
       mission(with_scenario.mission),
-      options(with_options),
+      options(as_recorded(with_options, with_scenario)),
       start_lane(mission.start_lane),
       goal_lane(mission.goal_lane),
       road(std::make_shared<const EgoRoad>(with_scenario)),
@@ -75,7 +90,7 @@ World::Impl::Impl(const Scenario& with_scenario, const WorldOptions& with_option
       nodes(network, guide, origin, options.perception, next_seed(options.seed ^ 0x9E8C)),
       entry_tick(static_cast<int>(std::lround(options.pre_roll_s / kTick_s))) {
   recording.scenario = scenario.name;
-  recording.seed = options.seed;
+  recording.seed = with_options.seed;
   EnteredTraffic entered = draw_entry(scenario, options, locator);
   recording.redrawn = entered.redrawn;
   traffic = std::move(entered.traffic);
@@ -202,10 +217,14 @@ void World::tick(std::vector<wire::Frame>& frames) {
   const std::uint32_t now_ms = static_cast<std::uint32_t>(w.tick_number) * 10U;
   w.vehicle.publish(now_ms, w.tick_number >= w.entry_tick, frames);
   w.nodes.publish(now_ms, w.ego, w.others, frames);
+  if (!w.follows_recording()) return;
+  for (const wire::Frame& frame : w.scenario.cut->commands[static_cast<std::size_t>(w.tick_number - 1)]) {
+    w.vehicle.receive(frame);
+  }
 }
 
 void World::receive(const wire::Frame& frame) {
-  impl_->vehicle.receive(frame);
+  if (!impl_->follows_recording()) impl_->vehicle.receive(frame);
 }
 
 bool World::finished() const {
