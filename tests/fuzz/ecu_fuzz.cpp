@@ -5,12 +5,14 @@
 #include <memory>
 #include <string>
 
+#include "algo/core/math.hpp"
 #include "tests/fuzz/frames.hpp"
 #include "tests/support/command_check.hpp"
 #include "tests/support/ecu_rig.hpp"
 
 using namespace s4tp;
-using namespace s4tp::ecu;
+using ecu::CommandCheck;
+using ecu::Rig;
 using fuzz::expect;
 using fuzz::Input;
 
@@ -50,7 +52,7 @@ void change_tracks(Input& input, wire::Tracks& tracks) {
 }
 
 void change_map(Input& input, wire::MapSender& sender) {
-  wire::Map map = straight_map();
+  wire::Map map = ecu::straight_map();
   for (int lanes = input.below(4); lanes > 0; --lanes) {
     wire::Lane& lane = map.lanes[input.below(wire::kMaxLanes)];
     lane = map.lanes[5];
@@ -170,7 +172,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       --calm;
     } else if (input.empty()) {
       break;
-    } else if (rig->ecu.mode() == Mode::kReady && !engaged) {
+    } else if (rig->ecu.mode() == ecu::Mode::kReady && !engaged) {
       rig->engage = engaged = true;
       rig->ecu.planner().make = [&](const PlannerInput& world, Plan& plan) { any_plan(input, world, plan); };
     } else {

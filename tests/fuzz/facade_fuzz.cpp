@@ -155,7 +155,7 @@ void wound(Input& input, s4tp_lane_map& map) {
 void take_tracks(Input& input, const s4tp_ego& ego, s4tp_tracks& tracks) {
   tracks.count = input.below(S4TP_MAX_TRACKS + 1);
   for (std::int32_t i = 0; i < tracks.count; ++i) {
-    tracks.items[i] = {input.byte() % std::uint8_t{24},
+    tracks.items[i] = {static_cast<std::uint8_t>(input.below(24)),
                        std::clamp(ego.x_m, -1e4F, 1e4F) + input.real(-80.0F, 80.0F),
                        std::clamp(ego.y_m, -1e4F, 1e4F) + input.real(-40.0F, 40.0F),
                        input.real(-kPi, kPi),

@@ -41,7 +41,7 @@ void check(const Records& records) {
 /// Errors of documents name what in them is wrong; of which file, their caller adds.
 void compare(const std::string& text) {
   try {
-    const std::vector<Outcomes> outcomes = outcomes_of(ordered_json::parse(text));
+    const std::vector<Outcomes> outcomes = outcomes_of(parse_json(text));
     std::uint64_t episodes = 0;
     for (const Outcomes& cell : outcomes) episodes += cell.failed.size();
     expect(episodes <= kComparedMax, "no more episodes than are compared");
