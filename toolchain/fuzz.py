@@ -56,7 +56,7 @@ def arguments(options, target, shard):
     """libFuzzer's own options."""
     found = options.build / "findings"
     found.mkdir(parents=True, exist_ok=True)
-    result = [f"-seed={options.seed + shard}", f"-max_len={TARGETS[target].longest}", "-timeout=20", "-rss_limit_mb=2048",
+    result = [f"-seed={options.seed + shard}", f"-max_len={TARGETS[target].longest}", "-len_control=0", "-timeout=20", "-rss_limit_mb=2048",
               "-print_final_stats=1", f"-artifact_prefix={found}/{target}-"]
     words = ROOT / "tests/fuzz" / f"{target}.dict"
     if words.exists():

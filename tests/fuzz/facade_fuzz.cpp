@@ -68,10 +68,12 @@ struct Setting {
       const s4tp_status status = s4tp_set_parameter(&parameters, row.name, value);
       const bool good = within(value, row.minimum, row.maximum);
       expect((status == S4TP_OK) == good, "a row takes what is in its range, and nothing else");
-      if (!good && input.below(2) == 1) {
-        parameters.values[index] = value;
-        valid = false;
-      }
+      if (!good && input.below(2) == 1) parameters.values[index] = value;
+    }
+    for (std::int32_t i = 0; i < s4tp_parameter_count(); ++i) {
+      s4tp_parameter_info row;
+      expect(s4tp_describe_parameter(i, &row) == S4TP_OK, "a row describes itself");
+      valid = valid && within(parameters.values[i], row.minimum, row.maximum);
     }
   }
   [[nodiscard]] float operator[](const char* name) const {

@@ -266,6 +266,22 @@ TEST_F(CFacade, AStopBeginsWhereWeAreKnownToBe) {
   EXPECT_EQ(plan.kind, static_cast<std::uint32_t>(S4TP_PLAN_NONE)) << "init forgets";
 }
 
+// API-012, API-016: a running plan with a fail-safe of 10^28 m/s^2 is invalid, and so is that braking: the stop
+// brakes as a stop of its own.
+TEST_F(CFacade, AFailSafeOfAnInvalidPlanIsNotDriven) {
+  s4tp_plan running = {};
+  EXPECT_EQ(s4tp_make_plan(block.get(), &input, &running, nullptr), S4TP_OK);
+  input.running = &running;
+  for (const float braking_mps2 : {1e28F, -1.0F, kNaN}) {
+    running.fail_safe_braking_mps2 = braking_mps2;
+    EXPECT_EQ(plan_now(), S4TP_INVALID_INPUT);
+    EXPECT_EQ(plan.kind, static_cast<std::uint32_t>(S4TP_PLAN_MINIMUM_RISK));
+    EXPECT_GT(plan.fail_safe_braking_mps2, 0.0F);
+    EXPECT_LE(plan.fail_safe_braking_mps2, 13.0F);
+    EXPECT_GT(plan.points[1].speed_mps, 7.0F) << "8 m/s, a tenth of a second later";
+  }
+}
+
 // CORE-008, API-012: a list that is thrown away for its time never answers OK, and the plan is a stop: over
 // 500 ms old, as far ahead, time 0, older than the one before. One cycle later with a fresh list it drives
 // on.
