@@ -9,9 +9,9 @@
 """
 
 import argparse
+import json
 import pathlib
 import re
-import shutil
 import subprocess
 import sys
 import tempfile
@@ -145,26 +145,48 @@ def coverage(options):
             subprocess.run([program(options, target), "-runs=0", "-detect_leaks=0", *known(options, target)], check=True,
                            capture_output=True, cwd=scratch, env={"LLVM_PROFILE_FILE": str(raw), "TMPDIR": scratch})
             subprocess.run(["llvm-profdata-14", "merge", "-sparse", raw, "-o", data], check=True)
-            report = subprocess.run(["llvm-cov-14", "report", program(options, target), f"-instr-profile={data}",
-                                     *(ROOT / name for name in TARGETS[target].covers)],
+            report = subprocess.run(["llvm-cov-14", "export", "--summary-only", program(options, target), f"-instr-profile={data}"],
                                     check=True, capture_output=True, text=True).stdout
-        lines = [line.split() for line in report.splitlines() if re.search(r"\.cpp|\.hpp|^TOTAL", line)]
-        for cells in lines:  # file, then count, missed, percent of regions, functions, lines
-            if options.verbose or cells[0] == "TOTAL":
-                print(f"{target:10} {cells[0]:60} {cells[7]:>6} lines {cells[9]:>8}", flush=True)
-        bad += not lines
+        count = reached = 0
+        for file in json.loads(report)["data"][0]["files"]:
+            name = re.sub(r"^(\.\./)*", "", file["filename"].removeprefix(f"{ROOT}/"))
+            if not any(name == one or name.startswith(f"{one}/") for one in TARGETS[target].covers):
+                continue
+            lines = file["summary"]["lines"]
+            count, reached = count + lines["count"], reached + lines["covered"]
+            if options.verbose:
+                print(f"  {name:50} {lines['covered']:5} of {lines['count']:5} lines")
+        print(f"{target:10} {reached:5} of {count:5} lines, {100 * reached / max(count, 1):5.1f} %", flush=True)
+        bad += count == 0
     return 1 if bad else 0
 
 
+def edges_of(options, target, scratch):
+    """input -> edges it reaches, of all that are known, as libFuzzer notes them when it merges."""
+    notes, merged = scratch / "notes", scratch / "merged"
+    merged.mkdir()
+    subprocess.run([program(options, target), "-merge=1", f"-merge_control_file={notes}", f"-max_len={TARGETS[target].longest}",
+                    merged, *known(options, target)], check=True, capture_output=True, env={"TMPDIR": str(scratch)})
+    lines = notes.read_text(encoding="utf-8").splitlines()
+    files = [pathlib.Path(line) for line in lines[2:2 + int(lines[0])]]
+    # Of each input the edges that those before it, smaller ones, had not.
+    noted = [line.split() for line in lines if line.startswith("COV ")]
+    return {files[int(words[1])]: set(words[2:]) for words in noted if len(words) > 2}
+
+
 def keep(options):
+    """Smallest first, what reaches an edge that those before it did not."""
     for target in options.targets:
         with tempfile.TemporaryDirectory(prefix="s4tp-fuzz-") as scratch:
-            command = [program(options, target), "-merge=1", f"-max_len={TARGETS[target].longest}", scratch, *known(options, target)]
-            subprocess.run(command, check=True, capture_output=True, env={"TMPDIR": "/dev/shm"})
-            inputs = sorted(pathlib.Path(scratch).iterdir(), key=lambda file: (file.stat().st_size, file.name))
-            shutil.rmtree(KEPT / target, ignore_errors=True)
-            shutil.copytree(scratch, KEPT / target)
-        print(f"{target:10} {len(inputs)} inputs, {sum(file.stat().st_size for file in (KEPT / target).iterdir())} bytes")
+            edges = edges_of(options, target, pathlib.Path(scratch))
+            inputs = {file.name: file.read_bytes() for file in edges}
+        (KEPT / target).mkdir(parents=True, exist_ok=True)
+        for old in KEPT.glob(f"{target}/*"):
+            if re.fullmatch(r"[0-9a-f]{40}", old.name):  # those that were named were written by hand: they stay
+                old.unlink()
+        for name, content in inputs.items():
+            (KEPT / target / name).write_bytes(content)
+        print(f"{target:10} {len(inputs):4} inputs, {sum(map(len, inputs.values())):7} bytes")
     return 0
 
 
