@@ -154,7 +154,22 @@ void wound(Input& input, s4tp_lane_map& map) {
   }
 }
 
-void take_tracks(Input& input, const s4tp_ego& ego, s4tp_tracks& tracks) {
+/// Onto a lane, along it: elsewhere hardly anybody matters.
+void put_on_lane(Input& input, const s4tp_lane_map& map, s4tp_track& track) {
+  const s4tp_lane& lane = map.lanes[input.below(20)];
+  if (lane.present == 0 || lane.point_count < 2 || lane.point_count > S4TP_MAX_LANE_POINTS) return;
+  const int from = input.below(lane.point_count - 1);
+  const float along = input.real(0.0F, 1.0F);
+  const float dx_m = lane.x_m[from + 1] - lane.x_m[from];
+  const float dy_m = lane.y_m[from + 1] - lane.y_m[from];
+  track.x_m = lane.x_m[from] + along * dx_m;
+  track.y_m = lane.y_m[from] + along * dy_m;
+  track.heading_rad = std::atan2(dy_m, dx_m);
+  track.acceleration_mps2 = track.yaw_rate_radps = 0.0F;
+}
+
+void take_tracks(Input& input, const s4tp_input& world, s4tp_tracks& tracks) {
+  const s4tp_ego& ego = world.ego;
   tracks.count = input.below(S4TP_MAX_TRACKS + 1);
   for (std::int32_t i = 0; i < tracks.count; ++i) {
     tracks.items[i] = {static_cast<std::uint8_t>(input.below(24)),
@@ -166,6 +181,7 @@ void take_tracks(Input& input, const s4tp_ego& ego, s4tp_tracks& tracks) {
                        input.real(-1.3F, 1.3F),
                        input.real(0.5F, 25.0F),
                        input.real(0.3F, 3.0F)};
+    if (input.below(4) != 3) put_on_lane(input, *world.map, tracks.items[i]);
     if (input.byte() == 255) tracks.items[i].speed_mps = input.take<float>();
     if (input.byte() == 255) tracks.items[i].heading_rad = input.take<float>();
   }
@@ -279,7 +295,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   for (int cycle = bytes.below(3); cycle >= 0; --cycle) {
     input.start_ms = input.now_ms + (bytes.byte() % 16 == 1 ? bytes.take<std::uint16_t>() : 100U);
     if (bytes.byte() % 8 == 1) take_ego(bytes, input.ego);
-    take_tracks(bytes, input.ego, tracks);
+    take_tracks(bytes, input, tracks);
     tracks.time_ms = input.now_ms - (bytes.byte() % 16 == 1 ? bytes.take<std::uint16_t>() : 30U);
     input.degraded = bytes.byte() % 8 == 1 ? 1 : 0;
     const s4tp_status status = s4tp_make_plan(block.get(), &input, &plan, &why);

@@ -56,7 +56,7 @@ void compare(const std::string& text) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string text(reinterpret_cast<const char*>(data), size);
-  const auto file = fuzz::folder().write("fuzz.jsonl", text + "\n");
+  const auto file = fuzz::folder().write("fuzz.jsonl", text.ends_with('\n') ? text : text + '\n');
   static_cast<void>(fuzz::accepts("fuzz.jsonl", [&] { check(read_records({file})); }));
   compare(text);
   return 0;

@@ -20,6 +20,12 @@ void check(const Demand& demand, const Network& network) {
     for (const std::size_t route : flow.routes)
       expect(route < demand.routes.size(), "a flow's route is one of the file's");
     expect(!flow.drivers.empty(), "somebody drives");
+    for (const DriverModel& driver : flow.drivers) {
+      expect(driver.length_m > 0.0 && driver.width_m > 0.0 && driver.min_gap_mean_m >= 0.0 &&
+                 driver.weight >= 0.0 && driver.acceleration_mps2 > 0.0 && driver.deceleration_mps2 > 0.0 &&
+                 driver.max_speed_mps > 0.0 && driver.headway_s > 0.0 && driver.sigma >= 0.0,
+             "in a car and in a way there can be");
+    }
     expect(std::isfinite(flow.begin_s) && flow.number >= 0, "a flow has a begin and a number");
   }
   for (const TrafficRoute& route : demand.routes) {

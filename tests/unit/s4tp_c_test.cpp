@@ -280,6 +280,7 @@ TEST_F(CFacade, AFailSafeOfAnInvalidPlanIsNotDriven) {
     EXPECT_LE(plan.fail_safe_braking_mps2, 13.0F);
     EXPECT_GT(plan.points[1].speed_mps, 7.0F) << "8 m/s, a tenth of a second later";
   }
+  input.running = nullptr;
 }
 
 // CORE-008, API-012: a list that is thrown away for its time never answers OK, and the plan is a stop: over
