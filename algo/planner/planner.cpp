@@ -99,7 +99,7 @@ Status PlanningCycle::plan(const PlannerInput& input, Plan& plan, Explanation& e
   refining_ = false;
 
   const bool running_valid = valid(running_, parameters_);
-  if (!running_valid) running_.kind = PlanKind::kNone;
+  if (!running_valid) running_ = Plan{};  // whole: its fail-safe is believed no more than its points
   const bool ego_valid = valid(input.ego);
   if (ego_valid) {
     last_ego_ = input.ego;

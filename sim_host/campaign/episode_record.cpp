@@ -177,7 +177,7 @@ Part read_part(const std::filesystem::path& file) {
   std::string line;
   for (int number = 1; std::getline(stream, line) && !stream.eof(); ++number) {  // eof: no end of line
     try {
-      ordered_json read = ordered_json::parse(line);
+      ordered_json read = parse_json(line);
       if (number > 1) {
         part.rows.push_back(row_of(read));
         check_planned(part.header, part.rows.back());

@@ -41,6 +41,15 @@ std::string differs_in(const ordered_json& one, const ordered_json& other, const
 
 }  // namespace
 
+ordered_json parse_json(const std::string& text) {
+  return ordered_json::parse(text, [](int depth, ordered_json::parse_event_t, const ordered_json&) {
+    if (depth > kJsonNesting) {
+      throw std::runtime_error("nested more than " + std::to_string(kJsonNesting) + " deep");
+    }
+    return true;
+  });
+}
+
 std::uint64_t whole_number(const ordered_json& json, const std::string& name, std::uint64_t low,
                            std::uint64_t high) {
   const bool there = json.is_number_unsigned() || (json.is_number_integer() && json.get<std::int64_t>() >= 0);
@@ -63,6 +72,10 @@ void check_header(const ordered_json& header) {
   (void)whole_number(header.at("episodes"), "episodes", 1, kEpisodesMax);
   (void)whole_number(header.at("first_seed"), "first_seed", 0, kSeedMax - kEpisodesMax);
   for (const char* const key : {"planners", "flavours", "traffic", "guard"}) check_texts(header, key);
+  for (const char* const key : {"parameters_crc", "wire_version", "build"}) (void)header.at(key);
+  for (const char* const key : {"perception", "parameters"}) {
+    if (!header.at(key).is_string()) refuse(key, header.at(key), "a text");
+  }
   for (const ordered_json& scenario : header.at("scenarios")) {
     for (const char* const key : {"name", "argument", "digest"}) {
       if (!scenario.at(key).is_string()) refuse("scenarios", scenario, "texts: name, argument, digest");

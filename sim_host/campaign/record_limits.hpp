@@ -18,6 +18,11 @@ inline constexpr std::uint64_t kEpisodesMax = 1'000'000;  ///< of a cell
 inline constexpr std::uint64_t kComparedMax = 2'000'000;  ///< episodes in one document that is compared
 inline constexpr double kDurationMax_s = 7'200.0;         ///< the longest time limit is half of it
 inline constexpr double kFigureMax = 1e15;                ///< magnitude of any other figure
+inline constexpr int kJsonNesting = 32;                   ///< of lists and objects within each other, at most
+
+/// FILE-011 A document nested deeper than kJsonNesting is refused: comparing and printing it recurse.
+/// \throws std::exception saying what is wrong
+[[nodiscard]] nlohmann::ordered_json parse_json(const std::string& text);
 
 /// A whole number that is there as such: neither 1.0 nor "1".
 /// \throws std::runtime_error naming it and what is accepted

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <fstream>
 #include <iostream>
+#include <iterator>
 #include <set>
 #include <sstream>
 #include <stdexcept>
@@ -13,6 +14,7 @@
 #include "sim_host/campaign/families.hpp"
 #include "sim_host/campaign/family_table.hpp"
 #include "sim_host/campaign/progress.hpp"
+#include "sim_host/campaign/record_limits.hpp"
 #include "sim_host/campaign/records.hpp"
 #include "sim_host/campaign/results.hpp"
 #include "sim_host/campaign/table.hpp"
@@ -197,7 +199,7 @@ std::vector<campaign::Outcomes> read_outcomes(const fs::path& file) {
   std::ifstream stream(file);
   if (!stream) throw std::runtime_error(file.string() + ": cannot be read");
   try {
-    return campaign::outcomes_of(ordered_json::parse(stream));
+    return campaign::outcomes_of(campaign::parse_json({std::istreambuf_iterator<char>(stream), {}}));
   } catch (const nlohmann::json::exception& error) {
     throw std::runtime_error(file.string() + " is no result of eval: " + error.what());
   } catch (const std::exception& error) {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
-#include <stdexcept>
 #include <vector>
 
 #include "sim_host/metrics/time_to_collision.hpp"
@@ -99,10 +98,6 @@ void measure_encounters(const world::Recording& recording, const world::Scenario
   result.encounters = encounters_of({}, world::Evidence(scenario.network, upto, &guide), 0.0);
 }
 
-constexpr world::Ending kEndings[] = {world::Ending::kRunning,   world::Ending::kGoal,
-                                      world::Ending::kCollision, world::Ending::kOffRoad,
-                                      world::Ending::kTimeOut,   world::Ending::kDeadEcu};
-
 }  // namespace
 
 EpisodeMetrics evaluate(const world::Recording& recording, const world::Scenario& scenario) {
@@ -119,31 +114,6 @@ EpisodeMetrics evaluate(const world::Recording& recording, const world::Scenario
   measure_encounters(recording, scenario, driven, result);
   result.comp1 = comp1_of(recording, driven);
   return result;
-}
-
-const char* ending_name(world::Ending ending) {
-  switch (ending) {
-    case world::Ending::kRunning:
-      return "running";
-    case world::Ending::kGoal:
-      return "goal";
-    case world::Ending::kCollision:
-      return "collision";
-    case world::Ending::kOffRoad:
-      return "off road";
-    case world::Ending::kTimeOut:
-      return "time-out";
-    case world::Ending::kDeadEcu:
-      return "dead ECU";
-  }
-  return "?";
-}
-
-world::Ending ending_of(const std::string& name) {
-  for (const world::Ending ending : kEndings) {
-    if (name == ending_name(ending)) return ending;
-  }
-  throw std::invalid_argument("no ending is called '" + name + "'");
 }
 
 }  // namespace s4tp::metrics

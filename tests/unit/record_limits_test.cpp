@@ -70,6 +70,32 @@ TEST(RecordLimits, Headers) {
   EXPECT_NE(error_of(twice, row()).find("each cell once"), std::string::npos);
 }
 
+// FILE-004 A header without who perceives, or with a number for the parameters' file, failed only where it was
+// used, without the file's name.
+TEST(RecordLimits, EveryKeyAReaderNeeds) {
+  ordered_json without = header();
+  without.erase("perception");
+  EXPECT_NE(error_of(without, row()).find("a.jsonl: line 1"), std::string::npos);
+  EXPECT_NE(error_of(with(header(), "parameters", 7), row()).find("parameters: 7; accepted is a text"),
+            std::string::npos);
+}
+
+// FILE-011 100,000 brackets in a header or in a result ended the program: printing and comparing recurse.
+TEST(RecordLimits, NestingIsBounded) {
+  const std::string deep = std::string(100'000, '[') + std::string(100'000, ']');
+  const std::string head = world::test::replaced(header().dump(), "\"episodes\":4", "\"episodes\":" + deep);
+  const Folder folder;
+  try {
+    (void)read_records({folder.write("a.jsonl", head + "\n")});
+    ADD_FAILURE() << "no error";
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("a.jsonl: line 1"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("nested more than 32 deep"), std::string::npos) << error.what();
+  }
+  EXPECT_THROW((void)parse_json(deep), std::runtime_error);
+  EXPECT_EQ(parse_json("[[1]]"), ordered_json::parse("[[1]]"));
+}
+
 // FILE-004 A million episodes in each of many cells cost nothing to count: 5 to 8 and 7 to 1,000,006 are
 // 1,000,002.
 TEST(RecordLimits, PlannedSeedsAreCountedNotListed) {

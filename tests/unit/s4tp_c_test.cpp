@@ -12,48 +12,13 @@
 #include "algo/core/versions.hpp"
 #include "algo/planner/planner.hpp"
 #include "algo/planner/s4tp.h"
+#include "tests/support/c_map.hpp"
 #include "tests/support/lane_maps.hpp"
 
 namespace s4tp {
 namespace {
 
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
-
-/// A lane map of the core's as a caller in C would write it.
-s4tp_lane_map in_c(const LaneMap& from) {
-  s4tp_lane_map to;
-  EXPECT_EQ(s4tp_clear_map(&to), S4TP_OK);
-  for (int i = 0; i < kMaxLanes; ++i) {
-    const Lane& lane = from.lanes[i];
-    s4tp_lane& c = to.lanes[i];
-    if (!lane.present) continue;
-    c.present = 1;
-    c.kind = static_cast<std::uint8_t>(lane.kind);
-    c.in_junction = lane.in_junction ? 1 : 0;
-    c.on_route = lane.on_route ? 1 : 0;
-    c.changes_needed = lane.changes_needed;
-    c.left = lane.left;
-    c.right = lane.right;
-    for (int k = 0; k < kMaxSuccessors; ++k) c.successors[k] = lane.successors[k];
-    c.point_count = lane.point_count;
-    c.width_m = lane.width_m;
-    c.speed_limit_mps = lane.speed_limit_mps;
-    c.route_remaining_m = lane.route_remaining_m;
-    c.goal_distance_m = lane.goal_distance_m;
-    c.stop_line_m = lane.stop_line_m;
-    for (int k = 0; k < lane.point_count; ++k) {
-      c.x_m[k] = lane.points[k].x_m;
-      c.y_m[k] = lane.points[k].y_m;
-    }
-  }
-  for (const Conflict& conflict : from.conflicts) {
-    to.conflicts[to.conflict_count++] = {
-        conflict.first,         conflict.second,       static_cast<std::uint8_t>(conflict.priority),
-        conflict.first_entry_m, conflict.first_exit_m, conflict.second_entry_m,
-        conflict.second_exit_m};
-  }
-  return to;
-}
 
 /// Entering a cross junction from the west to turn left, somebody comes from the east.
 class CFacade : public testing::Test {
@@ -62,7 +27,7 @@ class CFacade : public testing::Test {
     test::CrossJunction cross = test::cross_junction();
     test::set_route(cross, test::CrossJunction::kEast, test::CrossJunction::kLeft);
     core_map = cross.map;
-    map = in_c(core_map);
+    map = test::in_c(core_map);
     EXPECT_EQ(s4tp_init(block.get(), nullptr, nullptr), S4TP_OK);
     input.now_ms = 1000;
     input.start_ms = 1100;
@@ -299,6 +264,23 @@ TEST_F(CFacade, AStopBeginsWhereWeAreKnownToBe) {
   input.running = nullptr;
   EXPECT_EQ(plan_now(), S4TP_INVALID_INPUT);
   EXPECT_EQ(plan.kind, static_cast<std::uint32_t>(S4TP_PLAN_NONE)) << "init forgets";
+}
+
+// API-012, API-016: a running plan with a fail-safe of 10^28 m/s^2 is invalid, and so is that braking: the stop
+// brakes as a stop of its own.
+TEST_F(CFacade, AFailSafeOfAnInvalidPlanIsNotDriven) {
+  s4tp_plan running = {};
+  EXPECT_EQ(s4tp_make_plan(block.get(), &input, &running, nullptr), S4TP_OK);
+  input.running = &running;
+  for (const float braking_mps2 : {1e28F, -1.0F, kNaN}) {
+    running.fail_safe_braking_mps2 = braking_mps2;
+    EXPECT_EQ(plan_now(), S4TP_INVALID_INPUT);
+    EXPECT_EQ(plan.kind, static_cast<std::uint32_t>(S4TP_PLAN_MINIMUM_RISK));
+    EXPECT_GT(plan.fail_safe_braking_mps2, 0.0F);
+    EXPECT_LE(plan.fail_safe_braking_mps2, 13.0F);
+    EXPECT_GT(plan.points[1].speed_mps, 7.0F) << "8 m/s, a tenth of a second later";
+  }
+  input.running = nullptr;
 }
 
 // CORE-008, API-012: a list that is thrown away for its time never answers OK, and the plan is a stop: over
