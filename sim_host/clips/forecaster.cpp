@@ -104,12 +104,9 @@ class AlongLane final : public Forecaster {
 }  // namespace
 
 const std::vector<std::string>& forecaster_names() {
-  static const std::vector<std::string> names{"satp",
-                                              "kinematic",
-                                              "constant_velocity",
-                                              "constant_acceleration",
-                                              "constant_turn_rate",
-                                              "lane_following"};
+  static const std::vector<std::string> names{
+      "satp",          "kinematic", "constant_velocity", "constant_acceleration", "constant_turn_rate",
+      "lane_following"};
   return names;
 }
 
