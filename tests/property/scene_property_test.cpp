@@ -130,7 +130,7 @@ void check_scene(const Scene& scene) {
   }
   for (const Agent& agent : scene.agents) {
     check_finite(agent.track.centre);
-    RC_ASSERT(agent.age_ms <= 500);
+    RC_ASSERT(agent.age_ms <= 1000);
     float sum = 0.0F;
     for (int i = 0; i < agent.paths.size(); ++i) {
       check_path(*scene.map, agent.paths[i]);

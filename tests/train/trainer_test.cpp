@@ -125,6 +125,7 @@ TEST_F(Training, LearnsARuleAndWhatThePlanDoesToIt) {
   TrainingOptions options;
   options.steps = 400;
   options.rate = 1e-3;
+  options.rough = 0.0;  // the rule is told by exact histories
   options.validate_every = 50;
   Trainer trainer(satp::kMcuShape, options, set);
   trainer.run(kGoOn, [](const CurvePoint&) {});

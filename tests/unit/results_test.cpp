@@ -41,8 +41,10 @@ nlohmann::ordered_json header(int episodes) {
           {"cells",
            {{"a", "merge", "smarts", "builtin", true, "ideal"},
             {"b", "merge", "smarts", "builtin", true, "ideal"}}},
+          {"parameters", ""},
           {"parameters_crc", 1},
           {"wire_version", 1},
+          {"build", "0"},
           {"shard", "1/1"}};
 }
 
