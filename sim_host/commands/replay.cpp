@@ -4,7 +4,6 @@
 #include <iostream>
 #include <limits>
 #include <optional>
-#include <regex>
 #include <stdexcept>
 
 #include "sim_host/campaign/planner_registry.hpp"
@@ -47,7 +46,10 @@ const CLI::Validator kMoment{
 std::string word(const fs::path& path) {
   const std::string text = path.string();
   const bool plain = text.find_first_of(" \t\"'\\$&;|<>()*?[]#~`!") == std::string::npos;
-  return plain ? text : '\'' + std::regex_replace(text, std::regex("'"), "'\\''") + '\'';
+  if (plain) return text;
+  std::string quoted = "'";
+  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + '\'';
 }
 
 recording::PlaybackOptions playback_options(const ReplayOptions& options) {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <regex>
+#include <sstream>
 #include <stdexcept>
 #include <utility>
 
@@ -40,11 +40,36 @@ fs::path first_of(const fs::path& file) {
   return file.filename().empty() ? file.parent_path() : file;
 }
 
+bool all_of(const std::string& text, const char* accepted) {
+  return !text.empty() && text.find_first_not_of(accepted) == std::string::npos;
+}
+
+/// "(1436509052.249713)"
+bool is_time(const std::string& word) {
+  constexpr std::size_t kMicroseconds = 6;
+  if (word.size() < kMicroseconds + 4 || word.front() != '(' || word.back() != ')') return false;
+  const std::size_t point = word.size() - kMicroseconds - 2;
+  return word[point] == '.' && all_of(word.substr(1, point - 1), "0123456789") &&
+         all_of(word.substr(point + 1, kMicroseconds), "0123456789");
+}
+
 /// A line of candump's with a frame that is none of ours: 29 bits of id, CAN FD, remote, error.
 bool other_frame(const std::string& line) {
-  static const std::regex kFrame(
-      R"(\s*\(\d+\.\d{6}\)\s+\S+\s+([0-9A-Fa-f]{8}#[0-9A-Fa-f.]*|[0-9A-Fa-f]{3,8}##[0-9A-Fa-f.]+|[0-9A-Fa-f]{3,8}#R\d?)(\s+[RT])?\s*)");
-  return std::regex_match(line, kFrame);
+  constexpr const char* kHex = "0123456789ABCDEFabcdef";
+  std::istringstream words(line);
+  std::string time, interface, frame, direction, more;
+  words >> time >> interface >> frame >> direction >> more;
+  if (!is_time(time) || !more.empty() || (!direction.empty() && direction != "R" && direction != "T")) {
+    return false;
+  }
+  const std::size_t mark = frame.find('#');
+  if (mark == std::string::npos || !all_of(frame.substr(0, mark), kHex)) return false;
+  const std::string data = frame.substr(mark + 1);
+  const bool fd =
+      data.size() > 1 && data[0] == '#' && all_of(data.substr(1), (std::string(kHex) + '.').c_str());
+  const bool remote = !data.empty() && data[0] == 'R' && data.size() <= 2;
+  const bool long_id = mark == 8 && (data.empty() || all_of(data, (std::string(kHex) + '.').c_str()));
+  return long_id || (mark >= 3 && mark <= 8 && (fd || remote));
 }
 
 /// The beginning of a line, whatever bytes are in it.
