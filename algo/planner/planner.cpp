@@ -237,7 +237,7 @@ Status PlanningCycle::choose(Explanation& explanation) {
     }
   }
   if (best < 0) return Status::kNoSafePlan;
-  if (best != held && !hold(best, explanation)) return Status::kNoSafePlan;
+  if (best != held && !evaluate(best, explanation)) return Status::kNoSafePlan;
   refine(candidates_[best], explanation);
   const safety::Verdict verdict = guard_.judge(candidates_[best].path, chosen_);
   guard_.commit(candidates_[best].path, verdict);
@@ -259,7 +259,7 @@ Status PlanningCycle::choose(Explanation& explanation) {
   return Status::kOk;
 }
 
-bool PlanningCycle::hold(int index, Explanation& explanation) {
+bool PlanningCycle::evaluate(int index, Explanation& explanation) {
   const Candidate& candidate = candidates_[index];
   {
     const StageScope scope(probe, Stage::kCandidates);
@@ -281,13 +281,6 @@ bool PlanningCycle::hold(int index, Explanation& explanation) {
       return false;
     }
   }
-  risk_outdated_ = true;
-  return true;
-}
-
-bool PlanningCycle::evaluate(int index, Explanation& explanation) {
-  if (!hold(index, explanation)) return false;
-  if (allowance.decisions <= 0) return true;
   // Without an allowance left the ranking's risk stands.
   if (explanation.work[static_cast<int>(Stage::kExactRisk)] >= allowance.exact_risks) return true;
   const StageScope scope(probe, Stage::kExactRisk);
@@ -295,7 +288,6 @@ bool PlanningCycle::evaluate(int index, Explanation& explanation) {
   costs_[index].risk = parameters_.scoring.risk * risk_integral(explanation.risk, parameters_) +
                        crash_cost(conditioned_.set) + hard_[index];
   count(explanation, Stage::kExactRisk, 1);
-  risk_outdated_ = false;
   return true;
 }
 
@@ -335,10 +327,6 @@ void PlanningCycle::refine(const Candidate& candidate, Explanation& explanation)
 bool PlanningCycle::is_better(const RefinementResult& result, Explanation& explanation) {
   const StageScope scope(probe, Stage::kExactRisk);
   RiskProfile profile;
-  if (risk_outdated_) {
-    exact_risk(scene_, drivable_, conditioned_.set, keep_going_, chosen_, parameters_, explanation.risk);
-    count(explanation, Stage::kExactRisk, 1);
-  }
   exact_risk(scene_, drivable_, conditioned_.set, keep_going_, refined_, parameters_, profile);
   count(explanation, Stage::kExactRisk, 1);
   const float felt = risk_integral(profile, parameters_) - risk_integral(explanation.risk, parameters_);

@@ -103,9 +103,7 @@ class PlanningCycle {
   void rank(bool careful, Explanation& explanation);
   /// Evaluates the shortlisted decisions with the predictions they bring about; leaves the best in chosen_.
   [[nodiscard]] Status choose(Explanation& explanation);
-  /// Rolls candidate `index` out into chosen_, predicts for it and checks it.
-  [[nodiscard]] bool hold(int index, Explanation& explanation);
-  /// The same, and computes its exact risk.
+  /// Rolls candidate `index` out into chosen_, predicts for it, checks it and computes its exact risk.
   [[nodiscard]] bool evaluate(int index, Explanation& explanation);
   [[nodiscard]] int shortlisted() const;  ///< decisions that get a prediction of their own
   [[nodiscard]] std::uint8_t track_id(int agent) const;
@@ -157,7 +155,7 @@ class PlanningCycle {
   Trajectory chosen_;
   Trajectory refined_;
   FailSafe fail_safe_;
-  bool risk_outdated_ = false;  ///< explanation.risk is not of chosen_
+  bool risk_outdated_ = false;  ///< chosen_ is refined_, explanation.risk not of it
 
   /// Scratch of stages that never need it at once: the predictor's ways have served when the optimizer
   /// begins.

@@ -3,6 +3,7 @@
 #include "algo/core/inline.hpp"
 
 namespace s4tp {
+
 bool covers(const CostBox& one, Point point) {
   const Point offset = point - position(one.box.centre);
   return abs(dot(one.ahead, offset)) <= 0.5F * one.box.length_m &&

@@ -34,7 +34,7 @@ void exact_risk(const Scene& scene, const DrivableArea& area, const PredictionSe
   profile.dominating_agent = 255;
   profile.dominating_step = 0;
   float largest = 0.0F;
-  StepInputs inputs = step_inputs(scene, futures, trajectory, parameters, kMostSlicedBoxes);
+  const StepInputs inputs = step_inputs(scene, futures, trajectory, parameters, Precision::kSlices);
   CostBoxes felt;
   for (int i = 0; i < kHorizonSteps; ++i) {
     const StepRisk risk = risk_at(inputs, i, felt);
@@ -54,7 +54,7 @@ void smooth_risk(const Scene& scene, const PredictionSet& prediction, const Kine
                  SmoothRisk (&risks)[kHorizonSteps]) {
   constexpr float kBlend = 0.1F;  // of the threshold: where the excess goes over into a straight line
   const Futures futures = all_modes(scene, prediction, others);
-  StepInputs inputs = step_inputs(scene, futures, trajectory, parameters, 0);
+  StepInputs inputs = step_inputs(scene, futures, trajectory, parameters, Precision::kLines);
   inputs.params.smoothing = kSmoothField;
   const float threshold = parameters.risk.threshold;
   const float blend = kBlend * threshold;
@@ -80,7 +80,7 @@ float rank_risk_of_vehicles(const Scene& scene, const PredictionSet& prediction,
                             const Trajectory& trajectory, const Parameters& parameters) {
   Futures futures = all_modes(scene, prediction, others);
   keep_likeliest(futures);
-  StepInputs inputs = step_inputs(scene, futures, trajectory, parameters, 0);
+  const StepInputs inputs = step_inputs(scene, futures, trajectory, parameters, Precision::kLines);
   CostBoxes felt;
   float sum = 0.0F;
   for (int i = kRankMiddle; i < kHorizonSteps; i += kRankStride) {

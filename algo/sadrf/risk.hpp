@@ -28,8 +28,7 @@ struct RiskProfile {
 /// CORE-062 All modes and steps, both sides. Modes of one vehicle add by probability; where boxes of several
 /// vehicles overlap, the dearest covers the others. `others` covers agents beyond the predicted ones.
 /// \param area  of scene.map, built once a cycle
-/// Work: at most kHorizonSteps * (kMaxAgents * kMaxModes + kMaxTracks) boxes on each side, of which
-/// kMostSlicedBoxes by slices, the nearest steps first.
+/// Work: at most kHorizonSteps * (kMaxAgents * kMaxModes + kMaxTracks) boxes, on each side.
 void exact_risk(const Scene& scene, const DrivableArea& area, const PredictionSet& prediction,
                 const KinematicSet& others, const Trajectory& trajectory, const Parameters& parameters,
                 RiskProfile& profile);

@@ -16,11 +16,9 @@ float radius(float length_m, float width_m) {
 }
 
 /// \param ahead  unit vector of the box's heading
-/// \param sliced_boxes  one less if it was one
-float risk_of_box(const Field& field, const Box& box, Point ahead, float cost, int& sliced_boxes) {
+float risk_of_box(const Field& field, const Box& box, Point ahead, float cost, Precision precision) {
   const float risk = cost * field_over_box(field, box, ahead);
-  if (sliced_boxes <= 0 || risk < kWorthSlices) return risk;
-  --sliced_boxes;
+  if (precision == Precision::kLines || risk < kWorthSlices) return risk;
   return cost * field_over_slices(field, box);
 }
 
@@ -111,7 +109,7 @@ float own_part(const Field& field, const CostBoxes& felt, int index) {
 
 /// R_ego of the vehicles: our field over their boxes. Calls each(field, box, part of it that counts, risk).
 template <typename Each>
-void for_felt(StepInputs& inputs, const Field& field, int step, CostBoxes& felt, const Each& each) {
+void for_felt(const StepInputs& inputs, const Field& field, int step, CostBoxes& felt, const Each& each) {
   felt.clear();
   float risks[CostBoxes::kCapacity];
   for (const Future& future : inputs.futures) {
@@ -122,7 +120,7 @@ void for_felt(StepInputs& inputs, const Field& field, int step, CostBoxes& felt,
     const Point ahead = direction(centre.heading_rad);
     const float cost =
         inputs.parameters.risk.cost_obstacle * future.probability * inputs.modulation[future.agent];
-    const float risk = risk_of_box(field, box, ahead, cost, inputs.sliced_boxes);
+    const float risk = risk_of_box(field, box, ahead, cost, inputs.precision);
     if (risk <= 0.0F) continue;
     risks[felt.size()] = risk;
     if (!felt.push({box, ahead, cost, future.agent})) break;
@@ -189,16 +187,16 @@ FieldGradient by_the_box(const FieldGradient& by_field, Point field_origin, Poin
 }  // namespace
 
 StepInputs step_inputs(const Scene& scene, const Futures& futures, const Trajectory& trajectory,
-                       const Parameters& parameters, int sliced_boxes) {
+                       const Parameters& parameters, Precision precision) {
   const FieldParams params = field_params(parameters, parameters.vehicle.width_m);
-  StepInputs inputs = {scene, futures, trajectory, parameters, sliced_boxes, params, {}};
+  StepInputs inputs = {scene, futures, trajectory, parameters, precision, params, {}};
   for (int i = 0; i < scene.agents.size(); ++i) {
     inputs.modulation[i] = modulation(scene.ego, scene.agents[i].track, parameters);
   }
   return inputs;
 }
 
-StepRisk risk_at(StepInputs& inputs, int step, CostBoxes& felt) {
+StepRisk risk_at(const StepInputs& inputs, int step, CostBoxes& felt) {
   const Driver driver = driver_at(inputs, step);
   StepRisk risk;
   for (int i = 0; i < inputs.scene.agents.size(); ++i) risk.share[i] = 0.0F;
@@ -207,14 +205,14 @@ StepRisk risk_at(StepInputs& inputs, int step, CostBoxes& felt) {
     risk.share[one.agent] += part * whole;
   });
   for_feeling(inputs, driver, step, [&](const Future& future, const Field& field, float cost) {
-    const float value = risk_of_box(field, driver.box, driver.field.ahead, cost, inputs.sliced_boxes);
+    const float value = risk_of_box(field, driver.box, driver.field.ahead, cost, inputs.precision);
     risk.social += value;
     risk.share[future.agent] += inputs.parameters.risk.weight_social * value;
   });
   return risk;
 }
 
-StepSlope slope_at(StepInputs& inputs, int step, CostBoxes& felt) {
+StepSlope slope_at(const StepInputs& inputs, int step, CostBoxes& felt) {
   const Driver driver = driver_at(inputs, step);
   const TrajectoryPoint& point = inputs.trajectory.points[step + 1];
   const FieldSlopes slopes = field_slopes(driver.params, point.speed_mps, point.curvature_1pm,

@@ -9,9 +9,11 @@
 
 namespace s4tp {
 
-/// Boxes of one trajectory that are integrated by slices; the later ones by two lines. Slices cost about
-/// five times as much, and what is far ahead is known least.
-inline constexpr int kMostSlicedBoxes = 96;
+/// How well a field is integrated over a box.
+enum class Precision : std::uint8_t {
+  kLines,   ///< two lines: for ranking
+  kSlices,  ///< slices where it matters
+};
 
 /// What all steps of one trajectory share.
 struct StepInputs {
@@ -19,13 +21,13 @@ struct StepInputs {
   const Futures& futures;
   const Trajectory& trajectory;
   const Parameters& parameters;
-  int sliced_boxes;    ///< that may still be integrated by slices where it matters, else by two lines
-  FieldParams params;  ///< our driver's, but for the look-ahead
+  Precision precision;
+  FieldParams params;            ///< our driver's, but for the look-ahead
   float modulation[kMaxTracks];  ///< g of each agent
 };
 
 [[nodiscard]] StepInputs step_inputs(const Scene& scene, const Futures& futures, const Trajectory& trajectory,
-                                     const Parameters& parameters, int sliced_boxes);
+                                     const Parameters& parameters, Precision precision);
 
 struct StepRisk {
   float obstacle = 0.0F;    ///< R_ego of the vehicles
@@ -35,7 +37,7 @@ struct StepRisk {
 
 /// Both sides at step `step` + 1 of the trajectory.
 /// \param felt  scratch, too large to be made anew at every step
-[[nodiscard]] StepRisk risk_at(StepInputs& inputs, int step, CostBoxes& felt);
+[[nodiscard]] StepRisk risk_at(const StepInputs& inputs, int step, CostBoxes& felt);
 
 /// Derivatives of both parts by x, y, heading, speed and road-wheel angle of the trajectory's point; R_soc
 /// knows neither speed nor steering of ours.
@@ -48,6 +50,6 @@ struct StepSlope {
 
 /// CORE-069 Values and slopes at step `step` + 1; what covers what counts as fixed. Boxes whose risk is below
 /// 20 have no slope. Work: about 6,000 instructions a box in reach.
-[[nodiscard]] StepSlope slope_at(StepInputs& inputs, int step, CostBoxes& felt);
+[[nodiscard]] StepSlope slope_at(const StepInputs& inputs, int step, CostBoxes& felt);
 
 }  // namespace s4tp

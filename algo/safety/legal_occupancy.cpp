@@ -24,8 +24,6 @@ float grip_speed_mps(const Lane& lane) {
   return turned_rad < kBendRad ? kNeverS : sqrt(kGripMps2 * lane.length_m / turned_rad);
 }
 
-constexpr std::uint16_t kSeenMs = 250;  // not seen for longer, it may have set off
-
 float seconds(std::uint16_t time_ms) {
   return 1e-3F * static_cast<float>(time_ms);
 }
@@ -54,9 +52,9 @@ bool can_stop_gently(const Pace& fastest, float to_entry_m, float unseen_s, cons
   return room_m > 0.0F && square(later_mps) <= 2.0F * law.ask_braking_mps2 * room_m;
 }
 
-/// L2.
+/// L2. Who is not seen any more may have set off.
 bool stands_in_sight(const Scene& scene, const Agent& agent, const Parameters& parameters) {
-  return agent.age_ms <= kSeenMs && agent.track.speed_mps < kStandingMps &&
+  return agent.age_ms <= kFreshMs && agent.track.speed_mps < kStandingMps &&
          agent.track.acceleration_mps2 < kSetsOffMps2 && seconds(agent.stood_ms) >= parameters.law.seen_s &&
          scene.waited_s >= parameters.law.seen_s;
 }

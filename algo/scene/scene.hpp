@@ -20,6 +20,9 @@ struct History {
   std::uint16_t valid = 0;  ///< bit i: samples[i] was seen
 };
 
+/// Not in a list for longer, a vehicle is not "seen" any more.
+inline constexpr std::int32_t kFreshMs = 250;
+
 /// A vehicle as of the scene's time (tracks are brought forward from the list's time).
 struct Agent {
   Track track;

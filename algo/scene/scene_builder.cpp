@@ -10,7 +10,6 @@ namespace {
 
 constexpr std::int32_t kCoastMs = 500;     // CORE-030: a list
 constexpr std::int32_t kMissingMs = 1000;  // a vehicle that fresh lists lack
-constexpr std::int32_t kFreshMs = 250;     // a pose older than this is not "seen" any more
 constexpr float kSameVehicleM = 2.0F;      // a new id this near a lost vehicle is that vehicle
 constexpr float kSameSpeedMps = 4.0F;
 constexpr float kJumpM = 8.0F;    // an id this far from where it should be is another vehicle

@@ -27,6 +27,7 @@ class StaticDrfPlanner final : public PlanningCycle {
       agent.track.speed_mps = 0.0F;
       agent.track.acceleration_mps2 = 0.0F;
       agent.track.yaw_rate_radps = 0.0F;
+      agent.coasted_m = 0.0F;
       agent.coasted_mps = 0.0F;
       agent.lane = kNoLaneIndex;
       agent.paths.clear();

@@ -5,6 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "algo/satp/shipped_weights.hpp"
 #include "sim_host/world/box.hpp"
 
 namespace s4tp::clips {
@@ -104,9 +105,12 @@ class AlongLane final : public Forecaster {
 }  // namespace
 
 const std::vector<std::string>& forecaster_names() {
-  static const std::vector<std::string> names{
-      "satp",          "kinematic", "constant_velocity", "constant_acceleration", "constant_turn_rate",
-      "lane_following"};
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all{"kinematic", "constant_velocity", "constant_acceleration",
+                                 "constant_turn_rate", "lane_following"};
+    if (satp::shipped_weights().image != nullptr) all.insert(all.begin(), "satp");
+    return all;
+  }();
   return names;
 }
 

@@ -29,7 +29,7 @@ class Forecaster {
                                                          int step) const = 0;
 };
 
-/// The names make_forecaster() accepts.
+/// The names make_forecaster() accepts; satp only where the build carries weights.
 [[nodiscard]] const std::vector<std::string>& forecaster_names();
 
 /// CLIP-002 constant_velocity keeps speed and heading; constant_acceleration the mean acceleration of the

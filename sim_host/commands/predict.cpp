@@ -29,9 +29,11 @@ int run(const PredictOptions& options) {
   nlohmann::json runs = nlohmann::json::array();
   std::printf("%-22s %-12s %7s  ADE / FDE 3 s  minADE  miss 2 m    NLL   of them manoeuvres, ADE / FDE\n",
               "predictor", "family", "windows");
-  for (const std::string& name : options.predictors) {
-    const std::unique_ptr<clips::Forecaster> forecaster = clips::make_forecaster(name);
-    clips::ClipFigures figures(*forecaster);
+  std::vector<std::unique_ptr<clips::Forecaster>> forecasters;  // all, before the first takes its time
+  for (const std::string& name : options.predictors) forecasters.push_back(clips::make_forecaster(name));
+  for (std::size_t k = 0; k < forecasters.size(); ++k) {
+    const std::string& name = options.predictors[k];
+    clips::ClipFigures figures(*forecasters[k]);
     for (std::size_t i = 0; i < files.size(); ++i) {
       std::cerr << '\r' << name << ": clip " << i + 1 << " of " << files.size() << ' ' << std::flush;
       figures.add(clips::load_clip(files[i]));
@@ -57,8 +59,7 @@ Command add_predict(CLI::App& tool) {
   const auto options = std::make_shared<PredictOptions>();
   predict->add_option("--clips", options->clips, "folder of clips (docs/recorded_clips.md)")->required();
   predict->add_option("--predictor,--predictors", options->predictors, "which (default: all)")
-      ->delimiter(',')
-      ->check(CLI::IsMember(clips::forecaster_names()));
+      ->delimiter(',');
   predict->add_option("--json", options->json, "write the figures here");
   return {predict, [options] { return run(*options); }};
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
+#include <iterator>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -53,7 +54,7 @@ ordered_json read_json(const fs::path& file) {
   std::ifstream stream(file);
   if (!stream) throw std::runtime_error(file.string() + ": cannot be read");
   try {
-    return ordered_json::parse(stream);
+    return campaign::parse_json({std::istreambuf_iterator<char>(stream), {}});
   } catch (const std::exception& error) {
     throw std::runtime_error(file.string() + ": " + error.what());
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <numbers>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -24,7 +25,6 @@ using world::Network;
 using world::NetworkLane;
 
 constexpr double kTick_s = 0.01;
-constexpr double kPi = 3.14159265358979323846;
 
 const NetworkLane& lane_of(const Network& network, LaneId lane) {
   return network.lanes[static_cast<std::size_t>(lane)];
@@ -39,7 +39,7 @@ double sumo_position_m(const NetworkLane& lane, double s_m) {
 
 double turn_rad(const NetworkLane& lane) {
   const double turn = lane.centre.at(lane.centre.length_m()).heading_rad - lane.centre.at(0.0).heading_rad;
-  return std::abs(std::remainder(turn, 2.0 * kPi));
+  return std::abs(std::remainder(turn, 2.0 * std::numbers::pi));
 }
 
 /// Straight on from a lane to where the network ends, or an edge would come again.
@@ -131,7 +131,7 @@ StartMade write_same_start(const fs::path& file, const DriveNote& note, double s
     if (on_a_lane(at)) placed.push_back({car, at});
     if (!on_a_lane(at)) ++made.left_out;
   }
-  // Who is ahead comes first: whoever is behind finds him there.
+  // Whoever is ahead comes first, so that those behind find it there.
   std::sort(placed.begin(), placed.end(),
             [](const Placed& a, const Placed& b) { return a.at.s_m > b.at.s_m; });
 

@@ -56,6 +56,7 @@ bool is_time(const std::string& word) {
 /// A line of candump's with a frame that is none of ours: 29 bits of id, CAN FD, remote, error.
 bool other_frame(const std::string& line) {
   constexpr const char* kHex = "0123456789ABCDEFabcdef";
+  constexpr const char* kBytes = "0123456789ABCDEFabcdef.";
   std::istringstream words(line);
   std::string time, interface, frame, direction, more;
   words >> time >> interface >> frame >> direction >> more;
@@ -65,10 +66,10 @@ bool other_frame(const std::string& line) {
   const std::size_t mark = frame.find('#');
   if (mark == std::string::npos || !all_of(frame.substr(0, mark), kHex)) return false;
   const std::string data = frame.substr(mark + 1);
-  const bool fd =
-      data.size() > 1 && data[0] == '#' && all_of(data.substr(1), (std::string(kHex) + '.').c_str());
-  const bool remote = !data.empty() && data[0] == 'R' && data.size() <= 2;
-  const bool long_id = mark == 8 && (data.empty() || all_of(data, (std::string(kHex) + '.').c_str()));
+  const bool fd = data.size() > 1 && data[0] == '#' && all_of(data.substr(1), kBytes);
+  const bool remote =
+      data == "R" || (data.size() == 2 && data[0] == 'R' && all_of(data.substr(1), "0123456789"));
+  const bool long_id = mark == 8 && (data.empty() || all_of(data, kBytes));
   return long_id || (mark >= 3 && mark <= 8 && (fd || remote));
 }
 

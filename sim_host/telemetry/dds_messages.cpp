@@ -202,15 +202,7 @@ TrajectoryMessage trajectory(const Plan& plan, float wheelbase_m, Arena& arena) 
 MarkerArray candidate_markers(const ecu::PlanRecord& plan, const std::vector<RolledOut>& candidates,
                               Arena& arena) {
   const Header stamp = header(plan.plan.start_ms, kOdom, arena);
-  float least = 0.0F;
-  float most = 0.0F;
-  bool first = true;
-  for (const RolledOut& one : candidates) {
-    if (!one.costed) continue;
-    least = first ? one.cost.total() : std::min(least, one.cost.total());
-    most = first ? one.cost.total() : std::max(most, one.cost.total());
-    first = false;
-  }
+  const auto [least, most] = cost_range(candidates);
   MarkerArray result{};
   auto* to = arena.sequence(result.markers, 1 + 2 * candidates.size());
   *to++ = clear_all(stamp, arena);

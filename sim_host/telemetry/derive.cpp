@@ -28,6 +28,14 @@ bool same(const Candidate& a, const Candidate& b) {
          a.target_s_m == b.target_s_m && a.lateral_length_m == b.lateral_length_m && a.in_gap == b.in_gap;
 }
 
+KinematicSet keep_going(const Scene& scene, const ecu::PlanRecord& plan, const Parameters& parameters) {
+  const auto predictor = std::make_unique<Predictor>();
+  KinematicSet others;
+  predictor->encode(scene, parameters, plan.plan.start_ms);
+  predictor->keep_going(others);
+  return others;
+}
+
 /// When our box's centre is beyond the zone; after the horizon we go on as the guard takes us to.
 float leaves_s(const Scene& scene, const EgoPath& path, const Trajectory& trajectory,
                const ConflictZone& zone, const Parameters& parameters) {
@@ -66,14 +74,23 @@ std::vector<RolledOut> candidates_of(const ecu::PlanRecord& plan, const CycleRec
   return result;
 }
 
+CostRange cost_range(const std::vector<RolledOut>& candidates) {
+  CostRange range;
+  bool first = true;
+  for (const RolledOut& one : candidates) {
+    if (!one.costed) continue;
+    range.least = first ? one.cost.total() : std::min(range.least, one.cost.total());
+    range.most = first ? one.cost.total() : std::max(range.most, one.cost.total());
+    first = false;
+  }
+  return range;
+}
+
 HeatMap heat_map_of(const ecu::PlanRecord& plan, const CycleRecord& cycle, const Parameters& parameters) {
   const Scene scene = scene_of(cycle);
   DrivableArea area;
   build_drivable(scene.map, area);
-  const auto predictor = std::make_unique<Predictor>();
-  KinematicSet others;
-  predictor->encode(scene, parameters, plan.plan.start_ms);
-  predictor->keep_going(others);
+  const KinematicSet others = keep_going(scene, plan, parameters);
   HeatMap map;
   for (int row = 0; row < kHeatRows; ++row)
     heat_row(scene, area, cycle.prediction, others, parameters, row, map);
@@ -89,6 +106,14 @@ Plan fail_safe_of(const ecu::PlanRecord& plan, const Parameters& parameters) {
   return result;
 }
 
+bool matters_more(const safety::ZoneOccupancy& one, const safety::ZoneOccupancy& other) {
+  if (one.claim == safety::Claim::kNone || other.claim == safety::Claim::kNone)
+    return one.claim != safety::Claim::kNone;
+  const bool comes = one.claim == safety::Claim::kMayCome;
+  if (comes != (other.claim == safety::Claim::kMayCome)) return comes;
+  return one.from_s < other.from_s;
+}
+
 std::vector<GroundClaim> claims_of(const ecu::PlanRecord& plan, const CycleRecord& cycle,
                                    const Parameters& parameters) {
   const Scene scene = scene_of(cycle);
@@ -99,20 +124,14 @@ std::vector<GroundClaim> claims_of(const ecu::PlanRecord& plan, const CycleRecor
   const float lead_s = 0.001F * static_cast<float>(plan.plan.start_ms - scene.time_ms);
   for (int i = 0; i < scene.agents.size(); ++i) {
     GroundClaim& claim = claims[static_cast<std::size_t>(i)];
-    const safety::ZoneOccupancy& first = claim.its;
     for (const ConflictZone& zone : path.zones) {
       if (zone.exit_s_m < path.frenet.s_m) continue;  // behind us
       occupancy::LaneReach reach;
       reach.measure(*scene.map, scene.agents[i], !zone.merging);
       const safety::ZoneOccupancy when =
           safety::zone_occupancy(scene, scene.agents[i], reach, zone, lead_s, parameters);
-      if (when.claim == safety::Claim::kNone) continue;
-      const bool comes = when.claim == safety::Claim::kMayCome;
-      const bool came = first.claim == safety::Claim::kMayCome;
-      if (first.claim == safety::Claim::kNone || (comes && !came) ||
-          (comes == came && when.from_s < first.from_s)) {
+      if (matters_more(when, claim.its))
         claim = {when, leaves_s(scene, path, plan.plan.trajectory, zone, parameters)};
-      }
     }
   }
   return claims;
@@ -123,10 +142,7 @@ std::vector<float> risk_shares(const ecu::PlanRecord& plan, const CycleRecord& c
   const Scene scene = scene_of(cycle);
   DrivableArea area;
   build_drivable(scene.map, area);
-  const auto predictor = std::make_unique<Predictor>();
-  KinematicSet others;
-  predictor->encode(scene, parameters, plan.plan.start_ms);
-  predictor->keep_going(others);
+  const KinematicSet others = keep_going(scene, plan, parameters);
   std::vector<float> shares;
   float sum = 0.0F;
   for (int i = 0; i < scene.agents.size(); ++i) {

@@ -23,6 +23,13 @@ struct RolledOut {
 [[nodiscard]] std::vector<RolledOut> candidates_of(const ecu::PlanRecord& plan, const CycleRecord& cycle,
                                                    const Parameters& parameters);
 
+/// What the candidates that were not rejected cost; zeros when there are none.
+struct CostRange {
+  float least = 0.0F;
+  float most = 0.0F;
+};
+[[nodiscard]] CostRange cost_range(const std::vector<RolledOut>& candidates);
+
 /// TELE-011 The risk around us, as s4tp::heat_row draws it. Takes tens of milliseconds.
 [[nodiscard]] HeatMap heat_map_of(const ecu::PlanRecord& plan, const CycleRecord& cycle,
                                   const Parameters& parameters);
@@ -35,6 +42,10 @@ struct GroundClaim {
   safety::ZoneOccupancy its;
   float we_leave_s = occupancy::kNeverS;  ///< after plan start; so large: the plan waits
 };
+
+/// Of two claims the one to reckon with: one that may come before one that stays out, then the
+/// one that can be there first.
+[[nodiscard]] bool matters_more(const safety::ZoneOccupancy& one, const safety::ZoneOccupancy& other);
 
 /// TELE-013 What each vehicle of the scene may claim where its way meets the one we chose, in the scene's
 /// order: of its zones the one it may be in first. No claim where ways do not meet.

@@ -74,15 +74,7 @@ ordered_json candidates_json(const ecu::PlanRecord& plan, const CycleRecord& cyc
   static constexpr const char* kWhy[] = {"", "beyond the car's limits", "", "refused by the guard",
                                          "left out"};
   const std::vector<RolledOut> candidates = candidates_of(plan, cycle, parameters);
-  float least = 0.0F;
-  float most = 0.0F;
-  bool first = true;
-  for (const RolledOut& one : candidates) {
-    if (!one.costed) continue;
-    least = first ? one.cost.total() : std::min(least, one.cost.total());
-    most = first ? one.cost.total() : std::max(most, one.cost.total());
-    first = false;
-  }
+  const auto [least, most] = cost_range(candidates);
   ordered_json list = ordered_json::array();
   for (const RolledOut& one : candidates) {
     const double part = most > least ? rounded((one.cost.total() - least) / (most - least)) : 0.0;

@@ -26,15 +26,12 @@ int agent_of(const CycleRecord& cycle, int track) {
 /// What to look at when nobody holds us up.
 int most_relevant(const ecu::PlanRecord& plan, const CycleRecord& cycle,
                   const std::vector<GroundClaim>& claims) {
-  const safety::ZoneOccupancy* first = nullptr;
+  safety::ZoneOccupancy first;
   int agent = -1;
   for (int i = 0; i < cycle.scene.agents.size(); ++i) {
     const safety::ZoneOccupancy& one = claims[static_cast<std::size_t>(i)].its;
-    if (one.claim == safety::Claim::kNone) continue;
-    const bool comes = one.claim == safety::Claim::kMayCome;
-    const bool came = first != nullptr && first->claim == safety::Claim::kMayCome;
-    if (first != nullptr && (came || !comes) && (came != comes || first->from_s <= one.from_s)) continue;
-    first = &one;
+    if (!matters_more(one, first)) continue;
+    first = one;
     agent = i;
   }
   return agent >= 0 ? agent : agent_of(cycle, plan.explanation.dominating_track);

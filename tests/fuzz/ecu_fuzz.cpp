@@ -36,21 +36,6 @@ void any_plan(Input& input, const PlannerInput& world, Plan& plan) {
   if (input.below(4) == 1) plan.kind = PlanKind::kMinimumRisk;
 }
 
-void change_tracks(Input& input, wire::Tracks& tracks) {
-  tracks.count = static_cast<std::uint8_t>(input.below(wire::kMaxTracks + 1));
-  for (int i = 0; i < tracks.count; ++i) {
-    tracks.items[i] = {input.byte(),
-                       input.real(-1310.0F, 1310.0F),
-                       input.real(-1310.0F, 1310.0F),
-                       input.real(-3.1F, 3.1F),
-                       input.real(0.0F, 60.0F),
-                       input.real(-12.0F, 12.0F),
-                       input.real(-1.2F, 1.2F),
-                       input.real(0.0F, 25.0F),
-                       input.real(0.0F, 3.0F)};
-  }
-}
-
 void change_map(Input& input, wire::MapSender& sender) {
   wire::Map map = ecu::straight_map();
   for (int lanes = input.below(4); lanes > 0; --lanes) {
@@ -115,7 +100,7 @@ void change_world(Input& input, Rig& rig) {
       rig.layout_hash ^= input.byte();
       break;
     case 11:
-      change_tracks(input, rig.track_list);
+      take_tracks(input, rig.track_list);
       break;
     case 12:
       change_map(input, rig.map_sender);

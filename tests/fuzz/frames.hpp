@@ -5,6 +5,7 @@
 
 #include "firmware/wire/codec.hpp"
 #include "firmware/wire/e2e.hpp"
+#include "firmware/wire/track_list.hpp"
 #include "tests/fuzz/input.hpp"
 
 namespace s4tp::fuzz {
@@ -37,6 +38,22 @@ inline wire::Frame take_frame(Input& input, Counters& counters) {
   }
   if (how < 224) wire::e2e_seal(frame);
   return frame;
+}
+
+/// Any number of tracks, all within the wire's ranges.
+inline void take_tracks(Input& input, wire::Tracks& tracks) {
+  tracks.count = static_cast<std::uint8_t>(input.below(wire::kMaxTracks + 1));
+  for (int i = 0; i < tracks.count; ++i) {
+    tracks.items[i] = {input.byte(),
+                       input.real(-1310.0F, 1310.0F),
+                       input.real(-1310.0F, 1310.0F),
+                       input.real(-3.1F, 3.1F),
+                       input.real(0.0F, 60.0F),
+                       input.real(-12.0F, 12.0F),
+                       input.real(-1.2F, 1.2F),
+                       input.real(0.0F, 25.0F),
+                       input.real(0.0F, 3.0F)};
+  }
 }
 
 }  // namespace s4tp::fuzz

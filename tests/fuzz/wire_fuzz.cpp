@@ -69,24 +69,6 @@ void check(const wire::Tracks& tracks) {
   }
 }
 
-wire::Tracks take_tracks(Input& input) {
-  wire::Tracks tracks;
-  tracks.vehicle_time_ms = input.take<std::uint16_t>();
-  tracks.count = static_cast<std::uint8_t>(input.below(wire::kMaxTracks + 1));
-  for (int i = 0; i < tracks.count; ++i) {
-    tracks.items[i] = {input.byte(),
-                       input.real(-1310.0F, 1310.0F),
-                       input.real(-1310.0F, 1310.0F),
-                       input.real(-3.1F, 3.1F),
-                       input.real(0.0F, 60.0F),
-                       input.real(-12.0F, 12.0F),
-                       input.real(-1.2F, 1.2F),
-                       input.real(0.0F, 25.0F),
-                       input.real(0.0F, 3.0F)};
-  }
-  return tracks;
-}
-
 /// The same but for the steps of the wire.
 bool alike(const wire::Tracks& a, const wire::Tracks& b) {
   if (a.vehicle_time_ms != b.vehicle_time_ms || a.count != b.count) return false;
@@ -142,7 +124,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       disturbed.nothing_arrived();
       for (wire::E2eReceiver& protection : protections) static_cast<void>(protection.nothing_arrived());
     } else if (what < 3) {
-      sent.push_back(take_tracks(input));
+      wire::Tracks& tracks = sent.emplace_back();
+      tracks.vehicle_time_ms = input.take<std::uint16_t>();
+      take_tracks(input, tracks);
       for (const wire::Frame& frame : take_list(input, sender, sent.back())) {
         if (disturbed.accept(frame)) check(disturbed.tracks());
         if (!receiver.accept(frame)) continue;
