@@ -206,6 +206,7 @@ int run_on_target(RunOptions run) {
   processes::TargetOptions options;
   options.target = run.target;
   options.image = run.image;
+  options.telemetry = run.telemetry;
   options.world.seed = run.common.seed;
   options.world.engine = world::engine_of(run.common.traffic);
   options.world.perception = world::perception_preset(run.perception);
@@ -256,9 +257,9 @@ Command add_run(CLI::App& tool) {
   bus->excludes(explain);
   run->add_flag("--realtime", options->realtime, "on a bus: 10 ms of host time a tick")->needs(bus);
   run->add_flag("--no-ecu", options->no_ecu, "on a bus: an ECU is there already")->needs(bus);
-  CLI::Option* const telemetry = run->add_option(
-      "--telemetry", options->telemetry,
-      "on a bus, and live: shared memory the ECU tells what it does through (default /s4tp_ecu)");
+  CLI::Option* const telemetry = run->add_option("--telemetry", options->telemetry,
+                                                 "on a bus, on a target, and live: shared memory the ECU "
+                                                 "tells what it does through (default /s4tp_ecu)");
   CLI::Option* const live =
       run->add_flag("--live", options->live, "at the pace of the clock, for ./s4tp view in another terminal");
   live->excludes(bus);
@@ -280,8 +281,8 @@ Command add_run(CLI::App& tool) {
   return {run, [=] {
             options->common.choose_out();
             if (!options->target.empty()) return run_on_target(*options);
-            if (telemetry->count() > 0 && bus->count() + live->count() == 0)
-              throw std::runtime_error("--telemetry: with --bus or --live only");
+            if (telemetry->count() > 0 && bus->count() + live->count() + target->count() == 0)
+              throw std::runtime_error("--telemetry: with --bus, --target or --live only");
             if (options->bus.empty()) return run_one(*options);
             if (!needs_machine(options->bus, options->machine)) return run_on_bus(*options);
             if (options->no_ecu) throw std::runtime_error("--no-ecu: there is no other ECU in the machine");

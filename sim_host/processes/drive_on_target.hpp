@@ -13,6 +13,7 @@ struct TargetOptions {
   std::string target = "m7";    ///< board_targets()
   std::filesystem::path image;  ///< empty: ecu_lockstep of the target's build
   WorldProcessOptions world;    ///< without its bus
+  std::string telemetry;        ///< shared memory a BoardTwin writes records to; empty: none
   std::filesystem::path out;    ///< folder of run.json, cost_TARGET.json and the console's text
 };
 

@@ -25,6 +25,8 @@ class EcuTap final : public hal::Telemetry, public Probe {
   [[nodiscard]] bool open(const std::string& name, const std::string& planner, const std::string& bus,
                           const Parameters& parameters, hal::linux_host::Reason& reason);
   [[nodiscard]] bool is_open() const { return memory_.is_open(); }
+  /// Whoever reads learns that this ECU has ended.
+  void close() { memory_.close(); }
 
   /// Control context, after each tick.
   void note_status(const ecu::EcuCore& core, const hal::Can& can);
