@@ -5,6 +5,7 @@
 #include "algo/core/inline.hpp"
 #include "algo/core/self_test.hpp"
 #include "algo/planner/stage_scope.hpp"
+#include "algo/sadrf/futures.hpp"
 #include "algo/sadrf/overlap.hpp"
 #include "algo/safety/fail_safe.hpp"
 #include "algo/satp/shipped_weights.hpp"
@@ -167,10 +168,9 @@ void PlanningCycle::explain_risk(Status status, Explanation& explanation) {
   const StageScope scope(probe, Stage::kExactRisk);
   // What the optimizer changed, or the minimum-risk manoeuvre, is felt anew while the allowance lasts.
   const bool changed = status != Status::kOk || risk_outdated_;
-  if (changed && explanation.work[static_cast<int>(Stage::kExactRisk)] < allowance.exact_risks) {
-    const PredictionSet& prediction = status == Status::kOk ? conditioned_.set : unconditioned_;
-    exact_risk(scene_, drivable_, prediction, keep_going_, chosen_, parameters_, explanation.risk);
-    count(explanation, Stage::kExactRisk, 1);
+  const PredictionSet& prediction = status == Status::kOk ? conditioned_.set : unconditioned_;
+  if (changed && can_feel(prediction, explanation)) {
+    feel(prediction, chosen_, explanation, explanation.risk);
   } else if (status != Status::kOk) {
     explanation.risk = RiskProfile{};  // it is of a motion that was rejected
   }
@@ -232,12 +232,14 @@ Status PlanningCycle::choose(Explanation& explanation) {
     if (best < 0 || costs_[index].total() <= costs_[best].total()) {
       second = best;
       best = index;
+      best_risk_ = explanation.risk;
     } else if (second < 0 || costs_[index].total() <= costs_[second].total()) {
       second = index;
     }
   }
   if (best < 0) return Status::kNoSafePlan;
-  if (best != held && !evaluate(best, explanation)) return Status::kNoSafePlan;
+  if (best != held && !hold(best, explanation)) return Status::kNoSafePlan;
+  explanation.risk = best_risk_;
   refine(candidates_[best], explanation);
   const safety::Verdict verdict = guard_.judge(candidates_[best].path, chosen_);
   guard_.commit(candidates_[best].path, verdict);
@@ -259,13 +261,12 @@ Status PlanningCycle::choose(Explanation& explanation) {
   return Status::kOk;
 }
 
-bool PlanningCycle::evaluate(int index, Explanation& explanation) {
+bool PlanningCycle::hold(int index, Explanation& explanation) {
   const Candidate& candidate = candidates_[index];
   {
     const StageScope scope(probe, Stage::kCandidates);
     roll_out(lines_[candidate.path], candidate, start_, running_, start_ms_, parameters_, chosen_);
   }
-  explanation.risk = RiskProfile{};
   if (allowance.decisions <= 0) return true;  // it has passed with the predictions without plan
   {
     const StageScope scope(probe, Stage::kPredict);
@@ -281,13 +282,29 @@ bool PlanningCycle::evaluate(int index, Explanation& explanation) {
       return false;
     }
   }
-  // Without an allowance left the ranking's risk stands.
-  if (explanation.work[static_cast<int>(Stage::kExactRisk)] >= allowance.exact_risks) return true;
+  return true;
+}
+
+bool PlanningCycle::can_feel(const PredictionSet& prediction, const Explanation& explanation) const {
+  const int futures = all_modes(scene_, prediction, keep_going_).size();
+  return explanation.work[static_cast<int>(Stage::kExactRisk)] + futures + 1 <= allowance.exact_risk;
+}
+
+void PlanningCycle::feel(const PredictionSet& prediction, const Trajectory& trajectory,
+                         Explanation& explanation, RiskProfile& profile) {
+  exact_risk(scene_, drivable_, prediction, keep_going_, trajectory, parameters_, profile);
+  count(explanation, Stage::kExactRisk, all_modes(scene_, prediction, keep_going_).size() + 1);
+}
+
+bool PlanningCycle::evaluate(int index, Explanation& explanation) {
+  explanation.risk = RiskProfile{};
+  if (!hold(index, explanation)) return false;
+  // Without an allowance left the ranking's risk stands; without a prediction of its own, too.
   const StageScope scope(probe, Stage::kExactRisk);
-  exact_risk(scene_, drivable_, conditioned_.set, keep_going_, chosen_, parameters_, explanation.risk);
+  if (allowance.decisions <= 0 || !can_feel(conditioned_.set, explanation)) return true;
+  feel(conditioned_.set, chosen_, explanation, explanation.risk);
   costs_[index].risk = parameters_.scoring.risk * risk_integral(explanation.risk, parameters_) +
                        crash_cost(conditioned_.set) + hard_[index];
-  count(explanation, Stage::kExactRisk, 1);
   return true;
 }
 
@@ -298,7 +315,7 @@ const RefinementProblem* PlanningCycle::last_refinement() const {
 void PlanningCycle::refine(const Candidate& candidate, Explanation& explanation) {
   const int passes = to_int(parameters_.refinement.passes, 0, allowance.optimizer_iterations);
   // In the field the exact risk decides.
-  const bool can_decide = explanation.work[static_cast<int>(Stage::kExactRisk)] < allowance.exact_risks;
+  const bool can_decide = can_feel(conditioned_.set, explanation);
   const int feelings = can_decide && parameters_.scoring.risk > 0.0F ? allowance.field_feelings : 0;
   RefinementResult result;
   {
@@ -327,8 +344,7 @@ void PlanningCycle::refine(const Candidate& candidate, Explanation& explanation)
 bool PlanningCycle::is_better(const RefinementResult& result, Explanation& explanation) {
   const StageScope scope(probe, Stage::kExactRisk);
   RiskProfile profile;
-  exact_risk(scene_, drivable_, conditioned_.set, keep_going_, refined_, parameters_, profile);
-  count(explanation, Stage::kExactRisk, 1);
+  feel(conditioned_.set, refined_, explanation, profile);
   const float felt = risk_integral(profile, parameters_) - risk_integral(explanation.risk, parameters_);
   if (result.own_after - result.own_before + parameters_.scoring.risk * felt > 0.0F) return false;
   explanation.risk = profile;

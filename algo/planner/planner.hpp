@@ -42,9 +42,11 @@ struct WorkAllowance {
   int prediction =
       kMaxPredictionWork;         ///< agent-mode-steps of one prediction; whom it leaves out just keeps going
   int decisions = kMaxDecisions;  ///< conditioned predictions; without one the best ranked is chosen
-  int exact_risks = kMaxExactRisk;  ///< exact risk profiles; beyond, the ranking's risk stands
-  int optimizer_iterations = 16;    ///< passes of the optimizer
-  int field_feelings = 0;           ///< times it feels the risk field, at most 3; 0: it smooths only
+  /// CORE-073 Futures felt exactly, and the road once a trajectory: in a crowd three trajectories', among few
+  /// vehicles more. Beyond it the ranking's risk stands.
+  int exact_risk = kMaxExactRisk;
+  int optimizer_iterations = 16;  ///< passes of the optimizer
+  int field_feelings = 0;         ///< times it feels the risk field, at most 3; 0: it smooths only
 };
 
 /// The cycle. What it is composed with, the guard and the belief that others move as they are seen to, a
@@ -103,11 +105,17 @@ class PlanningCycle {
   void rank(bool careful, Explanation& explanation);
   /// Evaluates the shortlisted decisions with the predictions they bring about; leaves the best in chosen_.
   [[nodiscard]] Status choose(Explanation& explanation);
-  /// Rolls candidate `index` out into chosen_, predicts for it, checks it and computes its exact risk.
+  /// Rolls candidate `index` out into chosen_, predicts for it and checks it.
+  [[nodiscard]] bool hold(int index, Explanation& explanation);
+  /// The same, and computes its exact risk.
   [[nodiscard]] bool evaluate(int index, Explanation& explanation);
   [[nodiscard]] int shortlisted() const;  ///< decisions that get a prediction of their own
   [[nodiscard]] std::uint8_t track_id(int agent) const;
   void explain_risk(Status status, Explanation& explanation);
+  /// Whether the allowance covers one more exact risk among these futures.
+  [[nodiscard]] bool can_feel(const PredictionSet& prediction, const Explanation& explanation) const;
+  void feel(const PredictionSet& prediction, const Trajectory& trajectory, Explanation& explanation,
+            RiskProfile& profile);
   /// Price of the touches that are to be expected.
   [[nodiscard]] float crash_cost(const PredictionSet& prediction) const;
   /// Drives the fail-safe of the plan in force.
@@ -155,6 +163,7 @@ class PlanningCycle {
   Trajectory chosen_;
   Trajectory refined_;
   FailSafe fail_safe_;
+  RiskProfile best_risk_;       ///< of the best decision so far
   bool risk_outdated_ = false;  ///< chosen_ is refined_, explanation.risk not of it
 
   /// Scratch of stages that never need it at once: the predictor's ways have served when the optimizer

@@ -330,8 +330,21 @@ Scenario load(const std::filesystem::path& path, const std::string& flavour, boo
 }  // namespace
 
 std::filesystem::path scenario_path(const std::filesystem::path& shipped, const std::string& name) {
-  const std::filesystem::path folder = shipped / name;
-  return std::filesystem::is_regular_file(folder / "scenario.toml") ? folder : std::filesystem::path(name);
+  namespace fs = std::filesystem;
+  const auto is_scenario = [](const fs::path& folder) {
+    return fs::is_regular_file(folder / "scenario.toml");
+  };
+  if (is_scenario(shipped / name)) return shipped / name;
+  const fs::path given = name;
+  if (given.has_parent_path() || fs::exists(given) || !fs::is_directory(shipped)) return given;
+  std::set<std::string> names;
+  for (const fs::directory_entry& entry : fs::directory_iterator(shipped)) {
+    if (is_scenario(entry.path())) names.insert(entry.path().filename().string());
+  }
+  std::string known;
+  for (const std::string& one : names) known += (known.empty() ? "" : ", ") + one;
+  throw std::runtime_error(name + ": there is no such scenario; shipped are: " + known +
+                           "; your own is a folder that holds a scenario.toml");
 }
 
 RouteGuide mission_guide(const Scenario& scenario) {

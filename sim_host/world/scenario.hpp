@@ -48,6 +48,7 @@ struct Scenario {
 [[nodiscard]] Scenario load_scenario(const std::filesystem::path& path, const std::string& flavour = {});
 
 /// The folder of a shipped scenario by its name, else the path as given.
+/// SCN-004 \throws std::runtime_error naming the shipped ones where a name without a folder is neither
 [[nodiscard]] std::filesystem::path scenario_path(const std::filesystem::path& shipped,
                                                   const std::string& name);
 

@@ -24,7 +24,7 @@ class Rationed final : public PlanningCycle {
  public:
   Rationed() {
     for (int* const units : {&allowance.candidates, &allowance.prediction, &allowance.decisions,
-                             &allowance.exact_risks, &allowance.optimizer_iterations}) {
+                             &allowance.exact_risk, &allowance.optimizer_iterations}) {
       *units = *units * kPercent / 100;
     }
   }
@@ -64,7 +64,7 @@ bool can_be_driven(const Plan& plan) {
 
 class Allowance : public testing::TestWithParam<const char*> {};
 
-// CORE-009 In every scenario, with half, a tenth and none of what each stage may spend: every plan of the
+// CORE-009, CORE-073: in every scenario, with half, a tenth and none of what each stage may spend: every plan of the
 // drive can be driven, none used more than it was allowed, and nobody is touched through our fault. With none
 // of it there is no candidate, and every plan is the minimum-risk manoeuvre.
 TEST_P(Allowance, EveryCutGivesAPlan) {

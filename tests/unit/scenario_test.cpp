@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -210,6 +212,23 @@ TEST(Scenario, TheShippedOnesLoad) {
     EXPECT_EQ(scenario.flows[0].routes.size(), expected.routes) << expected.name;
     EXPECT_EQ(scenario.flows[0].choose_low, expected.choose_low) << expected.name;
     EXPECT_EQ(scenario.flows[0].choose_high, expected.choose_high) << expected.name;
+  }
+}
+
+// SCN-004: a slip in a shipped name is answered with those there are; a path of one's own stays as it is given,
+// whether or not it is there.
+TEST(ScenarioPath, NamesTheShippedOnes) {
+  const std::filesystem::path root = std::filesystem::path(S4TP_SOURCE_DIR) / "sim_host/scenarios";
+  EXPECT_EQ(scenario_path(root, "merge"), root / "merge");
+  EXPECT_EQ(scenario_path(root, "mine/lefturn"), "mine/lefturn");
+  try {
+    (void)scenario_path(root, "lefturn");
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(
+        std::string(error.what()).find("lefturn: there is no such scenario; shipped are: cruise, cut_in,"),
+        std::string::npos)
+        << error.what();
   }
 }
 
