@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Gate on a linked image: no allocator, no exceptions, no RTTI, no double, memory and stack within the budgets.
+"""Gate on a linked image: no allocator, no exceptions, no RTTI, no double, no DDS, memory and stack within the budgets.
 
     check_symbols.py --target TARGET --build BUILD_FOLDER [--image NAME]
 
@@ -31,6 +31,7 @@ FORBIDDEN = (
     ("libm", r"(sqrt|sin|cos|tan|asin|acos|atan|atan2|exp|exp2|log|log2|log10|pow|tanh|erf|fmod|floor|ceil|round|fma)f?"
              r"|__ieee754_.*|__kernel_.*"),
     ("recursion of static initialisation", r"__cxa_guard.*|__cxa_atexit|__aeabi_atexit|atexit"),
+    ("DDS", r"_?dds[irt]*_.*|.*_msg_dds__.*|.*(cyclone|eprosima|fastdds|fastrtps).*"),
     ("console", r"_?(v?s?n?printf|puts|fwrite|fopen)(_r)?|_ZSt4cout"),
 )
 FORBIDDEN_SECTIONS = (".ARM.exidx", ".ARM.extab", ".eh_frame", ".gcc_except_table")
@@ -193,7 +194,7 @@ def main():
             check_image(arguments.target, arguments.build, arguments.build / image, report)
     check_planner_size(arguments.target, arguments.build, report)
     check_frames(arguments.build, report)
-    print("\n".join(report) if report else "  heap, exceptions, RTTI, double, libm: none")
+    print("\n".join(report) if report else "  heap, exceptions, RTTI, double, libm, DDS: none")
     return 1 if report else 0
 
 

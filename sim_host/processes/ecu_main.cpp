@@ -10,6 +10,7 @@
 #include "sim_host/campaign/parameters_file.hpp"
 #include "sim_host/processes/bus_end.hpp"
 #include "sim_host/processes/ecu_process.hpp"
+#include "sim_host/processes/input_link.hpp"
 #include "sim_host/processes/stop_signals.hpp"
 
 int main(int argc, char** argv) {
@@ -22,6 +23,8 @@ int main(int argc, char** argv) {
       ->required();
   app.add_option("--planner", options.planner, "the planner on it (default s4tp)")
       ->check(CLI::IsMember(campaign::planner_names()));
+  std::string input;
+  app.add_option("--input", input, "second link: track lists and the map come from it and not from the bus");
   std::string guard = "on";
   app.add_option("--guard", guard, "check, RSS and minimum-risk manoeuvre behind the planner (default on)")
       ->check(CLI::IsMember({"on", "off"}));
@@ -43,8 +46,14 @@ int main(int argc, char** argv) {
     if (!parameters_file.empty()) options.parameters = campaign::load_parameters(parameters_file);
     const auto bus = std::make_unique<hal::linux_host::NamedBus>();
     processes::open_bus(*bus, options.bus, processes::Side::kEcu);
-    const processes::EcuEnd end =
-        processes::run_ecu(bus->can(), options, std::cout, processes::stop_on_signals());
+    const auto second = std::make_unique<hal::linux_host::NamedBus>();
+    if (!input.empty()) processes::open_bus(*second, input, processes::Side::kEcu);
+    std::unique_ptr<processes::InputLink> both;
+    if (!input.empty()) both = std::make_unique<processes::InputLink>(bus->can(), second->can());
+    hal::linux_host::LinuxCan& can = both ? static_cast<hal::linux_host::LinuxCan&>(*both) : bus->can();
+    const processes::EcuEnd end = processes::run_ecu(can, options, std::cout, processes::stop_on_signals());
+    if (!input.empty())
+      processes::print_counters(std::cout, "ECU's input " + input, second->can().counters());
     if (end != processes::EcuEnd::kNothingHeard) return 0;
     std::cerr << "s4tp_ecu_process: no TICK frame on " << options.bus << " in " << options.wait_s << " s\n";
     return 1;

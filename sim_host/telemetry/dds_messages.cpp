@@ -122,6 +122,20 @@ constexpr std::uint8_t kFine = 0;
 constexpr std::uint8_t kWarning = 1;
 constexpr std::uint8_t kError = 2;
 
+void describe(const InputReport& input, diagnostic_msgs_msg_dds__DiagnosticStatus_& status, Arena& arena) {
+  const bool refused = input.objects.refused() + input.maps.refused() > 0;
+  status.hardware_id = arena.text("s4tp");
+  status.name = arena.text("s4tp: input over DDS");
+  status.level = refused ? kWarning : kFine;
+  status.message = arena.text(refused ? "messages refused" : "nothing refused");
+  Values values(status.values, 2 * static_cast<std::size_t>(Refusal::kCount), arena);
+  for (int i = 0; i < static_cast<int>(Refusal::kCount); ++i) {
+    const std::string text = refusal_text(static_cast<Refusal>(i));
+    values.add(("object lists: " + text).c_str(), static_cast<double>(input.objects.by[i]));
+    values.add(("maps: " + text).c_str(), static_cast<double>(input.maps.by[i]));
+  }
+}
+
 }  // namespace
 
 char* Arena::text(const std::string& text) {
@@ -294,13 +308,14 @@ MarkerArray lane_markers(const CycleRecord& cycle, Arena& arena) {
 }
 
 DiagnosticArray diagnostics(const ecu::ControlRecord& control, const StatusRecord& status,
-                            const CycleRecord* cycle, Arena& arena) {
+                            const CycleRecord* cycle, const InputReport* input, Arena& arena) {
   static constexpr const char* kStages[kStageCount] = {"scene",      "candidates", "predict", "rank",
                                                        "exact risk", "optimize",   "check",   "explain"};
   static constexpr const char* kStates[] = {"error-active", "error-passive", "bus off", "down"};
   DiagnosticArray result{};
   result.header = header(control.time_ms, "", arena);
-  auto* one = arena.sequence(result.status, 3);
+  auto* one = arena.sequence(result.status, input != nullptr ? 4 : 3);
+  if (input != nullptr) describe(*input, one[3], arena);
   for (int i = 0; i < 3; ++i) one[i].hardware_id = arena.text("s4tp");
 
   std::string faults;
@@ -335,6 +350,13 @@ DiagnosticArray diagnostics(const ecu::ControlRecord& control, const StatusRecor
   bus.add("received", status.bus.received);
   bus.add("dropped", status.bus.dropped);
   bus.add("errors", status.bus.errors);
+  return result;
+}
+
+DiagnosticArray diagnostics(const InputReport& input, Arena& arena) {
+  DiagnosticArray result{};
+  result.header = header(0, "", arena);
+  describe(input, *arena.sequence(result.status, 1), arena);
   return result;
 }
 

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "sim_host/telemetry/derive.hpp"
+#include "sim_host/telemetry/input_report.hpp"
 #include "sim_host/telemetry/records.hpp"
 
 namespace s4tp::telemetry {
@@ -24,8 +25,8 @@ class Arena {
   /// `count` values, all bits zero.
   template <class Value>
   Value* take(std::size_t count) {
-    blocks_.push_back(
-        std::make_unique<std::max_align_t[]>(count * sizeof(Value) / sizeof(std::max_align_t) + 1));
+    // Bytes: of a struct of the same size new zeroes the members and not the padding.
+    blocks_.push_back(std::make_unique<std::byte[]>(count * sizeof(Value) + 1));
     return reinterpret_cast<Value*>(blocks_.back().get());
   }
   char* text(const std::string& text);
@@ -40,7 +41,7 @@ class Arena {
   }
 
  private:
-  std::vector<std::unique_ptr<std::max_align_t[]>> blocks_;
+  std::vector<std::unique_ptr<std::byte[]>> blocks_;
 };
 
 using TrackedObjects = autoware_perception_msgs_msg_dds__TrackedObjects_;
@@ -72,8 +73,11 @@ using DiagnosticArray = diagnostic_msgs_msg_dds__DiagnosticArray_;
 /// TELE-027 Centre lines of all lanes, by kind, and the conflicts between them.
 [[nodiscard]] MarkerArray lane_markers(const CycleRecord& cycle, Arena& arena);
 /// TELE-028 Mode, faults, cycles and their stages, frames and the bus; level by what they mean.
+/// \param input  of the input topics what was taken and what was refused; null: there are none
 [[nodiscard]] DiagnosticArray diagnostics(const ecu::ControlRecord& control, const StatusRecord& status,
-                                          const CycleRecord* cycle, Arena& arena);
+                                          const CycleRecord* cycle, const InputReport* input, Arena& arena);
+/// The same where no ECU is to be seen: what became of its input.
+[[nodiscard]] DiagnosticArray diagnostics(const InputReport& input, Arena& arena);
 /// TELE-029 odom to base_link.
 [[nodiscard]] TransformMessage transform(const CycleRecord& cycle, Arena& arena);
 

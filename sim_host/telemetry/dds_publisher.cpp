@@ -10,6 +10,7 @@ namespace s4tp::telemetry {
 namespace {
 
 constexpr std::uint32_t kSlowMs = 1000;
+constexpr int kLooksPerReport = 500;  // of 2 ms
 
 struct TopicSpec {
   const char* name;
@@ -95,16 +96,20 @@ bool DdsPublisher::anybody(Topic topic) const {
          status.current_count > 0;
 }
 
-void DdsPublisher::publish(const Watch& watch, const News& news) {
+void DdsPublisher::publish(const Watch& watch, const News& news, const InputReport* input) {
   if (news.another_ecu) lanes_told_ = diagnosed_ = false;
   if (news.control) write(kControlTopic, control(watch.control()));
   if (news.plan) publish_plan(watch);
   const bool due = watch.control().time_ms - diagnostics_ms_ >= kSlowMs || !diagnosed_;
   if (news.control && (due || !news.mode_changes.empty())) {
     Arena arena;
-    write(kDiagnosticsTopic, diagnostics(watch.control(), watch.status(), watch.cycle(), arena));
+    write(kDiagnosticsTopic, diagnostics(watch.control(), watch.status(), watch.cycle(), input, arena));
     diagnostics_ms_ = watch.control().time_ms;
     diagnosed_ = true;
+  }
+  if (input != nullptr && !watch.present() && looks_without_ecu_++ % kLooksPerReport == 0) {
+    Arena arena;
+    write(kDiagnosticsTopic, diagnostics(*input, arena));
   }
 }
 

@@ -24,6 +24,7 @@
 #include <cstdint>
 #include <string>
 
+#include "sim_host/telemetry/input_report.hpp"
 #include "sim_host/telemetry/watch.hpp"
 
 namespace s4tp::telemetry {
@@ -54,8 +55,9 @@ class DdsPublisher {
   DdsPublisher(const DdsPublisher&) = delete;
   DdsPublisher& operator=(const DdsPublisher&) = delete;
 
-  /// Publishes what is new.
-  void publish(const Watch& watch, const News& news);
+  /// Publishes what is new. \param input  told on the diagnostics topic, without an ECU too; may be null
+  void publish(const Watch& watch, const News& news, const InputReport* input = nullptr);
+  [[nodiscard]] dds_entity_t participant() const { return participant_; }
   [[nodiscard]] std::uint64_t written(Topic topic) const { return written_[topic]; }
   [[nodiscard]] static const char* name(Topic topic);
 
@@ -73,6 +75,7 @@ class DdsPublisher {
   bool lanes_told_ = false;
   std::uint32_t diagnostics_ms_ = 0;
   bool diagnosed_ = false;
+  int looks_without_ecu_ = 0;
 };
 
 }  // namespace s4tp::telemetry

@@ -76,6 +76,13 @@ class Symbols(unittest.TestCase):
         names = ["_ZTIN4s4tp3CanE", "_ZTSN4s4tp3CanE", "__cxa_throw", "_Unwind_Resume", "_ZdlPvj"]
         self.assertEqual({name for name, _ in check_symbols.forbidden(names + ["_ZTVN4s4tp3CanE"])}, set(names))
 
+    # Cyclone's functions, what idlc makes of a message, another vendor's; asked for by the core: named, too.
+    def test_dds_is_found(self):
+        names = ["dds_write", "ddsi_serdata_ref", "ddsrt_malloc", "std_msgs_msg_dds__String__desc", "_ZN8eprosima7fastcdr3CdrE"]
+        self.assertEqual([reason for _, reason in check_symbols.forbidden(names)], ["DDS"] * len(names))
+        self.assertEqual(check_symbols.unwanted(names), sorted(names))
+        self.assertEqual(check_symbols.forbidden(["_ZN4s4tp7address", "add_stage"]), [])
+
     # push {r4-r7, lr}: 5 registers; vpush {d8-d9}: 16 bytes; sub sp, #24.
     def test_frame_is_read_from_the_prologue(self):
         text = ("00000040 <f>:\n  40:\tpush\t{r4, r5, r6, r7, lr}\n  42:\tvpush\t{d8-d9}\n  46:\tsub\tsp, #24\n"

@@ -1,0 +1,530 @@
+// Objects and map over DDS: the frames that come of them, and what liars get through.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <set>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "hal/linux/named_bus.hpp"
+#include "sim_host/campaign/driver.hpp"
+#include "sim_host/campaign/trace.hpp"
+#include "sim_host/processes/child_process.hpp"
+#include "sim_host/processes/input_link.hpp"
+#include "sim_host/telemetry/dds_input.hpp"
+#include "sim_host/telemetry/dds_messages.hpp"
+#include "sim_host/world/scenario.hpp"
+#include "sim_host/world/world.hpp"
+#include "tests/support/fake_bus.hpp"
+#include "tests/support/free_port.hpp"
+
+namespace s4tp::telemetry {
+namespace {
+
+using namespace std::chrono_literals;
+using DdsLane = s4tp_msgs_msg_dds__Lane_;
+using DdsConflict = s4tp_msgs_msg_dds__Conflict_;
+
+constexpr const char* kObjectsTopic = "rt/s4tp/input/tracked_objects";
+constexpr const char* kMapTopic = "rt/s4tp/input/lane_map";
+constexpr const char* kLoopback =
+    "<General><Interfaces><NetworkInterface name=\"lo\" multicast=\"false\"/></Interfaces>"
+    "<AllowMulticast>false</AllowMulticast></General><Discovery><ParticipantIndex>auto</ParticipantIndex>"
+    "<MaxAutoParticipantIndex>120</MaxAutoParticipantIndex><Peers><Peer address=\"127.0.0.1\"/></Peers>"
+    "</Discovery>";
+
+bool wait_for(const std::function<bool()>& holds, std::chrono::milliseconds most = 20s) {
+  const auto end = std::chrono::steady_clock::now() + most;
+  while (!holds()) {
+    if (std::chrono::steady_clock::now() > end) return false;
+    std::this_thread::sleep_for(1ms);
+  }
+  return true;
+}
+
+/// A node that tells objects and maps, on loopback.
+class Publisher {
+ public:
+  Publisher() {
+    domain_ = dds_create_domain(domain(), kLoopback);
+    participant_ = dds_create_participant(domain(), nullptr, nullptr);
+    objects_ = writer(autoware_perception_msgs_msg_dds__TrackedObjects__desc, kObjectsTopic);
+    maps_ = writer(s4tp_msgs_msg_dds__LaneMap__desc, kMapTopic);
+  }
+  ~Publisher() {
+    dds_delete(participant_);
+    dds_delete(domain_);
+  }
+  Publisher(const Publisher&) = delete;
+  Publisher& operator=(const Publisher&) = delete;
+
+  static std::uint32_t domain() { return 20U + static_cast<std::uint32_t>(getpid()) % 200U; }
+  [[nodiscard]] dds_entity_t participant() const { return participant_; }
+  [[nodiscard]] bool heard() const { return matched(objects_) && matched(maps_); }
+  void tell(const TrackedObjects& objects) { EXPECT_EQ(dds_write(objects_, &objects), DDS_RETCODE_OK); }
+  void tell(const LaneMapMessage& map) { EXPECT_EQ(dds_write(maps_, &map), DDS_RETCODE_OK); }
+
+ private:
+  dds_entity_t writer(const dds_topic_descriptor_t& type, const char* name) {
+    dds_qos_t* const qos = dds_create_qos();
+    dds_qset_reliability(qos, DDS_RELIABILITY_RELIABLE, DDS_SECS(5));
+    dds_qset_history(qos, DDS_HISTORY_KEEP_ALL, 0);
+    const dds_entity_t topic = dds_create_topic(participant_, &type, name, nullptr, nullptr);
+    const dds_entity_t result = dds_create_writer(participant_, topic, qos, nullptr);
+    dds_delete_qos(qos);
+    EXPECT_GT(result, 0);
+    return result;
+  }
+  static bool matched(dds_entity_t writer) {
+    dds_publication_matched_status_t status{};
+    return dds_get_publication_matched_status(writer, &status) == DDS_RETCODE_OK && status.current_count > 0;
+  }
+
+  dds_entity_t domain_ = 0;
+  dds_entity_t participant_ = 0;
+  dds_entity_t objects_ = 0;
+  dds_entity_t maps_ = 0;
+};
+
+TrackedObjects message_of(const wire::Tracks& tracks, Arena& arena) {
+  TrackedObjects message{};
+  message.header.frame_id = arena.text("odom");
+  message.header.stamp.sec = tracks.vehicle_time_ms / 1000;
+  message.header.stamp.nanosec = static_cast<std::uint32_t>(tracks.vehicle_time_ms % 1000) * 1'000'000U;
+  auto* to = arena.sequence(message.objects, tracks.count);
+  for (int i = 0; i < tracks.count; ++i, ++to) {
+    const wire::Track& from = tracks.items[i];
+    to->object_id.uuid[15] = from.id;
+    auto& pose = to->kinematics.pose_with_covariance.pose;
+    pose.position = {from.x_m, from.y_m, 0.75};
+    pose.orientation.z = std::sin(0.5 * static_cast<double>(from.heading_rad));
+    pose.orientation.w = std::cos(0.5 * static_cast<double>(from.heading_rad));
+    to->kinematics.twist_with_covariance.twist.linear.x = from.speed_mps;
+    to->kinematics.twist_with_covariance.twist.angular.z = from.yaw_rate_radps;
+    to->kinematics.acceleration_with_covariance.accel.linear.x = from.acceleration_mps2;
+    to->shape.dimensions = {from.length_m, from.width_m, 1.5};
+  }
+  return message;
+}
+
+LaneMapMessage message_of(const wire::Map& map, Arena& arena) {
+  LaneMapMessage message{};
+  message.header.frame_id = arena.text("odom");
+  message.lanes_left_out = map.lanes_left_out;
+  auto* lane = arena.sequence(message.lanes, wire::kMaxLanes);
+  message.lanes._length = 0;
+  for (int slot = 0; slot < wire::kMaxLanes; ++slot) {
+    const wire::Lane& from = map.lanes[slot];
+    if (!from.present) continue;
+    *lane = DdsLane{};
+    lane->slot = static_cast<std::uint8_t>(slot);
+    lane->kind = from.kind;
+    lane->in_junction = from.in_junction;
+    lane->on_route = from.on_route;
+    lane->changes_needed = from.changes_needed;
+    lane->speed_limit_mps = from.speed_limit_mps;
+    lane->width_m = from.width_m;
+    lane->stop_line_m = from.stop_line_m;
+    lane->route_remaining_m = from.route_remaining_m;
+    lane->goal_distance_m = from.goal_distance_m;
+    std::copy(std::begin(from.successors), std::end(from.successors), lane->successors);
+    lane->left = from.left;
+    lane->right = from.right;
+    auto* point = arena.sequence(lane->points, from.point_count);
+    for (int i = 0; i < from.point_count; ++i) *point++ = {from.x_m[i], from.y_m[i], 0.0F};
+    ++lane;
+    ++message.lanes._length;
+  }
+  auto* conflict = arena.sequence(message.conflicts, wire::kMaxConflicts);
+  message.conflicts._length = 0;
+  for (int slot = 0; slot < wire::kMaxConflicts; ++slot) {
+    const wire::Conflict& from = map.conflicts[slot];
+    if (!from.present) continue;
+    *conflict++ = {static_cast<std::uint8_t>(slot),
+                   from.first,
+                   from.second,
+                   from.priority,
+                   from.first_entry_m,
+                   from.first_exit_m,
+                   from.second_entry_m,
+                   from.second_exit_m};
+    ++message.conflicts._length;
+  }
+  return message;
+}
+
+wire::Frame to_wire(const hal::CanFrame& from) {
+  wire::Frame frame;
+  frame.id = from.id;
+  frame.length = from.length;
+  std::copy_n(from.data, from.length, frame.data);
+  return frame;
+}
+
+bool same(const std::vector<wire::Frame>& a, const std::vector<wire::Frame>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const wire::Frame& one, const wire::Frame& two) {
+                      return one.id == two.id && one.length == two.length &&
+                             std::memcmp(one.data, two.data, one.length) == 0;
+                    });
+}
+
+// TELE-040 What a node on the bus sends of lists and maps, and what comes of the same over DDS: the same frames,
+// tick by tick, and two ECUs that get the one and the other answer the same to the bit, driving.
+TEST(DdsInput, TheSameOverDdsIsTheSameOnTheBus) {
+  const world::Scenario scenario =
+      world::load_scenario(std::filesystem::path(S4TP_SOURCE_DIR) / "sim_host/scenarios/left_turn");
+  world::WorldOptions options;
+  options.seed = 3;
+  world::World world(scenario, options);
+  campaign::Trace trace;
+  const auto by_frames = campaign::make_driver("s4tp", true, Parameters{}, &trace, &trace);
+  const auto by_dds = campaign::make_driver("s4tp", true, Parameters{}, nullptr, nullptr);
+  Publisher publisher;
+  std::ostringstream complaints;
+  const auto input = std::make_unique<DdsInput>(publisher.participant(), complaints);
+  ASSERT_TRUE(wait_for([&] { return publisher.heard(); }));
+
+  const auto tracks_seen = std::make_unique<wire::TrackListReceiver>();
+  const auto map_seen = std::make_unique<wire::MapReceiver>();
+  wire::TrackListSender track_sender;
+  const auto map_sender = std::make_unique<wire::MapSender>();
+  bool map_known = false;
+  std::uint64_t lists = 0;
+  std::uint64_t maps = 0;
+  std::size_t input_frames = 0;
+  std::size_t most_tracks = 0;
+  int driven = 0;
+  for (std::uint32_t now_ms = 10; now_ms <= 15'000 && !world.finished(); now_ms += 10) {
+    std::vector<wire::Frame> told;
+    world.tick(told);
+    bool new_list = false;
+    std::vector<wire::Frame> others;
+    for (const wire::Frame& frame : told) {
+      if (!processes::InputLink::is_input(frame.id)) others.push_back(frame);
+      new_list = tracks_seen->accept(frame) || new_list;
+      map_known = map_seen->accept(frame) || map_known;
+    }
+    Arena arena;
+    if (new_list) {
+      wire::Tracks list = tracks_seen->tracks();
+      list.left_out = 0;  // the message has no such field
+      most_tracks = std::max<std::size_t>(most_tracks, list.count);
+      track_sender.start(list);
+      publisher.tell(message_of(list, arena));
+      ++lists;
+    }
+    if (map_known && now_ms % 100 == 0) {
+      map_sender->update(map_seen->map());
+      publisher.tell(message_of(map_seen->map(), arena));
+      ++maps;
+    }
+    ASSERT_TRUE(wait_for([&] {
+      input->look(now_ms);
+      const InputReport& report = input->report();
+      return report.objects.taken() + report.objects.refused() == lists &&
+             report.maps.taken() + report.maps.refused() == maps;
+    })) << "at "
+        << now_ms;
+    hal::linux_host::FakeBus link;
+    input->send(now_ms, link);
+    std::vector<wire::Frame> from_dds;
+    for (const hal::CanFrame& frame : link.sent) from_dds.push_back(to_wire(frame));
+    std::vector<wire::Frame> from_node;
+    wire::Frame frame;
+    for (int i = 0; i < 12 && track_sender.next(frame); ++i) from_node.push_back(frame);
+    for (int i = 0; i < 7 && map_known && map_sender->next(now_ms, frame); ++i) from_node.push_back(frame);
+    ASSERT_TRUE(same(from_node, from_dds)) << "at " << now_ms;
+    input_frames += from_dds.size();
+
+    // TICK last.
+    from_node.insert(from_node.end(), others.begin(), others.end());
+    from_dds.insert(from_dds.end(), others.begin(), others.end());
+    std::vector<wire::Frame> answers;
+    std::vector<wire::Frame> answers_by_dds;
+    by_frames->tick(from_node, answers);
+    by_dds->tick(from_dds, answers_by_dds);
+    ASSERT_TRUE(same(answers, answers_by_dds)) << "at " << now_ms;
+    for (const wire::Frame& answer : answers) world.receive(answer);
+    driven += by_dds->core().mode() == ecu::Mode::kDriving ? 1 : 0;
+  }
+  EXPECT_EQ(input->report().objects.refused() + input->report().maps.refused(), 0U) << complaints.str();
+  EXPECT_GT(lists, 100U);
+  EXPECT_GT(maps, 100U);
+  EXPECT_GT(most_tracks, 1U);
+  EXPECT_GT(input_frames, 1000U);
+  EXPECT_GT(driven, 500) << "of the ticks";
+}
+
+// TELE-041 An object keeps its id while it is known; two whose uuids end alike get different ones.
+TEST(DdsInput, IdsAreKeptAndNotShared) {
+  TrackIds ids;
+  TrackIds::Uuid one{};
+  one[15] = 7;
+  TrackIds::Uuid other = one;
+  other[0] = 1;
+  ids.next_list();
+  EXPECT_EQ(ids.id_of(one), 7);
+  const std::uint8_t given = ids.id_of(other);
+  EXPECT_NE(given, 7);
+  ids.next_list();
+  EXPECT_EQ(ids.id_of(other), given);
+  EXPECT_EQ(ids.id_of(one), 7);
+}
+
+// TELE-043 10 a second pass. Of 1000 in a second the first passes; and when 10 a second follow, none for the
+// second after the last full one, then all.
+TEST(DdsInput, AFloodEndsAfterAQuietSecond) {
+  RateGuard guard;
+  for (std::uint32_t now_ms = 0; now_ms < 3000; now_ms += 100) EXPECT_TRUE(guard.admits(now_ms)) << now_ms;
+  RateGuard flooded;
+  int passed = 0;
+  for (std::uint32_t now_ms = 0; now_ms < 1000; ++now_ms) passed += flooded.admits(now_ms) ? 1 : 0;
+  EXPECT_EQ(passed, 1);
+  for (std::uint32_t now_ms = 1000; now_ms < 2000; now_ms += 100) EXPECT_FALSE(flooded.admits(now_ms));
+  for (std::uint32_t now_ms = 2000; now_ms < 3000; now_ms += 100) EXPECT_TRUE(flooded.admits(now_ms));
+}
+
+// TELE-045 Once told, a map is sent for 2 s and no longer: 2.01 s later no frame comes of it.
+TEST(DdsInput, AMapNotToldAgainIsNotSent) {
+  Publisher publisher;
+  std::ostringstream complaints;
+  const auto input = std::make_unique<DdsInput>(publisher.participant(), complaints);
+  ASSERT_TRUE(wait_for([&] { return publisher.heard(); }));
+  Arena arena;
+  const auto map = std::make_unique<wire::Map>();
+  publisher.tell(message_of(*map, arena));
+  ASSERT_TRUE(wait_for([&] {
+    input->look(1000);
+    return input->report().maps.taken() == 1;
+  }));
+  hal::linux_host::FakeBus link;
+  input->send(3000, link);
+  EXPECT_FALSE(link.sent.empty());
+  link.sent.clear();
+  input->send(3010, link);
+  EXPECT_TRUE(link.sent.empty());
+}
+
+// PROC-045 PROC-046 Of the bus no lists, of the link nothing else; and of a flood on the link no more than a
+// share between two motion frames.
+TEST(InputLink, EachMessageComesFromOneSide) {
+  hal::linux_host::FakeBus bus;
+  hal::linux_host::FakeBus link;
+  const auto frame = [](std::uint32_t id, std::uint8_t mark) {
+    hal::CanFrame made;
+    made.id = id;
+    made.length = 8;
+    made.data[0] = mark;
+    return made;
+  };
+  bus.incoming = {frame(wire::kTrackListId, 1), frame(wire::kMotionId, 1), frame(wire::kMapHeaderId, 1),
+                  frame(wire::kTickId, 1)};
+  link.incoming = {frame(wire::kMotionId, 2), frame(wire::kTrackListId, 2), frame(wire::kSteeringId, 2),
+                   frame(wire::kMapHeaderId, 2)};
+  processes::InputLink both(bus, link);
+  std::vector<std::pair<std::uint32_t, int>> got;
+  for (hal::CanFrame taken; both.receive(taken);) got.emplace_back(taken.id, taken.data[0]);
+  const std::vector<std::pair<std::uint32_t, int>> expected = {
+      {wire::kTrackListId, 2}, {wire::kMapHeaderId, 2}, {wire::kMotionId, 1}, {wire::kTickId, 1}};
+  EXPECT_EQ(got, expected);
+
+  link.incoming = {frame(wire::kTrackListId, 2)};
+  link.endless = true;
+  bus.incoming = {frame(wire::kMotionId, 1), frame(wire::kTickId, 1)};
+  processes::InputLink flooded(bus, link);
+  std::vector<std::uint32_t> order;
+  for (hal::CanFrame taken; flooded.receive(taken) && order.size() < 200;) order.push_back(taken.id);
+  EXPECT_EQ(std::count(order.begin(), order.end(), wire::kMotionId), 1);
+  EXPECT_EQ(std::count(order.begin(), order.end(), wire::kTickId), 1);
+  EXPECT_LE(order.size(), 2U * processes::InputLink::kShare + 2U);
+}
+
+/// What the telemetry process says of its input on the diagnostics topic.
+class Diagnostics {
+ public:
+  explicit Diagnostics(dds_entity_t participant) {
+    const dds_entity_t topic = dds_create_topic(participant, &diagnostic_msgs_msg_dds__DiagnosticArray__desc,
+                                                "rt/diagnostics", nullptr, nullptr);
+    dds_qos_t* const qos = dds_create_qos();
+    dds_qset_reliability(qos, DDS_RELIABILITY_RELIABLE, DDS_SECS(1));
+    reader_ = dds_create_reader(participant, topic, qos, nullptr);
+    dds_delete_qos(qos);
+  }
+  /// \return the newest value of a key; -1: not told
+  double value(const std::string& key) {
+    for (;;) {
+      void* samples[1] = {};
+      dds_sample_info_t info;
+      if (dds_take(reader_, samples, &info, 1, 1) <= 0) break;
+      const auto& array = *static_cast<const DiagnosticArray*>(samples[0]);
+      for (std::uint32_t i = 0; info.valid_data && i < array.status._length; ++i) {
+        const auto& status = array.status._buffer[i];
+        if (std::string(status.name) != "s4tp: input over DDS") continue;
+        for (std::uint32_t k = 0; k < status.values._length; ++k)
+          values_[status.values._buffer[k].key] = std::stod(status.values._buffer[k].value);
+      }
+      (void)dds_return_loan(reader_, samples, 1);
+    }
+    const auto found = values_.find(key);
+    return found == values_.end() ? -1.0 : found->second;
+  }
+
+ private:
+  dds_entity_t reader_ = 0;
+  std::map<std::string, double> values_;
+};
+
+// TELE-041..044 A publisher that lies, to the process as it runs: not a frame comes of wrong numbers and sizes,
+// each is counted and told under its reason; of 1000 lists a second none but perhaps the first passes; and after
+// it is quiet a good list comes through, whole.
+TEST(DdsInput, LiesDoNotReachTheEcu) {
+  const std::string port = test::free_port();
+  hal::linux_host::NamedBus bus;
+  hal::linux_host::Reason reason;
+  ASSERT_TRUE(bus.open(("slcan:listen:127.0.0.1:" + port).c_str(), {}, reason)) << reason.text;
+  Publisher publisher;
+  Diagnostics diagnostics(publisher.participant());
+  processes::ChildProcess process({std::string(S4TP_BINARY_DIR) + "/sim_host/s4tp-telemetry", "--ecu",
+                                   "/s4tp_no_such_" + std::to_string(getpid()), "--domain",
+                                   std::to_string(Publisher::domain()), "--input",
+                                   "slcan:tcp:127.0.0.1:" + port});
+  std::vector<wire::Frame> arrived;
+  const auto listen = [&](std::chrono::milliseconds time) {
+    const auto end = std::chrono::steady_clock::now() + time;
+    while (std::chrono::steady_clock::now() < end) {
+      (void)bus.can().wait(1);
+      for (hal::CanFrame frame; bus.can().receive(frame);) arrived.push_back(to_wire(frame));
+    }
+  };
+  ASSERT_TRUE(wait_for([&] {
+    listen(1ms);
+    return publisher.heard() && bus.can().state() == hal::CanState::kActive;
+  }));
+
+  wire::Tracks good;
+  good.count = 2;
+  for (int i = 0; i < 2; ++i) {
+    good.items[i] = {
+        static_cast<std::uint8_t>(1 + i), 10.0F + 5.0F * i, 2.0F, 0.1F, 8.0F, 0.5F, 0.05F, 4.5F, 1.8F};
+  }
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kInfinite = std::numeric_limits<double>::infinity();
+  using Spoil = std::function<void(TrackedObjects&)>;
+  const auto& kinematics = [](TrackedObjects & list) -> auto& {
+    return list.objects._buffer[1].kinematics;
+  };
+  const std::vector<Spoil> no_numbers = {
+      [&](auto& list) { kinematics(list).pose_with_covariance.pose.position.x = kNan; },
+      [&](auto& list) { kinematics(list).pose_with_covariance.pose.position.y = kInfinite; },
+      [&](auto& list) { kinematics(list).pose_with_covariance.pose.orientation.w = kNan; },
+      [&](auto& list) { kinematics(list).twist_with_covariance.twist.linear.x = -kInfinite; },
+      [&](auto& list) { kinematics(list).twist_with_covariance.twist.angular.z = kNan; },
+      [&](auto& list) { kinematics(list).acceleration_with_covariance.accel.linear.x = kNan; },
+      [&](auto& list) { list.objects._buffer[1].shape.dimensions.x = kNan; },
+  };
+  const std::vector<Spoil> absurd = {
+      [&](auto& list) { kinematics(list).pose_with_covariance.pose.position.x = 1e300; },
+      [&](auto& list) { kinematics(list).pose_with_covariance.pose.position.y = -1311.0; },
+      [&](auto& list) {
+        kinematics(list).pose_with_covariance.pose.orientation = {0.0, 0.0, 0.0, 0.0};
+      },
+      [&](auto& list) { kinematics(list).twist_with_covariance.twist.linear.x = 61.0; },
+      [&](auto& list) { kinematics(list).twist_with_covariance.twist.linear.x = -5.0; },
+      [&](auto& list) { kinematics(list).acceleration_with_covariance.accel.linear.x = 40.0; },
+      [&](auto& list) { list.objects._buffer[1].shape.dimensions.x = -4.0; },
+      [&](auto& list) { list.objects._buffer[1].shape.dimensions.y = 0.0; },
+      [&](auto& list) { list.objects._buffer[1].object_id.uuid[15] = 1; },
+  };
+  Arena arena;
+  const auto tell_all = [&](const std::vector<Spoil>& spoils) {
+    for (const Spoil& spoil : spoils) {
+      TrackedObjects list = message_of(good, arena);
+      spoil(list);
+      publisher.tell(list);
+      listen(150ms);
+    }
+  };
+  tell_all(no_numbers);
+  tell_all(absurd);
+  const std::vector<Spoil> sizes = {[&](auto& list) { arena.sequence(list.objects, 17); },
+                                    [&](auto& list) { arena.sequence(list.objects, 2000); }};
+  tell_all(sizes);
+  tell_all({[&](auto& list) { list.header.frame_id = arena.text("base_link"); }});
+  tell_all({[&](auto& list) { list.header.stamp.nanosec = 2'000'000'000U; }});
+
+  const auto lane_map = std::make_unique<wire::Map>();
+  for (int slot = 0; slot < 2; ++slot) {
+    wire::Lane& lane = lane_map->lanes[slot];
+    lane.present = true;
+    lane.point_count = 2;
+    lane.width_m = 3.2F;
+    lane.speed_limit_mps = 13.75F;
+    lane.x_m[1] = 50.0F;
+  }
+  lane_map->conflicts[0] = {true, 0, 1, 0, 10.0F, 20.0F, 10.0F, 20.0F};
+  using SpoilMap = std::function<void(LaneMapMessage&)>;
+  const std::vector<SpoilMap> map_lies = {
+      [&](auto& map) { arena.sequence(map.lanes, 65); },
+      [&](auto& map) { arena.sequence(map.conflicts, 129); },
+      [&](auto& map) { arena.sequence(map.lanes._buffer[0].points, 13); },
+      [&](auto& map) { map.lanes._buffer[0].points._buffer[1].x = static_cast<float>(kNan); },
+      [&](auto& map) { map.lanes._buffer[0].speed_limit_mps = static_cast<float>(kInfinite); },
+      [&](auto& map) { map.lanes._buffer[1].width_m = 100.0F; },
+      [&](auto& map) { map.lanes._buffer[1].slot = 64; },
+      [&](auto& map) { map.lanes._buffer[1].slot = 0; },
+      [&](auto& map) { map.conflicts._buffer[0].first_exit_m = 5.0F; },
+      [&](auto& map) { map.conflicts._buffer[0].second = 3; },
+  };
+  for (const SpoilMap& spoil : map_lies) {
+    LaneMapMessage map = message_of(*lane_map, arena);
+    spoil(map);
+    publisher.tell(map);
+    listen(60ms);
+  }
+  EXPECT_TRUE(arrived.empty()) << arrived.size() << " frames of lies";
+  const auto counted = [&](const std::string& key, double count) {
+    const bool told = wait_for([&] { return diagnostics.value(key) >= count; }, 5s);
+    EXPECT_TRUE(told && diagnostics.value(key) == count) << key << ": " << diagnostics.value(key);
+  };
+  counted("object lists: not a number", static_cast<double>(no_numbers.size()));
+  counted("object lists: out of range", static_cast<double>(absurd.size()));
+  counted("object lists: wrong count", static_cast<double>(sizes.size()));
+  counted("object lists: wrong frame", 1.0);
+  counted("object lists: wrong stamp", 1.0);
+  counted("maps: wrong count", 3.0);
+  counted("maps: not a number", 2.0);
+  counted("maps: out of range", 5.0);
+  counted("maps: taken", 0.0);
+  counted("object lists: taken", 0.0);
+
+  constexpr int kFlood = 1000;
+  for (int i = 0; i < kFlood; ++i) {
+    publisher.tell(message_of(good, arena));
+    if (i % 10 == 9) listen(10ms);
+  }
+  listen(100ms);
+  EXPECT_LE(arrived.size(), 5U) << "one list of two objects";
+  ASSERT_TRUE(wait_for([&] { return diagnostics.value("object lists: too often") > 0.9 * kFlood; }, 5s))
+      << diagnostics.value("object lists: too often");
+  EXPECT_LE(diagnostics.value("object lists: taken"), 1.0);
+
+  listen(2500ms);
+  arrived.clear();
+  publisher.tell(message_of(good, arena));
+  listen(300ms);
+  ASSERT_EQ(arrived.size(), 5U);
+  EXPECT_EQ(arrived[0].id, wire::kTrackListId);
+}
+
+}  // namespace
+}  // namespace s4tp::telemetry
