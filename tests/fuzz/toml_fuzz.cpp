@@ -25,6 +25,8 @@ const test::Folder& folder() {
     for (const char* file : {"zipper.net.xml", "zipper.rou.xml"}) {
       fuzz::folder().write(file, read(std::string(S4TP_SOURCE_DIR "/tests/networks/") + file));
     }
+    // a road on which a goal can be too far away
+    fuzz::folder().write("long.net.xml", test::replaced(test::kCross, "10,0 50,0", "10,0 5000,0"));
     fuzz::folder().write("mix.toml", "[[mix]]\nname = \"calm\"\nheadway_s = 2.0\n");
     return true;
   }();
