@@ -28,8 +28,7 @@ inline constexpr int kMaxPathZones = 12;   ///< conflict zones along one lane pa
 // Planning.
 inline constexpr int kMaxCandidates = 24;  ///< candidates scored in one cycle
 inline constexpr int kMaxDecisions = 3;    ///< decisions predicted with our plan in mind
-/// Futures felt exactly in a cycle, and the road once a trajectory: three trajectories among all there can be.
-inline constexpr int kMaxExactRisk = 3 * (kMaxAgents * kMaxModes + kMaxTracks - kMaxAgents + 1);
+inline constexpr int kMaxExactRisk = 3;    ///< trajectories whose risk is computed exactly
 
 // Memory budget of the whole planner object [bytes] (docs/budget.md).
 inline constexpr int kPlannerBudgetBytes = 64 * 1024;

@@ -5,7 +5,6 @@
 #include "algo/core/inline.hpp"
 #include "algo/core/self_test.hpp"
 #include "algo/planner/stage_scope.hpp"
-#include "algo/sadrf/futures.hpp"
 #include "algo/sadrf/overlap.hpp"
 #include "algo/safety/fail_safe.hpp"
 #include "algo/satp/shipped_weights.hpp"
@@ -169,7 +168,7 @@ void PlanningCycle::explain_risk(Status status, Explanation& explanation) {
   // What the optimizer changed, or the minimum-risk manoeuvre, is felt anew while the allowance lasts.
   const bool changed = status != Status::kOk || risk_outdated_;
   const PredictionSet& prediction = status == Status::kOk ? conditioned_.set : unconditioned_;
-  if (changed && can_feel(prediction, explanation)) {
+  if (changed && can_feel(explanation)) {
     feel(prediction, chosen_, explanation, explanation.risk);
   } else if (status != Status::kOk) {
     explanation.risk = RiskProfile{};  // it is of a motion that was rejected
@@ -285,15 +284,14 @@ bool PlanningCycle::hold(int index, Explanation& explanation) {
   return true;
 }
 
-bool PlanningCycle::can_feel(const PredictionSet& prediction, const Explanation& explanation) const {
-  const int futures = all_modes(scene_, prediction, keep_going_).size();
-  return explanation.work[static_cast<int>(Stage::kExactRisk)] + futures + 1 <= allowance.exact_risk;
+bool PlanningCycle::can_feel(const Explanation& explanation) const {
+  return explanation.work[static_cast<int>(Stage::kExactRisk)] < allowance.exact_risks;
 }
 
 void PlanningCycle::feel(const PredictionSet& prediction, const Trajectory& trajectory,
                          Explanation& explanation, RiskProfile& profile) {
   exact_risk(scene_, drivable_, prediction, keep_going_, trajectory, parameters_, profile);
-  count(explanation, Stage::kExactRisk, all_modes(scene_, prediction, keep_going_).size() + 1);
+  count(explanation, Stage::kExactRisk, 1);
 }
 
 bool PlanningCycle::evaluate(int index, Explanation& explanation) {
@@ -301,7 +299,7 @@ bool PlanningCycle::evaluate(int index, Explanation& explanation) {
   if (!hold(index, explanation)) return false;
   // Without an allowance left the ranking's risk stands; without a prediction of its own, too.
   const StageScope scope(probe, Stage::kExactRisk);
-  if (allowance.decisions <= 0 || !can_feel(conditioned_.set, explanation)) return true;
+  if (allowance.decisions <= 0 || !can_feel(explanation)) return true;
   feel(conditioned_.set, chosen_, explanation, explanation.risk);
   costs_[index].risk = parameters_.scoring.risk * risk_integral(explanation.risk, parameters_) +
                        crash_cost(conditioned_.set) + hard_[index];
@@ -315,7 +313,7 @@ const RefinementProblem* PlanningCycle::last_refinement() const {
 void PlanningCycle::refine(const Candidate& candidate, Explanation& explanation) {
   const int passes = to_int(parameters_.refinement.passes, 0, allowance.optimizer_iterations);
   // In the field the exact risk decides.
-  const bool can_decide = can_feel(conditioned_.set, explanation);
+  const bool can_decide = can_feel(explanation);
   const int feelings = can_decide && parameters_.scoring.risk > 0.0F ? allowance.field_feelings : 0;
   RefinementResult result;
   {

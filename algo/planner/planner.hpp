@@ -42,11 +42,12 @@ struct WorkAllowance {
   int prediction =
       kMaxPredictionWork;         ///< agent-mode-steps of one prediction; whom it leaves out just keeps going
   int decisions = kMaxDecisions;  ///< conditioned predictions; without one the best ranked is chosen
-  /// CORE-073 Futures felt exactly, and the road once a trajectory: in a crowd three trajectories', among few
-  /// vehicles more. Beyond it the ranking's risk stands.
-  int exact_risk = kMaxExactRisk;
+  /// CORE-073 Exact risks, first of all one for each decision; beyond, the ranking's risk stands, and what is
+  /// told is that of the plan before its last changes.
+  int exact_risks = kMaxExactRisk;
   int optimizer_iterations = 16;  ///< passes of the optimizer
-  int field_feelings = 0;         ///< times it feels the risk field, at most 3; 0: it smooths only
+  int field_feelings =
+      0;  ///< times it feels the risk field, at most 3, for an exact risk more; 0: it smooths only
 };
 
 /// The cycle. What it is composed with, the guard and the belief that others move as they are seen to, a
@@ -112,8 +113,7 @@ class PlanningCycle {
   [[nodiscard]] int shortlisted() const;  ///< decisions that get a prediction of their own
   [[nodiscard]] std::uint8_t track_id(int agent) const;
   void explain_risk(Status status, Explanation& explanation);
-  /// Whether the allowance covers one more exact risk among these futures.
-  [[nodiscard]] bool can_feel(const PredictionSet& prediction, const Explanation& explanation) const;
+  [[nodiscard]] bool can_feel(const Explanation& explanation) const;
   void feel(const PredictionSet& prediction, const Trajectory& trajectory, Explanation& explanation,
             RiskProfile& profile);
   /// Price of the touches that are to be expected.

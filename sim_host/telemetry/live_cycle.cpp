@@ -95,7 +95,7 @@ ordered_json stages_json(const ecu::PlanRecord& plan, const CycleRecord& cycle) 
                                  allowed.candidates,
                                  allowed.prediction * (1 + allowed.decisions),
                                  allowed.candidates,
-                                 allowed.exact_risk,
+                                 allowed.exact_risks,
                                  allowed.optimizer_iterations,
                                  0,
                                  0};

@@ -24,7 +24,7 @@ class Rationed final : public PlanningCycle {
  public:
   Rationed() {
     for (int* const units : {&allowance.candidates, &allowance.prediction, &allowance.decisions,
-                             &allowance.exact_risk, &allowance.optimizer_iterations}) {
+                             &allowance.exact_risks, &allowance.optimizer_iterations}) {
       *units = *units * kPercent / 100;
     }
   }
