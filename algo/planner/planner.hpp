@@ -46,8 +46,9 @@ struct WorkAllowance {
   /// told is that of the plan before its last changes.
   int exact_risks = kMaxExactRisk;
   int optimizer_iterations = 16;  ///< passes of the optimizer
-  int field_feelings =
-      0;  ///< times it feels the risk field, at most 3, for an exact risk more; 0: it smooths only
+  /// Times the optimizer feels the risk field, at most 3; 0: it smooths only. To judge what comes of it takes an
+  /// exact risk more.
+  int field_feelings = 0;
 };
 
 /// The cycle. What it is composed with, the guard and the belief that others move as they are seen to, a

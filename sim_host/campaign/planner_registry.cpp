@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "sim_host/world/listed.hpp"
+
 namespace s4tp::campaign {
 namespace {
 
@@ -23,12 +25,11 @@ const std::vector<PlannerEntry>& planners() {
 }
 
 const PlannerEntry& find_planner(const std::string& name) {
-  std::string known;
   for (const PlannerEntry& entry : planners()) {
     if (entry.name == name) return entry;
-    known += (known.empty() ? "" : ", ") + entry.name;
   }
-  throw std::invalid_argument("no planner '" + name + "'; there are: " + known);
+  throw std::invalid_argument("no planner '" + name +
+                              "'; there are: " + world::listed(planners(), &PlannerEntry::name));
 }
 
 RegisterPlanner::RegisterPlanner(const PlannerEntry& entry) {

@@ -7,6 +7,7 @@
 
 #include "algo/satp/shipped_weights.hpp"
 #include "sim_host/world/box.hpp"
+#include "sim_host/world/listed.hpp"
 
 namespace s4tp::clips {
 namespace {
@@ -121,9 +122,7 @@ std::unique_ptr<Forecaster> make_forecaster(const std::string& name) {
   if (name == "constant_acceleration") return std::make_unique<Steady>(true, false);
   if (name == "constant_turn_rate") return std::make_unique<Steady>(false, true);
   if (name == "lane_following") return std::make_unique<AlongLane>();
-  std::string known;
-  for (const std::string& one : forecaster_names()) known += (known.empty() ? "" : ", ") + one;
-  throw std::invalid_argument("no predictor '" + name + "'; there are: " + known);
+  throw std::invalid_argument("no predictor '" + name + "'; there are: " + world::listed(forecaster_names()));
 }
 
 }  // namespace s4tp::clips

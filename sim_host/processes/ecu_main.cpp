@@ -13,6 +13,25 @@
 #include "sim_host/processes/input_link.hpp"
 #include "sim_host/processes/stop_signals.hpp"
 
+namespace {
+
+using namespace s4tp;
+
+/// \param input  the second link; empty: none
+processes::EcuEnd run(hal::linux_host::LinuxCan& bus, const std::string& input,
+                      const processes::EcuProcessOptions& options) {
+  const std::atomic<bool>& stop = processes::stop_on_signals();
+  if (input.empty()) return processes::run_ecu(bus, options, std::cout, stop);
+  const auto link = std::make_unique<hal::linux_host::NamedBus>();
+  processes::open_bus(*link, input, processes::Side::kEcu);
+  processes::InputLink both(bus, link->can());
+  const processes::EcuEnd end = processes::run_ecu(both, options, std::cout, stop);
+  processes::print_counters(std::cout, "ECU's input " + input, link->can().counters());
+  return end;
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
   using namespace s4tp;
   processes::EcuProcessOptions options;
@@ -46,14 +65,7 @@ int main(int argc, char** argv) {
     if (!parameters_file.empty()) options.parameters = campaign::load_parameters(parameters_file);
     const auto bus = std::make_unique<hal::linux_host::NamedBus>();
     processes::open_bus(*bus, options.bus, processes::Side::kEcu);
-    const auto second = std::make_unique<hal::linux_host::NamedBus>();
-    if (!input.empty()) processes::open_bus(*second, input, processes::Side::kEcu);
-    std::unique_ptr<processes::InputLink> both;
-    if (!input.empty()) both = std::make_unique<processes::InputLink>(bus->can(), second->can());
-    hal::linux_host::LinuxCan& can = both ? static_cast<hal::linux_host::LinuxCan&>(*both) : bus->can();
-    const processes::EcuEnd end = processes::run_ecu(can, options, std::cout, processes::stop_on_signals());
-    if (!input.empty())
-      processes::print_counters(std::cout, "ECU's input " + input, second->can().counters());
+    const processes::EcuEnd end = run(bus->can(), input, options);
     if (end != processes::EcuEnd::kNothingHeard) return 0;
     std::cerr << "s4tp_ecu_process: no TICK frame on " << options.bus << " in " << options.wait_s << " s\n";
     return 1;

@@ -8,6 +8,8 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "sim_host/world/listed.hpp"
+
 namespace s4tp::processes {
 namespace {
 
@@ -23,12 +25,11 @@ std::string quoted(const std::filesystem::path& path) {
 }  // namespace
 
 const EmulatedBoard& find_board(const std::string& target) {
-  std::string known;
   for (const EmulatedBoard& board : kBoards) {
     if (target == board.target) return board;
-    known += (known.empty() ? "" : ", ") + std::string(board.target);
   }
-  throw std::invalid_argument("target '" + target + "': there are " + known);
+  throw std::invalid_argument("target '" + target + "': there are " +
+                              world::listed(kBoards, &EmulatedBoard::target));
 }
 
 std::vector<std::string> board_targets() {

@@ -14,6 +14,7 @@
 #include "sim_host/campaign/digest.hpp"
 #include "sim_host/campaign/parameters_file.hpp"
 #include "sim_host/campaign/record_limits.hpp"
+#include "sim_host/world/listed.hpp"
 #include "sim_host/world/perception.hpp"
 #include "sim_host/world/traffic_engine.hpp"
 
@@ -71,9 +72,7 @@ void write_json(const DriveNote& note, ordered_json json, const fs::path& file) 
 std::string name_in(const ordered_json& json, const std::string& key, const std::vector<std::string>& names) {
   const std::string name = json.at(key).get<std::string>();
   if (std::find(names.begin(), names.end(), name) != names.end()) return name;
-  std::string accepted;
-  for (const std::string& one : names) accepted += (accepted.empty() ? "" : ", ") + one;
-  throw std::runtime_error(key + ": accepted is one of " + accepted);
+  throw std::runtime_error(key + ": accepted is one of " + world::listed(names));
 }
 
 }  // namespace

@@ -1,8 +1,9 @@
 #include "sim_host/telemetry/dds_input.hpp"
 
-#include <algorithm>
 #include <stdexcept>
 #include <string>
+
+#include "sim_host/campaign/frames.hpp"
 
 namespace s4tp::telemetry {
 namespace {
@@ -12,12 +13,9 @@ constexpr int kListFrames = 12;
 constexpr int kMapFrames = 7;
 constexpr std::uint32_t kTellEveryMs = 1000;
 
-void put(const wire::Frame& frame, hal::Can& can) {
-  hal::CanFrame out;
-  out.id = frame.id;
-  out.length = frame.length;
-  std::copy_n(frame.data, frame.length, out.data);
-  (void)can.send(out);  // a full queue is counted by the bus; the list is then broken and refused
+/// A full queue is counted by the bus; the list is then broken and refused.
+void pass_on(const wire::Frame& frame, hal::Can& can) {
+  (void)can.send(campaign::to_hal(frame));
 }
 
 }  // namespace
@@ -79,9 +77,9 @@ void DdsInput::look(std::uint32_t now_ms) {
 
 void DdsInput::send(std::uint32_t now_ms, hal::Can& can) {
   wire::Frame frame;
-  for (int i = 0; i < kListFrames && track_sender_.next(frame); ++i) put(frame, can);
+  for (int i = 0; i < kListFrames && track_sender_.next(frame); ++i) pass_on(frame, can);
   if (!map_known_ || now_ms - map_ms_ > kMapStandsMs) return;
-  for (int i = 0; i < kMapFrames && map_sender_.next(now_ms, frame); ++i) put(frame, can);
+  for (int i = 0; i < kMapFrames && map_sender_.next(now_ms, frame); ++i) pass_on(frame, can);
 }
 
 }  // namespace s4tp::telemetry

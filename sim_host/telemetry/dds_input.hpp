@@ -17,6 +17,7 @@
 #include "hal/can.hpp"
 #include "sim_host/telemetry/dds_input_values.hpp"
 #include "sim_host/telemetry/input_report.hpp"
+#include "sim_host/telemetry/rate_guard.hpp"
 
 namespace s4tp::telemetry {
 

@@ -10,7 +10,8 @@ namespace s4tp::telemetry {
 namespace {
 
 constexpr std::uint32_t kSlowMs = 1000;
-constexpr int kLooksPerReport = 500;  // of 2 ms
+constexpr std::chrono::seconds kInputToldEvery{
+    1};  // of this machine: without an ECU there is no vehicle time
 
 struct TopicSpec {
   const char* name;
@@ -107,10 +108,12 @@ void DdsPublisher::publish(const Watch& watch, const News& news, const InputRepo
     diagnostics_ms_ = watch.control().time_ms;
     diagnosed_ = true;
   }
-  if (input != nullptr && !watch.present() && looks_without_ecu_++ % kLooksPerReport == 0) {
-    Arena arena;
-    write(kDiagnosticsTopic, diagnostics(*input, arena));
-  }
+  if (input == nullptr || watch.present()) return;
+  const auto now = std::chrono::steady_clock::now();
+  if (now - input_told_ < kInputToldEvery) return;
+  input_told_ = now;
+  Arena arena;
+  write(kDiagnosticsTopic, diagnostics(*input, arena));
 }
 
 void DdsPublisher::publish_plan(const Watch& watch) {

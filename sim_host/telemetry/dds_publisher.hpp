@@ -21,6 +21,7 @@
 
 #include <dds/dds.h>
 
+#include <chrono>
 #include <cstdint>
 #include <string>
 
@@ -75,7 +76,7 @@ class DdsPublisher {
   bool lanes_told_ = false;
   std::uint32_t diagnostics_ms_ = 0;
   bool diagnosed_ = false;
-  int looks_without_ecu_ = 0;
+  std::chrono::steady_clock::time_point input_told_{};
 };
 
 }  // namespace s4tp::telemetry

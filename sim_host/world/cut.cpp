@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "firmware/wire/candump.hpp"
+#include "sim_host/world/listed.hpp"
 #include "sim_host/world/perception.hpp"
 #include "sim_host/world/toml_table.hpp"
 #include "sim_host/world/traffic_engine.hpp"
@@ -38,12 +39,8 @@ std::vector<std::vector<wire::Frame>> read_commands(const std::filesystem::path&
 
 std::string one_of(TomlTable& table, const std::string& key, const std::vector<std::string>& names) {
   const std::string name = table.text(key);
-  std::string accepted;
-  for (const std::string& one : names) {
-    if (one == name) return name;
-    accepted += (accepted.empty() ? "" : ", ") + one;
-  }
-  table.fail(key, "expected one of " + accepted);
+  if (std::find(names.begin(), names.end(), name) != names.end()) return name;
+  table.fail(key, "expected one of " + listed(names));
 }
 
 std::uint64_t seed_of(TomlTable& table) {

@@ -9,6 +9,7 @@
 
 #include "sim_host/world/cut.hpp"
 #include "sim_host/world/find_route.hpp"
+#include "sim_host/world/listed.hpp"
 #include "sim_host/world/route_file.hpp"
 #include "sim_host/world/toml_table.hpp"
 #include "sim_host/world/traffic_limits.hpp"
@@ -270,11 +271,7 @@ toml::value in_flavour(toml::value document, const std::string& file, const std:
     for (const auto& [name, unused] : flavours.as_table()) {
       names.insert(name);
     }
-    std::string known;
-    for (const std::string& name : names) {
-      known += (known.empty() ? "" : ", ") + name;
-    }
-    table.fail(flavour, "there is no such flavour; there are: " + known);
+    table.fail(flavour, "there is no such flavour; there are: " + listed(names));
   }
   return document;
 }
@@ -341,9 +338,7 @@ std::filesystem::path scenario_path(const std::filesystem::path& shipped, const 
   for (const fs::directory_entry& entry : fs::directory_iterator(shipped)) {
     if (is_scenario(entry.path())) names.insert(entry.path().filename().string());
   }
-  std::string known;
-  for (const std::string& one : names) known += (known.empty() ? "" : ", ") + one;
-  throw std::runtime_error(name + ": there is no such scenario; shipped are: " + known +
+  throw std::runtime_error(name + ": there is no such scenario; shipped are: " + listed(names) +
                            "; your own is a folder that holds a scenario.toml");
 }
 

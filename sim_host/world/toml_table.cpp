@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "sim_host/world/listed.hpp"
 #include "sim_host/world/toml_shape.hpp"
 
 namespace s4tp::world {
@@ -135,13 +136,7 @@ std::vector<TomlTable> TomlTable::tables(const std::string& key) {
 
 void TomlTable::no_other_keys() const {
   for (const auto& [key, value] : value_->as_table()) {
-    if (accepted_.count(key) == 0) {
-      std::string list;
-      for (const std::string& name : accepted_) {
-        list += (list.empty() ? "" : ", ") + name;
-      }
-      fail(key, "unknown key; accepted here: " + list);
-    }
+    if (accepted_.count(key) == 0) fail(key, "unknown key; accepted here: " + listed(accepted_));
   }
 }
 

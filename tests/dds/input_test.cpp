@@ -2,28 +2,30 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <functional>
 #include <limits>
+#include <map>
 #include <memory>
-#include <set>
 #include <sstream>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "hal/linux/named_bus.hpp"
 #include "sim_host/campaign/driver.hpp"
+#include "sim_host/campaign/frames.hpp"
 #include "sim_host/campaign/trace.hpp"
 #include "sim_host/processes/child_process.hpp"
 #include "sim_host/processes/input_link.hpp"
+#include "sim_host/recording/ticks.hpp"
 #include "sim_host/telemetry/dds_input.hpp"
 #include "sim_host/telemetry/dds_messages.hpp"
 #include "sim_host/world/scenario.hpp"
 #include "sim_host/world/world.hpp"
+#include "tests/dds/input_publisher.hpp"
 #include "tests/support/fake_bus.hpp"
 #include "tests/support/free_port.hpp"
 
@@ -31,151 +33,13 @@ namespace s4tp::telemetry {
 namespace {
 
 using namespace std::chrono_literals;
-using DdsLane = s4tp_msgs_msg_dds__Lane_;
-using DdsConflict = s4tp_msgs_msg_dds__Conflict_;
-
-constexpr const char* kObjectsTopic = "rt/s4tp/input/tracked_objects";
-constexpr const char* kMapTopic = "rt/s4tp/input/lane_map";
-constexpr const char* kLoopback =
-    "<General><Interfaces><NetworkInterface name=\"lo\" multicast=\"false\"/></Interfaces>"
-    "<AllowMulticast>false</AllowMulticast></General><Discovery><ParticipantIndex>auto</ParticipantIndex>"
-    "<MaxAutoParticipantIndex>120</MaxAutoParticipantIndex><Peers><Peer address=\"127.0.0.1\"/></Peers>"
-    "</Discovery>";
-
-bool wait_for(const std::function<bool()>& holds, std::chrono::milliseconds most = 20s) {
-  const auto end = std::chrono::steady_clock::now() + most;
-  while (!holds()) {
-    if (std::chrono::steady_clock::now() > end) return false;
-    std::this_thread::sleep_for(1ms);
-  }
-  return true;
-}
-
-/// A node that tells objects and maps, on loopback.
-class Publisher {
- public:
-  Publisher() {
-    domain_ = dds_create_domain(domain(), kLoopback);
-    participant_ = dds_create_participant(domain(), nullptr, nullptr);
-    objects_ = writer(autoware_perception_msgs_msg_dds__TrackedObjects__desc, kObjectsTopic);
-    maps_ = writer(s4tp_msgs_msg_dds__LaneMap__desc, kMapTopic);
-  }
-  ~Publisher() {
-    dds_delete(participant_);
-    dds_delete(domain_);
-  }
-  Publisher(const Publisher&) = delete;
-  Publisher& operator=(const Publisher&) = delete;
-
-  static std::uint32_t domain() { return 20U + static_cast<std::uint32_t>(getpid()) % 200U; }
-  [[nodiscard]] dds_entity_t participant() const { return participant_; }
-  [[nodiscard]] bool heard() const { return matched(objects_) && matched(maps_); }
-  void tell(const TrackedObjects& objects) { EXPECT_EQ(dds_write(objects_, &objects), DDS_RETCODE_OK); }
-  void tell(const LaneMapMessage& map) { EXPECT_EQ(dds_write(maps_, &map), DDS_RETCODE_OK); }
-
- private:
-  dds_entity_t writer(const dds_topic_descriptor_t& type, const char* name) {
-    dds_qos_t* const qos = dds_create_qos();
-    dds_qset_reliability(qos, DDS_RELIABILITY_RELIABLE, DDS_SECS(5));
-    dds_qset_history(qos, DDS_HISTORY_KEEP_ALL, 0);
-    const dds_entity_t topic = dds_create_topic(participant_, &type, name, nullptr, nullptr);
-    const dds_entity_t result = dds_create_writer(participant_, topic, qos, nullptr);
-    dds_delete_qos(qos);
-    EXPECT_GT(result, 0);
-    return result;
-  }
-  static bool matched(dds_entity_t writer) {
-    dds_publication_matched_status_t status{};
-    return dds_get_publication_matched_status(writer, &status) == DDS_RETCODE_OK && status.current_count > 0;
-  }
-
-  dds_entity_t domain_ = 0;
-  dds_entity_t participant_ = 0;
-  dds_entity_t objects_ = 0;
-  dds_entity_t maps_ = 0;
-};
-
-TrackedObjects message_of(const wire::Tracks& tracks, Arena& arena) {
-  TrackedObjects message{};
-  message.header.frame_id = arena.text("odom");
-  message.header.stamp.sec = tracks.vehicle_time_ms / 1000;
-  message.header.stamp.nanosec = static_cast<std::uint32_t>(tracks.vehicle_time_ms % 1000) * 1'000'000U;
-  auto* to = arena.sequence(message.objects, tracks.count);
-  for (int i = 0; i < tracks.count; ++i, ++to) {
-    const wire::Track& from = tracks.items[i];
-    to->object_id.uuid[15] = from.id;
-    auto& pose = to->kinematics.pose_with_covariance.pose;
-    pose.position = {from.x_m, from.y_m, 0.75};
-    pose.orientation.z = std::sin(0.5 * static_cast<double>(from.heading_rad));
-    pose.orientation.w = std::cos(0.5 * static_cast<double>(from.heading_rad));
-    to->kinematics.twist_with_covariance.twist.linear.x = from.speed_mps;
-    to->kinematics.twist_with_covariance.twist.angular.z = from.yaw_rate_radps;
-    to->kinematics.acceleration_with_covariance.accel.linear.x = from.acceleration_mps2;
-    to->shape.dimensions = {from.length_m, from.width_m, 1.5};
-  }
-  return message;
-}
-
-LaneMapMessage message_of(const wire::Map& map, Arena& arena) {
-  LaneMapMessage message{};
-  message.header.frame_id = arena.text("odom");
-  message.lanes_left_out = map.lanes_left_out;
-  auto* lane = arena.sequence(message.lanes, wire::kMaxLanes);
-  message.lanes._length = 0;
-  for (int slot = 0; slot < wire::kMaxLanes; ++slot) {
-    const wire::Lane& from = map.lanes[slot];
-    if (!from.present) continue;
-    *lane = DdsLane{};
-    lane->slot = static_cast<std::uint8_t>(slot);
-    lane->kind = from.kind;
-    lane->in_junction = from.in_junction;
-    lane->on_route = from.on_route;
-    lane->changes_needed = from.changes_needed;
-    lane->speed_limit_mps = from.speed_limit_mps;
-    lane->width_m = from.width_m;
-    lane->stop_line_m = from.stop_line_m;
-    lane->route_remaining_m = from.route_remaining_m;
-    lane->goal_distance_m = from.goal_distance_m;
-    std::copy(std::begin(from.successors), std::end(from.successors), lane->successors);
-    lane->left = from.left;
-    lane->right = from.right;
-    auto* point = arena.sequence(lane->points, from.point_count);
-    for (int i = 0; i < from.point_count; ++i) *point++ = {from.x_m[i], from.y_m[i], 0.0F};
-    ++lane;
-    ++message.lanes._length;
-  }
-  auto* conflict = arena.sequence(message.conflicts, wire::kMaxConflicts);
-  message.conflicts._length = 0;
-  for (int slot = 0; slot < wire::kMaxConflicts; ++slot) {
-    const wire::Conflict& from = map.conflicts[slot];
-    if (!from.present) continue;
-    *conflict++ = {static_cast<std::uint8_t>(slot),
-                   from.first,
-                   from.second,
-                   from.priority,
-                   from.first_entry_m,
-                   from.first_exit_m,
-                   from.second_entry_m,
-                   from.second_exit_m};
-    ++message.conflicts._length;
-  }
-  return message;
-}
-
-wire::Frame to_wire(const hal::CanFrame& from) {
-  wire::Frame frame;
-  frame.id = from.id;
-  frame.length = from.length;
-  std::copy_n(from.data, from.length, frame.data);
-  return frame;
-}
+using campaign::to_wire;
+using tests::message_of;
+using tests::Publisher;
+using tests::wait_for;
 
 bool same(const std::vector<wire::Frame>& a, const std::vector<wire::Frame>& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](const wire::Frame& one, const wire::Frame& two) {
-                      return one.id == two.id && one.length == two.length &&
-                             std::memcmp(one.data, two.data, one.length) == 0;
-                    });
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), recording::same);
 }
 
 // TELE-040 What a node on the bus sends of lists and maps, and what comes of the same over DDS: the same frames,
@@ -315,40 +179,6 @@ TEST(DdsInput, AMapNotToldAgainIsNotSent) {
   EXPECT_TRUE(link.sent.empty());
 }
 
-// PROC-045 PROC-046 Of the bus no lists, of the link nothing else; and of a flood on the link no more than a
-// share between two motion frames.
-TEST(InputLink, EachMessageComesFromOneSide) {
-  hal::linux_host::FakeBus bus;
-  hal::linux_host::FakeBus link;
-  const auto frame = [](std::uint32_t id, std::uint8_t mark) {
-    hal::CanFrame made;
-    made.id = id;
-    made.length = 8;
-    made.data[0] = mark;
-    return made;
-  };
-  bus.incoming = {frame(wire::kTrackListId, 1), frame(wire::kMotionId, 1), frame(wire::kMapHeaderId, 1),
-                  frame(wire::kTickId, 1)};
-  link.incoming = {frame(wire::kMotionId, 2), frame(wire::kTrackListId, 2), frame(wire::kSteeringId, 2),
-                   frame(wire::kMapHeaderId, 2)};
-  processes::InputLink both(bus, link);
-  std::vector<std::pair<std::uint32_t, int>> got;
-  for (hal::CanFrame taken; both.receive(taken);) got.emplace_back(taken.id, taken.data[0]);
-  const std::vector<std::pair<std::uint32_t, int>> expected = {
-      {wire::kTrackListId, 2}, {wire::kMapHeaderId, 2}, {wire::kMotionId, 1}, {wire::kTickId, 1}};
-  EXPECT_EQ(got, expected);
-
-  link.incoming = {frame(wire::kTrackListId, 2)};
-  link.endless = true;
-  bus.incoming = {frame(wire::kMotionId, 1), frame(wire::kTickId, 1)};
-  processes::InputLink flooded(bus, link);
-  std::vector<std::uint32_t> order;
-  for (hal::CanFrame taken; flooded.receive(taken) && order.size() < 200;) order.push_back(taken.id);
-  EXPECT_EQ(std::count(order.begin(), order.end(), wire::kMotionId), 1);
-  EXPECT_EQ(std::count(order.begin(), order.end(), wire::kTickId), 1);
-  EXPECT_LE(order.size(), 2U * processes::InputLink::kShare + 2U);
-}
-
 /// What the telemetry process says of its input on the diagnostics topic.
 class Diagnostics {
  public:
@@ -396,7 +226,7 @@ TEST(DdsInput, LiesDoNotReachTheEcu) {
   Diagnostics diagnostics(publisher.participant());
   processes::ChildProcess process({std::string(S4TP_BINARY_DIR) + "/sim_host/s4tp-telemetry", "--ecu",
                                    "/s4tp_no_such_" + std::to_string(getpid()), "--domain",
-                                   std::to_string(Publisher::domain()), "--input",
+                                   std::to_string(tests::free_domain()), "--input",
                                    "slcan:tcp:127.0.0.1:" + port});
   std::vector<wire::Frame> arrived;
   const auto listen = [&](std::chrono::milliseconds time) {

@@ -23,30 +23,21 @@
 #include "sim_host/world/scenario.hpp"
 #include "sim_host/world/world.hpp"
 #include "tests/dds/ros_reader.hpp"
+#include "tests/dds/wait_for.hpp"
 
 namespace s4tp {
 namespace {
 
 using namespace std::chrono_literals;
+using tests::free_domain;
 using tests::RosNode;
 using tests::RosReader;
+using tests::wait_for;
 
 const std::string kTelemetry = std::string(S4TP_BINARY_DIR) + "/sim_host/s4tp-telemetry";
 
 std::string memory_name() {
   return "/s4tp_dds_test_" + std::to_string(getpid());
-}
-std::uint32_t free_domain() {  // one a test process
-  return 20U + static_cast<std::uint32_t>(getpid()) % 200U;
-}
-
-bool wait_for(const std::function<bool()>& holds, std::chrono::milliseconds most = 20s) {
-  const auto end = std::chrono::steady_clock::now() + most;
-  while (!holds()) {
-    if (std::chrono::steady_clock::now() > end) return false;
-    std::this_thread::sleep_for(5ms);
-  }
-  return true;
 }
 
 /// The left turn of seed 3, tick by tick, with an ECU that tells what it does where a tap is given.

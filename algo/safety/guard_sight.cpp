@@ -1,0 +1,158 @@
+// What the guard sees of a scene before it judges plans: leader, followers, groups of zones, who may be in them.
+#include "algo/core/inline.hpp"
+#include "algo/safety/guard.hpp"
+#include "algo/trajectory/along_path.hpp"
+#include "algo/trajectory/bicycle.hpp"
+
+namespace s4tp::safety {
+namespace {
+
+using occupancy::kNeverS;
+
+constexpr float kWaitingRoomM = 1.0F;  // between two zones there is room to stand, clear of both
+constexpr float kClearOfZoneM = 0.7F;  // before it
+constexpr float kCurvesMps2 = 3.0F;
+constexpr int kCapSamples = 4;
+
+}  // namespace
+
+void Guard::look(const Scene& scene, const TrajectoryPoint& start, float lead_s,
+                 const Parameters& parameters) {
+  scene_ = &scene;
+  parameters_ = &parameters;
+  start_ = start;
+  lead_s_ = lead_s;
+  centre_m_ = rear_axle_to_centre_m(parameters);
+  front_m_ = rear_axle_to_front_m(parameters);
+  if (scene.map == nullptr) return;
+  occupancy::LaneReach reach[kMaxTracks];
+  for (int i = 0; i < scene.agents.size(); ++i) reach[i].measure(*scene.map, scene.agents[i]);
+  for (int path = 0; path < scene.ego_paths.size(); ++path) {
+    look_along(path);
+    find_threats(scene.ego_paths[path], reach, sights_[path]);
+  }
+}
+
+void Guard::look_along(int path_index) {
+  const EgoPath& path = scene_->ego_paths[path_index];
+  Sight& sight = sights_[path_index];
+  sight = Sight{};
+  sight.start_s_m = project(*scene_->map, path.path, position(start_.rear_axle), path.frenet.s_m, 15.0F).s_m;
+  sight.stop_s_m = sight.start_s_m + centre_m_ + parameters_->guard.takeover_s * start_.speed_mps +
+                   occupancy::stopping_way_m(start_.speed_mps, parameters_->guard.braking_mps2);
+  sight.end_s_m = dead_end_s_m(*scene_, path);
+  sight.leader_stop_s_m = kNoDeadEndM;
+  const float half_lane_m = 0.5F * path_point(*scene_->map, path.path, path.frenet.s_m).width_m;
+  sight.changes = path.manoeuvre != Manoeuvre::kKeep;
+  sight.half_over = abs(path.frenet.d_m) < half_lane_m;
+  const float centre_s_m = path.frenet.s_m + centre_m_;
+  for (int i = 0; i < scene_->agents.size(); ++i) {
+    const Agent& agent = scene_->agents[i];
+    bool known = false;
+    const bool joining = joins(*scene_, path, agent);
+    const OnPath seen = see_on_path(*scene_, path, agent, *parameters_, joining, known);
+    if (!known || !(seen.overlaps || joining) || seen.crossing) continue;
+    const float along_mps = max(0.0F, seen.along_mps);
+    if (seen.centre_s_m > centre_s_m) {
+      // It may have begun to brake when it was last seen.
+      const float seen_s_m = seen.centre_s_m - seen.half_length_m - agent.coasted_m;
+      const float seen_mps = max(0.0F, along_mps - agent.coasted_mps);
+      const float stop_s_m =
+          seen_s_m + occupancy::stopping_way_m(seen_mps, parameters_->law.braking_max_mps2);
+      if (stop_s_m >= sight.leader_stop_s_m) continue;
+      sight.leader_stop_s_m = stop_s_m;
+      sight.leader = static_cast<std::uint8_t>(i);
+      sight.leader_mps = along_mps;
+    } else if (sight.changes && seen.along_mps >= 0.0F) {
+      InLane behind;
+      behind.agent = static_cast<std::uint8_t>(i);
+      behind.bumper_s_m = seen.centre_s_m + seen.half_length_m + along_mps * lead_s_;
+      behind.speed_mps = along_mps;
+      if (sight.behind.push(behind)) continue;
+      int last = 0;  // the nearest ones matter
+      for (int k = 1; k < sight.behind.size(); ++k) {
+        if (sight.behind[k].bumper_s_m < sight.behind[last].bumper_s_m) last = k;
+      }
+      if (sight.behind[last].bumper_s_m < behind.bumper_s_m) sight.behind[last] = behind;
+    }
+  }
+  find_groups(path, sight);
+}
+
+void Guard::find_groups(const EgoPath& path, Sight& sight) const {
+  for (int i = 0; i < path.zones.size(); ++i) {  // in the order of their entries
+    const ConflictZone& zone = path.zones[i];
+    const bool yields = zone.priority != Priority::kFirstHasPriority;
+    if (!sight.groups.empty()) {
+      ZoneGroup& last = sight.groups[sight.groups.size() - 1];
+      if (zone.entry_s_m < last.exit_s_m + kWaitingRoomM) {
+        last.exit_s_m = max(last.exit_s_m, zone.exit_s_m);
+        last.end = static_cast<std::uint8_t>(i + 1);
+        last.yields = last.yields || yields;
+        continue;
+      }
+    }
+    ZoneGroup group;
+    group.entry_s_m = zone.entry_s_m;
+    group.exit_s_m = zone.exit_s_m;
+    group.stop_s_m = zone.entry_s_m - kClearOfZoneM;
+    group.first = static_cast<std::uint8_t>(i);
+    group.end = static_cast<std::uint8_t>(i + 1);
+    group.yields = yields;
+    (void)sight.groups.push(group);  // there are no more groups than zones
+  }
+  for (ZoneGroup& group : sight.groups) {
+    group.cap_mps = kNeverS;
+    for (int k = 0; k < kCapSamples; ++k) {
+      const float share = static_cast<float>(k) / static_cast<float>(kCapSamples - 1);
+      const PathPoint there =
+          path_point(*scene_->map, path.path, lerp(group.entry_s_m, group.exit_s_m, share));
+      const float bend_mps = sqrt(kCurvesMps2 / max(abs(there.curvature_1pm), 1e-3F));
+      group.cap_mps = min(group.cap_mps, min(there.speed_limit_mps, bend_mps));
+    }
+  }
+}
+
+void Guard::find_threats(const EgoPath& path, const occupancy::LaneReach (&reach)[kMaxTracks],
+                         Sight& sight) const {
+  const int count = scene_->agents.size();
+  for (int z = 0; z < path.zones.size(); ++z) {
+    ZoneOccupancy when[kMaxTracks];
+    // Two who set off at once have both seen the other stand: who can still stop has not used its licence.
+    const bool bound = sight.stop_s_m > path.zones[z].entry_s_m;
+    for (int i = 0; i < count; ++i) {
+      const Agent& agent = scene_->agents[i];
+      // D3: whoever changes into the lane we merge into leaves us our distances.
+      occupancy::LaneReach straight_on;
+      if (path.zones[z].merging) straight_on.measure(*scene_->map, agent, false);
+      when[i] = zone_occupancy(*scene_, agent, path.zones[z].merging ? straight_on : reach[i], path.zones[z],
+                               lead_s_, *parameters_);
+      const bool latched =
+          bound && when[i].to_entry_m > 0.0F && is_latched(agent.track.id, path.zones[z].other_lane);
+      if (when[i].claim == Claim::kMayCome && latched) when[i].claim = Claim::kStands;
+      const bool stays_out = when[i].claim != Claim::kMayCome && when[i].claim != Claim::kNone;
+      if (stays_out) sight.staying_out[z] |= static_cast<std::uint16_t>(1U << i);
+    }
+    for (int i = 0; i < count; ++i) {
+      if (when[i].claim != Claim::kMayCome || is_behind(when, i)) continue;
+      const Threat threat{static_cast<std::uint8_t>(z), static_cast<std::uint8_t>(i), when[i]};
+      if (!sight.threats.push(threat)) sight.too_many = true;
+    }
+  }
+}
+
+bool Guard::is_behind(const ZoneOccupancy (&when)[kMaxTracks], int index) const {
+  // Nobody drives through the one ahead in its lane, who stays out.
+  const LaneIndex lane = scene_->agents[index].lane;
+  if (lane == kNoLaneIndex || when[index].to_entry_m <= 0.0F) return false;
+  for (int i = 0; i < scene_->agents.size(); ++i) {
+    const bool stays_out = when[i].claim != Claim::kMayCome && when[i].claim != Claim::kNone;
+    const bool before_zone = when[i].to_entry_m > 0.0F;  // further on it leaves room for the next one
+    if (stays_out && before_zone && scene_->agents[i].lane == lane &&
+        when[i].to_entry_m < when[index].to_entry_m)
+      return true;
+  }
+  return false;
+}
+
+}  // namespace s4tp::safety
