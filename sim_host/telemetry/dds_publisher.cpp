@@ -40,9 +40,11 @@ dds_entity_t must(dds_entity_t entity, const char* what) {
   return entity;
 }
 
-/// Multicast is often missing on loopback: everybody is asked there one by one.
-std::string configuration(const std::string& interface_name) {
+}  // namespace
+
+std::string dds_configuration(const std::string& interface_name) {
   if (const char* own = std::getenv("CYCLONEDDS_URI"); own != nullptr && *own != '\0') return own;
+  // Multicast is often missing on loopback: everybody is asked there one by one.
   const bool local = interface_name.empty() || interface_name == "lo";
   const std::string name = local ? "lo" : interface_name;
   return "<General><Interfaces><NetworkInterface name=\"" + name + "\"" +
@@ -53,14 +55,16 @@ std::string configuration(const std::string& interface_name) {
          (local ? "<Peers><Peer address=\"127.0.0.1\"/></Peers>" : "") + "</Discovery>";
 }
 
-}  // namespace
-
 const char* DdsPublisher::name(Topic topic) {
   return kTopics[topic].name;
 }
 
+const dds_topic_descriptor_t& DdsPublisher::type(Topic topic) {
+  return *kTopics[topic].type;
+}
+
 DdsPublisher::DdsPublisher(std::uint32_t domain, const std::string& interface_name) {
-  domain_ = must(dds_create_domain(domain, configuration(interface_name).c_str()), "DDS domain");
+  domain_ = must(dds_create_domain(domain, dds_configuration(interface_name).c_str()), "DDS domain");
   participant_ = must(dds_create_participant(domain, nullptr, nullptr), "DDS participant");
   for (int i = 0; i < kTopicCount; ++i) {
     const TopicSpec& spec = kTopics[i];
@@ -99,7 +103,6 @@ bool DdsPublisher::anybody(Topic topic) const {
 
 void DdsPublisher::publish(const Watch& watch, const News& news, const InputReport* input) {
   if (news.another_ecu) lanes_told_ = diagnosed_ = false;
-  if (news.control) write(kControlTopic, control(watch.control()));
   if (news.plan) publish_plan(watch);
   const bool due = watch.control().time_ms - diagnostics_ms_ >= kSlowMs || !diagnosed_;
   if (news.control && (due || !news.mode_changes.empty())) {
@@ -114,6 +117,10 @@ void DdsPublisher::publish(const Watch& watch, const News& news, const InputRepo
   input_told_ = now;
   Arena arena;
   write(kDiagnosticsTopic, diagnostics(*input, arena));
+}
+
+void DdsPublisher::publish(const ecu::ControlRecord& record) {
+  write(kControlTopic, control(record));
 }
 
 void DdsPublisher::publish_plan(const Watch& watch) {

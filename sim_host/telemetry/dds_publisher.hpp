@@ -1,22 +1,7 @@
 #pragma once
 /// The topics. Names and types are those ROS 2 gives "/s4tp/...", so its tools read them as they are.
 ///
-/// | topic                     | type                                  | rate [Hz] | late joiner gets the
-/// last |
-/// |---------------------------|---------------------------------------|-----------|---------------------------|
-/// | rt/s4tp/tracked_objects   | autoware_perception_msgs TrackedObjects   | 10    | no  |
-/// | rt/s4tp/predicted_objects | autoware_perception_msgs PredictedObjects | 10    | no  |
-/// | rt/s4tp/trajectory        | autoware_planning_msgs Trajectory         | 10    | yes |
-/// | rt/s4tp/fail_safe         | autoware_planning_msgs Trajectory         | 10    | yes |
-/// | rt/s4tp/candidates        | visualization_msgs MarkerArray            | 10    | yes |
-/// | rt/s4tp/control           | autoware_control_msgs Control             | 100   | no  |
-/// | rt/s4tp/risk              | nav_msgs OccupancyGrid                    | 10, while somebody reads it |
-/// yes | | rt/s4tp/path              | nav_msgs Path                             | 10    | yes | |
-/// rt/s4tp/lanes             | visualization_msgs MarkerArray            | 1     | yes | |
-/// rt/s4tp/explanation       | std_msgs String                           | 10    | yes | | rt/diagnostics |
-/// diagnostic_msgs DiagnosticArray           | 1, and at mode changes | yes | | rt/tf                     |
-/// tf2_msgs TFMessage                        | 10    | no  |
-///
+/// docs/telemetry.md has the table of topics, their types, rates and what a late joiner gets.
 /// All are reliable, keep the last 1 (rt/tf: 10); "late joiner": durability transient local, else volatile.
 
 #include <dds/dds.h>
@@ -46,6 +31,9 @@ enum Topic : std::uint8_t {
   kTopicCount
 };
 
+/// Cyclone DDS's configuration: this interface alone, loopback where none is named; a CYCLONEDDS_URI goes before.
+[[nodiscard]] std::string dds_configuration(const std::string& interface_name);
+
 /// TELE-031 On the wire it is plain RTPS: tshark finds every message well formed, and its topic and type.
 class DdsPublisher {
  public:
@@ -56,11 +44,15 @@ class DdsPublisher {
   DdsPublisher(const DdsPublisher&) = delete;
   DdsPublisher& operator=(const DdsPublisher&) = delete;
 
-  /// Publishes what is new. \param input  told on the diagnostics topic, without an ECU too; may be null
+  /// TELE-032 What reached the actuators, at its own pace: may be called beside the other publish(), by another
+  /// thread, as what is made of a plan takes longer than a command stays in the memory.
+  void publish(const ecu::ControlRecord& record);
+  /// Publishes all else that is new. \param input  told on the diagnostics topic, without an ECU too; may be null
   void publish(const Watch& watch, const News& news, const InputReport* input = nullptr);
   [[nodiscard]] dds_entity_t participant() const { return participant_; }
   [[nodiscard]] std::uint64_t written(Topic topic) const { return written_[topic]; }
   [[nodiscard]] static const char* name(Topic topic);
+  [[nodiscard]] static const dds_topic_descriptor_t& type(Topic topic);
 
  private:
   template <class Message>

@@ -9,6 +9,7 @@
 #include <iostream>
 #include <memory>
 #include <string>
+#include <thread>
 
 #include "sim_host/processes/bus_end.hpp"
 #include "sim_host/processes/stop_signals.hpp"
@@ -82,6 +83,12 @@ int main(int argc, char** argv) {
     telemetry::DdsPublisher publisher(domain, interface_name);
     std::unique_ptr<Input> input;
     if (!link.empty()) input = std::make_unique<Input>(publisher.participant(), link);
+    std::jthread commands([&](const std::stop_token& over) {
+      telemetry::Watch watch(ecu);
+      for (; !over.stop_requested(); usleep(kLook_us)) {
+        if (watch.look().control) publisher.publish(watch.control());
+      }
+    });
     telemetry::Watch watch(ecu);
     std::string said;
     while (!stop) {
@@ -94,6 +101,8 @@ int main(int argc, char** argv) {
       publisher.publish(watch, news, input ? &input->report() : nullptr);
       usleep(kLook_us);
     }
+    commands.request_stop();
+    commands.join();
     for (int i = 0; i < telemetry::kTopicCount; ++i) {
       const auto topic = static_cast<telemetry::Topic>(i);
       std::cout << publisher.written(topic) << " x " << publisher.name(topic) << '\n';

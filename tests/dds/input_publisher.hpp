@@ -9,6 +9,7 @@
 
 #include "sim_host/telemetry/dds_input_values.hpp"
 #include "sim_host/telemetry/dds_messages.hpp"
+#include "sim_host/telemetry/dds_publisher.hpp"
 #include "tests/dds/wait_for.hpp"
 
 namespace s4tp::tests {
@@ -17,17 +18,11 @@ using telemetry::Arena;
 using telemetry::LaneMapMessage;
 using telemetry::TrackedObjects;
 
-inline constexpr const char* kLoopback =
-    "<General><Interfaces><NetworkInterface name=\"lo\" multicast=\"false\"/></Interfaces>"
-    "<AllowMulticast>false</AllowMulticast></General><Discovery><ParticipantIndex>auto</ParticipantIndex>"
-    "<MaxAutoParticipantIndex>120</MaxAutoParticipantIndex><Peers><Peer address=\"127.0.0.1\"/></Peers>"
-    "</Discovery>";
-
 /// A node that tells objects and maps, on loopback.
 class Publisher {
  public:
   Publisher() {
-    domain_ = dds_create_domain(free_domain(), kLoopback);
+    domain_ = dds_create_domain(free_domain(), telemetry::dds_configuration("").c_str());
     participant_ = dds_create_participant(free_domain(), nullptr, nullptr);
     objects_ =
         writer(autoware_perception_msgs_msg_dds__TrackedObjects__desc, "rt/s4tp/input/tracked_objects");
