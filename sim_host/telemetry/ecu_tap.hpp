@@ -13,7 +13,8 @@
 
 namespace s4tp::telemetry {
 
-/// TELE-002 Whoever reads, stops reading or never comes: what the ECU does is the same to the bit.
+/// TELE-002 Whoever reads, stops reading or never comes: what the ECU does is the same to the bit. TELE-007 And a
+/// planning cycle takes the same instructions.
 class EcuTap final : public hal::Telemetry, public Probe {
  public:
   /// \param next  gets every record, too; may be null

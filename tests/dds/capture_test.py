@@ -43,7 +43,10 @@ def main(program):
     with tempfile.TemporaryDirectory() as folder:
         file = pathlib.Path(folder) / "wire.pcap"
         environment = {**os.environ, "CYCLONEDDS_URI": LOOPBACK.replace("FILE", str(file))}
-        subprocess.run([program, "--gtest_filter=Topics.ReachFastDds*"], env=environment, check=True, stdout=subprocess.DEVNULL)
+        drive = subprocess.run([program, "--gtest_filter=Topics.ReachFastDds*"], env=environment, check=False, text=True,
+                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+        if drive.returncode != 0:
+            sys.exit(f"capture_test: exit code {drive.returncode}\n{drive.stdout}")
         # A topic's own messages: tshark finds their topic by the writer that discovery announced.
         data = tshark(file, "rtps.sm.id == 0x15 || rtps.sm.id == 0x16", "rtps.param.topicName", "rtps.param.typeName",
                       "rtps.sm.wrEntityId")
