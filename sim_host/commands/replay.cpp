@@ -11,6 +11,7 @@
 #include "sim_host/recording/cut.hpp"
 #include "sim_host/recording/playback.hpp"
 #include "sim_host/recording/same_start.hpp"
+#include "sim_host/recording/ticks.hpp"
 #include "sim_host/view/html.hpp"
 
 namespace s4tp::commands {
@@ -78,10 +79,18 @@ int replay(ReplayOptions& options) {
   return code;
 }
 
-int cut_same_start(const ReplayOptions& options) {
+/// Of a drive's first tick that was kept [s], where older files of its recording are gone; else 0.
+double kept_from_s(const fs::path& file) {
+  recording::TickReader reader(file);
+  recording::RecordedTick first;
+  return reader.series().begins_later() && reader.next(first) ? 1e-6 * static_cast<double>(reader.begin_us())
+                                                              : 0.0;
+}
+
+int cut_same_start(const ReplayOptions& options, const world::Scenario& roads) {
   const DriveNote note = recording::Playback(playback_options(options)).note();
-  const double start_s = *options.cut_s + note.take_over_tick * kTick_s - recording::kBefore_s;
-  const world::Scenario roads = options.common.find_scenario(options.roads);
+  const double start_s =
+      *options.cut_s + note.take_over_tick * kTick_s - recording::kBefore_s - kept_from_s(options.file);
   const recording::StartMade made =
       recording::write_same_start(options.file, note, start_s, roads, options.common.out);
   std::cout << options.common.out.string() << ": the start 10 s before; of " << made.told << " vehicles told "
@@ -91,7 +100,7 @@ int cut_same_start(const ReplayOptions& options) {
   return kDone;
 }
 
-/// Exactly where the drive was of our world; with --scenario the same start on those roads.
+/// Exactly where the drive was of our world, else the same start on its roads; with --scenario on those.
 int cut(const ReplayOptions& options) {
   if (options.common.out_named->count() == 0) {
     throw std::runtime_error("--cut: name the folder it goes to: --out DIR");
@@ -100,8 +109,15 @@ int cut(const ReplayOptions& options) {
   if (fs::exists(folder) && !(fs::is_directory(folder) && fs::is_empty(folder))) {
     throw std::runtime_error(folder.string() + ": is there already; name another --out");
   }
-  if (!options.roads.empty()) return cut_same_start(options);
-  const recording::CutMade made = recording::write_cut(options.file, *options.cut_s, folder);
+  if (!options.roads.empty()) return cut_same_start(options, options.common.find_scenario(options.roads));
+  recording::CutMade made;
+  try {
+    made = recording::write_cut(options.file, *options.cut_s, folder);
+  } catch (const recording::NoSuchWorld& reason) {
+    std::cout << reason.what()
+              << "\nso it is the same start on the recording's own roads, with default drivers\n";
+    return cut_same_start(options, recording::scenario_of(options.file));
+  }
   const DriveNote note = recording::read_note(options.file);
   std::string command = "./s4tp run --scenario " + word(folder);
   if (!note.planner.empty() && note.planner != "s4tp") command += " --planner " + note.planner;
@@ -144,8 +160,8 @@ Command add_replay(CLI::App& tool) {
           ->excludes(from, view);
   replay_app
       ->add_option("--scenario", options->roads,
-                   "of a log whose world is not known, but its roads: --cut makes the same start there, with "
-                   "default drivers")
+                   "of a log that does not name its roads: --cut makes the same start on these, with default "
+                   "drivers")
       ->needs(cut_option);
   options->common.out_named =
       replay_app->add_option("--out", options->common.out, "folder for that (--view: default out/replay)");

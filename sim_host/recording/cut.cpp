@@ -46,11 +46,9 @@ CutMade write_cut(const fs::path& file, double moment_s, const fs::path& folder)
   const world::Scenario scenario = scenario_of(file);
   TickReader reader(file);
   if (reader.series().begins_later()) {
-    throw std::runtime_error(
-        file.string() +
-        ": the drive's beginning was not kept (--record-keep 0 keeps all), and without it "
-        "the drive cannot be made again; --scenario NAME makes the same start with default "
-        "drivers");
+    throw NoSuchWorld(file.string() +
+                      ": the drive's beginning was not kept (--record-keep 0 keeps all), and "
+                      "without it the drive cannot be made again");
   }
   const long moment_tick = note.take_over_tick + std::lround(moment_s / kTick_s);
   WorldRerun rerun(note, scenario);
@@ -66,9 +64,8 @@ CutMade write_cut(const fs::path& file, double moment_s, const fs::path& folder)
                              (reader.series().damage().empty() ? "" : "; " + reader.series().damage()));
   }
   if (rerun.agreement().differing > 0) {
-    throw std::runtime_error("this program's world is not the one of the recording (" + note.versions +
-                             " then, " + versions_here() + " now): " + rerun.agreement().first +
-                             "; --scenario NAME makes the same start with default drivers");
+    throw NoSuchWorld("this program's world is not the one of the recording (" + note.versions + " then, " +
+                      versions_here() + " now): " + rerun.agreement().first);
   }
 
   CutMade made;

@@ -38,6 +38,8 @@ class TickReader {
   /// nobody knows what is missing. \return false at the end
   [[nodiscard]] bool next(RecordedTick& tick);
   [[nodiscard]] const SeriesReader& series() const { return series_; }
+  /// Time of the first TICK frame as the file has it; 0 before that is read.
+  [[nodiscard]] std::uint64_t begin_us() const { return begin_us_.value_or(0); }
   /// What campaign::BusLog says of the drive in its first line; empty: nothing so far.
   [[nodiscard]] const std::string& header() const { return header_; }
 

@@ -19,7 +19,7 @@ constexpr const char* kCommandsFile = "commands.log";
 std::vector<std::vector<wire::Frame>> read_commands(const std::filesystem::path& file, int ticks) {
   std::vector<std::vector<wire::Frame>> commands(static_cast<std::size_t>(ticks));
   std::ifstream stream(file);
-  if (!stream) throw std::runtime_error(file.string() + ": there is no such file");
+  if (!stream) throw std::runtime_error(file.string() + ": cannot be read");
   int number = 0;
   for (std::string line; std::getline(stream, line);) {
     ++number;
@@ -55,6 +55,7 @@ Cut read_cut(TomlTable table, const std::filesystem::path& file) {
   const std::filesystem::path folder = file.parent_path();
   Cut cut;
   cut.of = folder / table.text("of");
+  if (!std::filesystem::exists(cut.of)) table.fail("of", cut.of.string() + ": there is no such scenario");
   cut.flavour = table.text("flavour", "");
   cut.seed = seed_of(table);
   cut.traffic = one_of(table, "traffic", engine_names());
@@ -62,6 +63,9 @@ Cut read_cut(TomlTable table, const std::filesystem::path& file) {
   static_cast<void>(table.require("start_tick"));
   cut.start_tick = table.integer("start_tick", 0, 0, kTicksMax);
   cut.commands_file = folder / table.text("commands");
+  if (!std::filesystem::is_regular_file(cut.commands_file)) {
+    table.fail("commands", cut.commands_file.string() + ": there is no such file");
+  }
   table.no_other_keys();
   cut.commands = read_commands(cut.commands_file, cut.start_tick);
   return cut;
