@@ -21,6 +21,8 @@ class BusLog {
   BusLog(const std::filesystem::path& file, std::uint64_t seed, const std::string& ecu_note);
 
   void write(std::uint64_t time_us, const std::vector<wire::Frame>& frames);
+  /// For whoever reads the file meanwhile.
+  void flush() { stream_.flush(); }
   /// The planning cycle that started last comes too late.
   void write_deadline_miss() { stream_ << "# miss\n"; }
 

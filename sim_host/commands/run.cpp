@@ -56,6 +56,7 @@ struct RunOptions {
   std::string bus;
   bool realtime = false;
   bool no_ecu = false;
+  std::string input;
   std::string target;
   fs::path image;
   int patience_s = 1;
@@ -174,6 +175,7 @@ int run_on_bus(RunOptions run) {
   options.world.engine = world::engine_of(run.common.traffic);
   options.world.perception = world::perception_preset(run.perception);
   options.world.realtime = run.realtime;
+  options.world.paced = run.live;
   options.world.wait_for_answers(run.patience_s);
   if (!run.log.empty()) options.world.log = run.log;
   options.out = run.common.out;
@@ -187,6 +189,7 @@ int run_on_bus(RunOptions run) {
       ecu.insert(ecu.end(), {"--parameters", run.common.parameters_file});
     }
     if (run.realtime) ecu.push_back("--realtime");
+    if (!run.input.empty()) ecu.insert(ecu.end(), {"--input", run.input});
     ecu.insert(ecu.end(), {"--telemetry", run.telemetry});
   }
   const auto meeting = run.realtime ? recording::Meeting::kRealTime : recording::Meeting::kLockStep;
@@ -211,6 +214,7 @@ int run_on_target(RunOptions run) {
   options.world.engine = world::engine_of(run.common.traffic);
   options.world.perception = world::perception_preset(run.perception);
   options.world.ecu_note = campaign::ecu_note("s4tp", true, Parameters{});
+  options.world.paced = run.live;
   if (!run.log.empty()) options.world.log = run.log;
   options.out = run.common.out;
   const auto recorder = make_recorder(run, scenario, recording::Meeting::kLockStep, "s4tp");
@@ -218,6 +222,28 @@ int run_on_target(RunOptions run) {
   const int code = processes::drive_on_target(scenario, options, std::cout);
   if (recorder) finish(*recorder, run);
   return code;
+}
+
+/// The same in the virtual machine. \param arguments  what was given, without --vm
+[[noreturn]] void run_on_machine(const RunOptions& run, std::vector<std::string> arguments) {
+  fs::create_directories(run.common.out);
+  if (run.common.out_named->count() == 0) arguments.push_back("--out=" + run.common.out.string());
+  fs::path log = run.log;
+  if (run.realtime && !run.telemetry.empty()) {
+    std::cout << "./s4tp view does not show this drive: in real time there is no telling what the machine's "
+                 "ECU heard "
+                 "in a tick"
+              << std::endl;
+  } else if (!run.telemetry.empty()) {
+    if (log.empty()) arguments.push_back("--log=" + (log = run.common.out / "bus.log").string());
+    show_machine(log, run.telemetry,
+                 {run.bus + " of the virtual machine", run.planner, run.guarded(), run.common.parameters()});
+  }
+  std::vector<fs::path> written{run.common.out};
+  for (const fs::path& file : {log, run.record}) {
+    if (!file.empty()) written.push_back(fs::absolute(file).parent_path());
+  }
+  run_in_machine(run.bus, arguments, written);
 }
 
 }  // namespace
@@ -255,19 +281,27 @@ Command add_run(CLI::App& tool) {
                       "ECU and world as two processes on can0, vcan0, slcan:tcp:HOST:PORT, "
                       "slcan:pty:PATH, slcan:tty:PATH@BAUD (no picture then)");
   bus->excludes(explain);
-  run->add_flag("--realtime", options->realtime, "on a bus: 10 ms of host time a tick")->needs(bus);
-  run->add_flag("--no-ecu", options->no_ecu, "on a bus: an ECU is there already")->needs(bus);
+  CLI::Option* const realtime =
+      run->add_flag("--realtime", options->realtime, "on a bus: 10 ms of host time a tick")->needs(bus);
+  CLI::Option* const no_ecu =
+      run->add_flag("--no-ecu", options->no_ecu, "on a bus: an ECU is there already")->needs(bus);
+  CLI::Option* const input =
+      run->add_option("--input", options->input,
+                      "on a bus: the ECU takes objects and map from this link and not from the bus; "
+                      "./s4tp telemetry --input sends there what is told over DDS (docs/telemetry.md)")
+          ->needs(bus)
+          ->excludes(record, no_ecu);  // what comes over the link is not in the recording
   CLI::Option* const telemetry = run->add_option("--telemetry", options->telemetry,
                                                  "on a bus, on a target, and live: shared memory the ECU "
                                                  "tells what it does through (default /s4tp_ecu)");
-  CLI::Option* const live =
-      run->add_flag("--live", options->live, "at the pace of the clock, for ./s4tp view in another terminal");
-  live->excludes(bus);
+  CLI::Option* const live = run->add_flag("--live", options->live,
+                                          "not faster than the clock, for ./s4tp view in another terminal");
+  live->excludes(realtime);  // which is by the clock
   CLI::Option* const target =
       run->add_option("--target", options->target,
                       "the ECU's image on an emulated board: m7, m55 (no picture then)")
           ->check(CLI::IsMember(processes::board_targets()))
-          ->excludes(bus, planner, guard, explain, live);
+          ->excludes(bus, planner, guard, explain);
   run->add_option("--image", options->image,
                   "of that board (default: build/TARGET/firmware/targets/ecu_lockstep)")
       ->needs(target);
@@ -286,16 +320,8 @@ Command add_run(CLI::App& tool) {
             if (options->bus.empty()) return run_one(*options);
             if (!needs_machine(options->bus, options->machine)) return run_on_bus(*options);
             if (options->no_ecu) throw std::runtime_error("--no-ecu: there is no other ECU in the machine");
-            fs::create_directories(options->common.out);
-            std::vector<fs::path> written{options->common.out};
-            for (const fs::path& file : {options->log, options->record}) {
-              if (!file.empty()) written.push_back(fs::absolute(file).parent_path());
-            }
-            std::vector<std::string> arguments = arguments_of(*run, machine);
-            if (options->common.out_named->count() == 0) {
-              arguments.push_back("--out=" + options->common.out.string());
-            }
-            run_in_machine(options->bus, arguments, written);
+            if (input->count() > 0) throw std::runtime_error("--input: no link leads into the machine");
+            run_on_machine(*options, arguments_of(*run, machine));
           }};
 }
 

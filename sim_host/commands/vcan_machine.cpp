@@ -1,5 +1,7 @@
 #include "sim_host/commands/vcan_machine.hpp"
 
+#include <signal.h>
+#include <sys/prctl.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -9,12 +11,15 @@
 #include <stdexcept>
 
 #include "hal/linux/bus_name.hpp"
+#include "sim_host/processes/log_follower.hpp"
+#include "sim_host/processes/stop_signals.hpp"
 
 namespace s4tp::commands {
 namespace {
 
 namespace fs = std::filesystem;
 
+constexpr useconds_t kLook_us = 10'000;
 constexpr const char* kSeconds = "3600";  // a drive takes minutes at most
 
 bool kernel_has_can() {
@@ -48,6 +53,30 @@ std::vector<std::string> arguments_of(const CLI::App& command, const CLI::Option
     }
   }
   return arguments;
+}
+
+void show_machine(const fs::path& log, const std::string& memory, const processes::TwinOf& of) {
+  fs::remove(log);
+  std::cout.flush();
+  const pid_t machine = getpid();
+  const pid_t child = fork();
+  if (child < 0) throw std::runtime_error(std::string("fork: ") + std::strerror(errno));
+  if (child != 0) return;
+  int code = 0;
+  try {
+    const std::atomic<bool>& stop = processes::stop_on_signals();
+    prctl(PR_SET_PDEATHSIG, SIGTERM);
+    processes::BoardTwin twin(memory, of, std::cout);
+    processes::LogFollower follower(log);
+    while (!stop && getppid() == machine && twin.tells()) {
+      if (!follower.look([&twin](const std::vector<wire::Frame>& frames) { twin.hear(frames); }))
+        usleep(kLook_us);
+    }
+  } catch (const std::exception& error) {
+    std::cerr << "the machine's ECU is not shown: " << error.what() << std::endl;
+    code = 2;
+  }
+  _exit(code);
 }
 
 void run_in_machine(const std::string& bus, const std::vector<std::string>& arguments,

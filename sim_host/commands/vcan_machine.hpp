@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "sim_host/processes/board_twin.hpp"
+
 namespace s4tp::commands {
 
 /// PROC-030 A CAN interface is one of the machine when that is asked for, and, told in a line, where this
@@ -15,6 +17,11 @@ namespace s4tp::commands {
 
 /// What `command` was given, option by option, except `left_out`.
 [[nodiscard]] std::vector<std::string> arguments_of(const CLI::App& command, const CLI::Option* left_out);
+
+/// PROC-032 A process of its own shows the ECU of the machine (processes/board_twin.hpp) by the log of its bus,
+/// which run_in_machine() is to write; it ends when this process, or what takes its place, does.
+/// \param log  removed first  \param memory  as BoardTwin
+void show_machine(const std::filesystem::path& log, const std::string& memory, const processes::TwinOf& of);
 
 /// PROC-031 This program with these arguments on a vcan named `bus`, instead of going on here: output, exit
 /// code and what it writes into the `writable` folders that exist are those of the run there.

@@ -7,14 +7,15 @@
 
 namespace s4tp::processes {
 
-BoardTwin::BoardTwin(const std::string& memory, const std::string& board, std::ostream& out) : out_(out) {
+BoardTwin::BoardTwin(const std::string& memory, const TwinOf& of, std::ostream& out) : out_(out) {
   if (memory.empty()) return;
   hal::linux_host::Reason reason;
-  if (!tap_.open(memory, "s4tp", board + ", by a twin that hears the same frames", Parameters{}, reason)) {
+  if (!tap_.open(memory, of.planner, of.board + ", by a twin that hears the same frames", of.parameters,
+                 reason)) {
     out_ << "no telemetry: " << reason.text << std::endl;
     return;
   }
-  driver_ = campaign::make_driver("s4tp", true, Parameters{}, &tap_, &tap_);
+  driver_ = campaign::make_driver(of.planner, of.guarded, of.parameters, &tap_, &tap_);
 }
 
 void BoardTwin::hear(const std::vector<wire::Frame>& frames) {

@@ -7,18 +7,26 @@
 #include <string>
 #include <vector>
 
+#include "algo/core/parameters.hpp"
 #include "firmware/wire/frame.hpp"
 #include "sim_host/campaign/driver.hpp"
 #include "sim_host/telemetry/ecu_tap.hpp"
 
 namespace s4tp::processes {
 
+/// The ECU that the twin is one of.
+struct TwinOf {
+  std::string board;  ///< where it is, for whoever looks
+  std::string planner = "s4tp";
+  bool guarded = true;
+  Parameters parameters{};
+};
+
 class BoardTwin {
  public:
   /// Without shared memory it says why, and does nothing.
-  /// \param memory  its name; empty: nothing is told  \param board  for whoever looks  \param out  must
-  /// outlive it
-  BoardTwin(const std::string& memory, const std::string& board, std::ostream& out);
+  /// \param memory  its name; empty: nothing is told  \param out  must outlive it
+  BoardTwin(const std::string& memory, const TwinOf& of, std::ostream& out);
 
   /// TELE-006 Frames of the bus as WorldProcessOptions::record gives them: a tick's from the world at once,
   /// those of the board one by one. A board that sends anything else than the twin does is not shown any

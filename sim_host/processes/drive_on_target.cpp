@@ -51,7 +51,7 @@ int drive_on_target(const world::Scenario& scenario, const TargetOptions& option
   drive.world.bus = "slcan:listen:127.0.0.1:" + std::to_string(port);
   drive.world.answer_within_ms = kAnswerWithin_ms;
   drive.world.dead_after_ms = kDeadAfter_ms;
-  BoardTwin twin(options.telemetry, options.target, out);
+  BoardTwin twin(options.telemetry, {options.target}, out);
   drive.world.record = [&](std::uint64_t time_us, const std::vector<wire::Frame>& frames) {
     if (options.world.record) options.world.record(time_us, frames);
     twin.hear(frames);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <memory>
+#include <thread>
 #include <vector>
 
 #include "firmware/wire/codec.hpp"
@@ -24,6 +25,7 @@ using std::chrono::steady_clock;
 
 constexpr seconds kLinkBackWithin{30};
 constexpr milliseconds kLook{50};
+constexpr milliseconds kTick{10};
 constexpr int kToldUnanswered = 5;
 constexpr int kPriority = 60;  // below an ECU of the same machine
 constexpr std::uint64_t kQuiet_us =
@@ -82,7 +84,10 @@ class Session {
 
   void drive_in_lock_step() {
     auto answered = steady_clock::now();
+    auto next = answered;
     while (!world_.finished() && !stop_) {
+      // What was late is not made up for: nobody could look at it.
+      if (options_.paced) std::this_thread::sleep_until(next = std::max(next + kTick, steady_clock::now()));
       begin_tick();
       if (await_answer()) {
         answered = steady_clock::now();
@@ -159,6 +164,7 @@ class Session {
     ++result_.ticks;
     for (const wire::Frame& frame : frames_) (void)can_.send(campaign::to_hal(frame));  // counted there
     log(frames_);
+    if (log_) log_->flush();
   }
 
   /// Takes what has come, up to the Command frame that answers this tick or one of the last `oldest`.

@@ -25,7 +25,8 @@ struct WorldProcessOptions {
   world::Engine engine = world::Engine::kBuiltin;
   world::PerceptionOptions perception;
   bool realtime = false;
-  int wait_s = 10;                           ///< for a sign of the ECU; 0: begin at once
+  bool paced = false;  ///< lock-step: a tick takes 10 ms of host time at least, for onlookers
+  int wait_s = 10;     ///< for a sign of the ECU; 0: begin at once
   std::optional<std::filesystem::path> log;  ///< every frame of the bus from the first tick on
   /// Also told every frame of that log; time is vehicle time.
   std::function<void(std::uint64_t time_us, const std::vector<wire::Frame>&)> record;
@@ -51,15 +52,15 @@ struct WorldProcessResult {
 };
 
 /// PROC-020 Begins when a VersionEcu frame shows that an ECU is there, says so when none comes.
-/// PROC-021 Lock-step: the next tick begins when a Command frame whose CRC fits echoes the number of this
-/// one. Without one for answer_within_ms of host time it begins all the same; PROC-022 after dead_after_ms
-/// without any, or when ecu_lives says no, the ECU is dead, and the episode ends as the world sees fit. While
-/// the link is down or off nothing is counted for 30 s. PROC-023 Realtime: a tick every 10 ms of host time,
-/// whatever the ECU does; a world that is a period late or later skips ticks, so the car's time stands still
-/// for them. The calling thread asks for SCHED_FIFO and keeps it. PROC-024 A Command frame reaches the car
-/// only if its CRC fits and its echo is the present tick's (realtime: one of the last 10), so a frame
-/// recorded earlier never does. The car's own protection comes after that. \throws std::runtime_error when
-/// the log cannot be written
+/// PROC-021 Lock-step: the next tick begins when a Command frame whose CRC fits echoes the number of this one
+/// (paced: PROC-025 and not before 10 ms have passed). Without one for answer_within_ms of host time it begins
+/// all the same; PROC-022 after dead_after_ms without any, or when ecu_lives says no, the ECU is dead, and the
+/// episode ends as the world sees fit. While the link is down or off nothing is counted for 30 s. PROC-023
+/// Realtime: a tick every 10 ms of host time, whatever the ECU does; a world that is a period late or later
+/// skips ticks, so the car's time stands still for them. The calling thread asks for SCHED_FIFO and keeps it.
+/// PROC-024 A Command frame reaches the car only if its CRC fits and its echo is the present tick's (realtime:
+/// one of the last 10), so a frame recorded earlier never does. The car's own protection comes after that.
+/// \throws std::runtime_error when the log cannot be written
 [[nodiscard]] WorldProcessResult run_world(const world::Scenario& scenario, hal::linux_host::LinuxCan& can,
                                            const WorldProcessOptions& options, std::ostream& out,
                                            const std::atomic<bool>& stop);

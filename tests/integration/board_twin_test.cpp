@@ -31,7 +31,7 @@ struct Bus {
       campaign::make_driver("s4tp", true, Parameters{}, &inside, &inside);
   std::string memory = "/s4tp_twin_test_" + std::to_string(getpid());
   std::ostringstream out;
-  BoardTwin twin{memory, "m7", out};
+  BoardTwin twin{memory, {"m7"}, out};
 
   /// \param lie  one bit of each frame of the board's last tick is another one
   void drive(int ticks, bool lie = false) {

@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
-"""What a user starts on a host whose kernel has no CAN, from outside: run_in_machine_test.py S4TP_TOOL"""
+"""What a user starts on a host whose kernel has no CAN, from outside: run_in_machine_test.py S4TP_TOOL [S4TP_VIEW]"""
 
+import json
+import os
 import pathlib
 import re
 import shutil
@@ -11,7 +13,11 @@ import tempfile
 import time
 import unittest
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "view"))
+from browser import WebSocket  # noqa: E402
+
 TOOL = sys.argv.pop(1)
+VIEW = sys.argv.pop(1) if len(sys.argv) > 1 else None
 CRUISE = pathlib.Path(__file__).resolve().parents[2] / "sim_host" / "scenarios" / "cruise"
 DRIVE = ["run", "--scenario", "short", "--seed", "3"]
 TIMEOUT_S = 180
@@ -57,6 +63,38 @@ class RunInMachine(unittest.TestCase):
         self.assertIn(inside.stdout.splitlines()[0], done.stdout)
         self.assertEqual((self.folder / "vcan.log").read_bytes(), (self.folder / "inside.log").read_bytes())
         self.assertIn('"ending": "time-out"', (self.folder / "out" / "run.json").read_text())
+
+    # PROC-032 TELE-008 What the machine's ECU thinks is seen outside, by a twin that hears the log of its bus: plan after plan,
+    # to the end of the drive, and no frame of the two differs.
+    @unittest.skipUnless(VIEW, "no libwebsockets")
+    def test_the_machines_ecu_is_seen_outside(self):
+        memory = f"/s4tp_machine_{os.getpid()}"
+        page = subprocess.Popen([VIEW, "--ecu", memory, "--port", "0"], stdout=subprocess.PIPE, text=True)
+        run = subprocess.Popen([TOOL, *DRIVE, "--bus", "vcan0", "--vm", "--patience", "20", "--telemetry", memory], cwd=self.folder,
+                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        try:
+            port = int(re.search(r"http://127\.0\.0\.1:(\d+)/", page.stdout.readline())[1])
+            stream, cycles, ended = WebSocket(port, "/", "s4tp-live", timeout_s=TIMEOUT_S), [], False
+            while not ended:
+                message = json.loads(stream.receive())
+                if message["kind"] == "cycle":
+                    cycles.append(message)
+                ended = cycles and message["kind"] == "state" and not message["present"]
+            stream.line.close()
+            said = run.communicate(timeout=TIMEOUT_S)[0]
+        finally:
+            for process in (run, page):
+                process.kill()
+                process.wait()
+            page.stdout.close()
+        self.assertNotIn("not shown any longer", said)
+        self.assertEqual({cycle["ecu"]["bus"] for cycle in cycles},
+                         {"vcan0 of the virtual machine, by a twin that hears the same frames"})
+        times = [cycle["t"] for cycle in cycles]
+        self.assertEqual(times, sorted(set(times)))
+        self.assertGreater(times[-1] - times[0], 3000, "3 s after the pre-roll the drive is over")
+        self.assertGreater(len(cycles), 20)
+        self.assertEqual(list(pathlib.Path("/dev/shm").glob(memory[1:] + "*")), [])
 
     # PROC-030 The machine has one bus, whose name is an interface's, and no other ECU.
     def test_wrong_use_is_refused(self):
