@@ -220,13 +220,19 @@ bool AuthenticCan::judge_map(const Companion& companion) {
       if (record == record_at_) part_at_ = 0;
     }
     verified_head_ = head_;
-    head_at_ = 0;
+    head_at_ = !shown_ && head_.said_before() ? -1 : 0;
+    shown_ = true;
     return true;
   }
   return false;
 }
 
 bool AuthenticCan::release(hal::CanFrame& frame) {
+  if (head_at_ < 0) {
+    ++head_at_;
+    frame = to_can(verified_head_.before());
+    return true;
+  }
   if (head_at_ < MapHead::kFrames) {
     frame = to_can(verified_head_.frame(head_at_++));
     return true;

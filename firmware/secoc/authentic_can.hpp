@@ -105,7 +105,8 @@ class AuthenticCan final : public hal::Can {
   int ready_at_ = 0;
   hal::CanFrame passed_;  ///< neither held nor swallowed
   bool has_passed_ = false;
-  int head_at_ = MapHead::kFrames;  ///< next one of the verified head to be released
+  int head_at_ = MapHead::kFrames;  ///< next one of the verified head to be released; -1: the header before
+  bool shown_ = false;              ///< a map has been released
   bool changed_[kRecords] = {};     ///< to be released
   int record_at_ = 0;
   int part_at_ = 0;

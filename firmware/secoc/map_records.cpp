@@ -38,6 +38,7 @@ bool MapHead::take(const wire::Frame& frame) {
   wire::MapHeader header;
   wire::MapSlots slots;
   if (wire::decode(frame, header)) {
+    before_ = frames_[0];
     frames_[0] = frame;
     seen_ |= 1U;
     conflict_count_ = header.conflict_count;
@@ -48,6 +49,14 @@ bool MapHead::take(const wire::Frame& frame) {
     lanes_[slots.half] = slots.in_use;
   }
   return true;
+}
+
+bool MapHead::said_before() const {
+  constexpr unsigned kBehindCounter = 0xF0;
+  if (before_.length == 0) return false;
+  bool same = (before_.data[1] & kBehindCounter) == (frames_[0].data[1] & kBehindCounter);
+  for (int i = 2; i < 8; ++i) same = same && before_.data[i] == frames_[0].data[i];
+  return same;
 }
 
 bool MapHead::in_use(int record) const {

@@ -24,8 +24,13 @@ class MapHead {
   [[nodiscard]] bool in_use(int record) const;
   [[nodiscard]] std::uint16_t digest() const { return digest_; }
   [[nodiscard]] const wire::Frame& frame(int i) const { return frames_[i]; }
+  /// The header before. A receiver of the map trusts only the second header that it sees: where the one
+  /// before says the same but for CRC and counter, the two may be shown to it together.
+  [[nodiscard]] const wire::Frame& before() const { return before_; }
+  [[nodiscard]] bool said_before() const;
 
  private:
+  wire::Frame before_;
   wire::Frame frames_[kFrames];  ///< MapHeader, lower and upper MapSlots
   std::uint32_t seen_ = 0;       ///< bit i: frames_[i]
   wire::LaneSet lanes_ = {};
