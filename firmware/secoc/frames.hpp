@@ -1,5 +1,6 @@
 #pragma once
-/// Which messages are of which group, and how companions and nonces stand on the bus.
+/// Which messages are of which group, and how companions and nonces stand on the bus. AUTH-007 A companion
+/// frame is 48 bits of MAC and 16 of freshness, and nothing else.
 
 #include <cstdint>
 
