@@ -40,6 +40,7 @@ TARGETS = {
     "records": Target(4096, [f"sim_host/campaign/{name}.cpp" for name in ("records", "record_limits", "episode_record", "compare")]),
     "routes": Target(2048, [f"{WORLD}/{name}.cpp" for name in (
         "route_file", "vehicle_types", "flow_attributes", "xml_values")]),
+    "secoc": Target(512, ["firmware/secoc"]),
     "slcan": Target(96, ["hal/slcan.cpp"]),
     "toml": Target(2048, [f"{WORLD}/{name}.cpp" for name in ("scenario", "toml_table", "toml_shape")]
                    + ["sim_host/campaign/parameters_file.cpp"]),
