@@ -15,9 +15,16 @@
 /// AUTH-001 Of these messages nothing reaches the application but what a companion has verified; AUTH-005 so
 /// a group that was forged, replayed, put together from two, or that lacks a frame does not. All others
 /// (TICK, versions, map origin, reports) pass as they are, and nothing that moves the car is in them.
+/// AUTH-020 Of the map the ECU's records are those that a MapAuth has verified, all of them, under the head
+/// that names them; they come out in the tick in which the last changed frame is on the bus.
 /// AUTH-006 Frames of a group come out in ascending order of their ids, in one go; of the map the head and
 /// the records that changed, when nothing else is waiting. A frame of a record that has been verified before
 /// passes at once.
+///
+/// AUTH-040 Undisturbed, an application plans what it would plan without authentication, to the bit.
+/// AUTH-041 Commands, motion, lists and map records that somebody else says, invented or recorded, change
+/// neither plan nor car. AUTH-042 What is kept out is missing, and supervision says so: kMotionMissing,
+/// kPoseMissing, kSteeringMissing, kTracksStale, kMapStale and what follows; the car brakes without commands.
 ///
 /// Whoever floods the bus, or slips a frame into a group, keeps that group from its receiver: then it is
 /// missing, and the supervision of the application says so. Static memory: about 40 KiB, most of it the map

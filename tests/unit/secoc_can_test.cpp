@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <map>
+#include <sstream>
 #include <vector>
 
 #include "firmware/wire/lane_map.hpp"
+#include "sim_host/processes/authentic_link.hpp"
 #include "tests/support/secoc_rig.hpp"
 
 namespace s4tp::secoc {
@@ -187,6 +189,26 @@ TEST_F(Can, OthersPass) {
     if (!others) continue;
     EXPECT_EQ(reaches_ecu({wire::Frame{message.id, 8, {1, 2, 3}}}).size(), 1U) << message.name;
   }
+}
+
+// AUTH-032 What is told of a session: its beginning and its end once, and the sums.
+TEST_F(Can, SessionsAreTold) {
+  processes::SessionTeller teller("ECU");
+  std::ostringstream told;
+  for (int i = 0; i < 3; ++i) teller.tell(told, *rig.ecu.can);
+  EXPECT_EQ(told.str(), "ECU: authentic session 1\n");
+  rig.wire.lost = [](const wire::Frame&) { return true; };
+  for (int i = 0; i < 110; ++i) {
+    (void)rig.tick();
+    teller.tell(told, *rig.ecu.can);
+  }
+  EXPECT_NE(told.str().find("the authentic session is over"), std::string::npos);
+  rig.inject(wire::Frame{wire::kMotionAuthId, 8, {1}});
+  (void)rig.ecu.take();
+  told.str("");
+  teller.sum_up(told, *rig.ecu.can);
+  EXPECT_NE(told.str().find("1 authentic sessions"), std::string::npos);
+  EXPECT_NE(told.str().find(", 1 refused"), std::string::npos);
 }
 
 /// The map as the application receives it.
