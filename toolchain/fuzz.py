@@ -32,6 +32,7 @@ class Target:
 
 TARGETS = {
     "candump": Target(128, ["firmware/wire/candump.cpp"]),
+    "cut": Target(1024, [f"{WORLD}/cut.cpp"]),
     "ecu": Target(1024, ["firmware/ecu", "firmware/gate/command_gate.cpp", "hal/sim/bus.cpp"]),
     "facade": Target(1024, ["algo/planner", "algo/safety", "algo/scene", "algo/trajectory", "algo/occupancy"]),
     "map": Target(512, ["firmware/wire/map_receiver.cpp", "firmware/wire/map_record.cpp"]),

@@ -56,7 +56,8 @@ void AuthenticCan::pass_period() {
 }
 
 bool AuthenticCan::send(const hal::CanFrame& can_frame) {
-  if (motion_.begun && !is_motion(can_frame.id)) close_motion();
+  if (!is_incoming(Group::kMotion) && motion_.begun && !is_motion(can_frame.id))
+    send_group(Group::kMotion, motion_);
   const bool sent = below_.send(can_frame);
   Group group{};
   if (can_frame.length != 8 || !find_group(can_frame.id, group) || is_incoming(group)) return sent;
@@ -76,10 +77,6 @@ void AuthenticCan::seal(const wire::Frame& frame) {
   if (!open.begun || !open.frames.add(frame)) return;
   if (command) send_group(Group::kCommand, command_);
   if (begins(frame.id)) pass_period();
-}
-
-void AuthenticCan::close_motion() {
-  send_group(Group::kMotion, motion_);
 }
 
 void AuthenticCan::seal_tracks(const wire::Frame& frame) {
@@ -118,7 +115,7 @@ void AuthenticCan::send_group(Group group, Open& open) {
 
 void AuthenticCan::send_companion(Message& message) {
   Companion companion;
-  if (!session_.seal(message, companion)) return;
+  if (is_incoming(message.group()) || !session_.seal(message, companion)) return;
   static_cast<void>(below_.send(to_can(write_companion(message.group(), companion))));
 }
 

@@ -17,6 +17,7 @@
 /// (TICK, versions, map origin, reports) pass as they are, and nothing that moves the car is in them.
 /// AUTH-020 Of the map the ECU's records are those that a MapAuth has verified, all of them, under the head
 /// that names them; they come out in the tick in which the last changed frame is on the bus.
+/// AUTH-008 An end makes companions for what it says itself and for nothing it has heard.
 /// AUTH-006 Frames of a group come out in ascending order of their ids, in one go; of the map the head and
 /// the records that changed, when nothing else is waiting. A frame of a record that has been verified before
 /// passes at once.
@@ -73,7 +74,6 @@ class AuthenticCan final : public hal::Can {
   };
 
   // Out.
-  void close_motion();
   void seal(const wire::Frame& frame);
   void seal_tracks(const wire::Frame& frame);
   void seal_map(const wire::Frame& frame);

@@ -61,15 +61,13 @@ bool read_file(const char* place, char (&text)[kTextSize], Reason& reason) {
   const int file = open(place, O_RDONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK);
   if (file < 0) return refuse(place, std::strerror(errno), reason);
   struct stat status {};
+  const ssize_t size = fstat(file, &status) == 0 ? read(file, text, sizeof text - 1) : -1;
   const char* why = nullptr;
-  ssize_t size = 0;
-  if (fstat(file, &status) != 0) {
-    why = std::strerror(errno);
-  } else if (!S_ISREG(status.st_mode)) {
+  if (status.st_mode != 0 && !S_ISREG(status.st_mode)) {
     why = "no ordinary file";
   } else if ((status.st_mode & (S_IRWXG | S_IRWXO)) != 0) {
     why = "others than its owner may use the file: chmod 600";
-  } else if (size = read(file, text, sizeof text - 1); size < 0) {
+  } else if (size < 0) {
     why = std::strerror(errno);
   } else if (size == static_cast<ssize_t>(sizeof text - 1)) {
     why = "too long: 32 hexadecimal digits are wanted";

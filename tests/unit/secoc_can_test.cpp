@@ -181,6 +181,32 @@ TEST_F(Can, NothingOfOnesOwn) {
   EXPECT_TRUE(rig.ecu.take().empty());
 }
 
+// AUTH-008 A forged motion group that waits for its companion when the ECU says its command gets none from the
+// ECU, so that nothing the ECU has said makes it genuine when it is said back; of the world's end and a
+// forged command the same. (Found by the fuzz target secoc.)
+TEST_F(Can, AnEndDoesNotSealWhatItHears) {
+  wire::E2eSender forger;
+  for (int i = 0; i < 20; ++i) {
+    const wire::Frame motion = SecocRig::protect(wire::Motion{}, forger);
+    const wire::Frame command = SecocRig::protect(wire::Command{}, forger);
+    rig.inject(motion);
+    rig.inject(command);
+    (void)rig.ecu.take();
+    (void)rig.world.take();
+    rig.wire.seen.clear();
+    SecocRig::put(rig.ecu, wire::Command{}, rig.command_sender);
+    const Frames of_ecu = rig.wire.seen;
+    EXPECT_EQ(count(of_ecu, wire::kMotionAuthId), 0);
+    rig.wire.seen.clear();
+    put_tick();
+    const Frames of_world = rig.wire.seen;
+    EXPECT_EQ(count(of_world, wire::kCommandAuthId), 0);
+    Frames said_back = {motion, command};
+    said_back.insert(said_back.end(), of_ecu.begin(), of_ecu.end());
+    EXPECT_TRUE(protected_ones(reaches_ecu(said_back)).empty());
+  }
+}
+
 // AUTH-001 All other messages pass as they are.
 TEST_F(Can, OthersPass) {
   for (const wire::MessageInfo& message : wire::kMessages) {
