@@ -35,11 +35,12 @@ ALLOWED = {
     "firmware/wire/": [],
     "firmware/gate/": ["firmware/wire/"],
     "firmware/ecu/": ["algo/", "firmware/gate/", "firmware/wire/", "hal/"],
+    "firmware/secoc/": ["firmware/wire/", "hal/"],
     "firmware/targets/": ["algo/", "firmware/", "hal/"],
     "sim_host/world/": ["firmware/wire/"],
     "sim_host/metrics/": ["sim_host/world/"],
     "sim_host/roads/": ["sim_host/world/"],
-    **{f"sim_host/{room}/": ["algo/", "firmware/ecu/", "firmware/gate/", "firmware/wire/", "hal/", "sim_host/"]
+    **{f"sim_host/{room}/": ["algo/", "firmware/ecu/", "firmware/gate/", "firmware/secoc/", "firmware/wire/", "hal/", "sim_host/"]
        for room in ("baselines", "clips", "replay", "train", "view", "campaign", "processes", "faults", "telemetry")},
     "sim_host/": ["algo/", "firmware/", "hal/", "sim_host/"],  # main.cpp and its commands
     "tests/": ["algo/", "firmware/", "hal/", "sim_host/", "tests/"],
@@ -47,6 +48,7 @@ ALLOWED = {
 # May not even be reached through a directory that is allowed: interfaces know no platform, nor does the ECU.
 FORBIDDEN = {
     "firmware/ecu/": ["hal/linux/", "hal/mps/", "hal/sim/"],
+    "firmware/secoc/": ["hal/linux/", "hal/mps/", "hal/sim/"],
     "hal/linux/": ["hal/mps/", "hal/sim/"],
     "hal/mps/": ["hal/linux/", "hal/sim/"],
     "hal/sim/": ["hal/linux/", "hal/mps/"],

@@ -32,6 +32,7 @@ class Target:
 
 TARGETS = {
     "candump": Target(128, ["firmware/wire/candump.cpp"]),
+    "cut": Target(1024, [f"{WORLD}/cut.cpp"]),
     "ecu": Target(1024, ["firmware/ecu", "firmware/gate/command_gate.cpp", "hal/sim/bus.cpp"]),
     "facade": Target(1024, ["algo/planner", "algo/safety", "algo/scene", "algo/trajectory", "algo/occupancy"]),
     "map": Target(512, ["firmware/wire/map_receiver.cpp", "firmware/wire/map_record.cpp"]),
@@ -40,6 +41,7 @@ TARGETS = {
     "records": Target(4096, [f"sim_host/campaign/{name}.cpp" for name in ("records", "record_limits", "episode_record", "compare")]),
     "routes": Target(2048, [f"{WORLD}/{name}.cpp" for name in (
         "route_file", "vehicle_types", "flow_attributes", "xml_values")]),
+    "secoc": Target(512, ["firmware/secoc"]),
     "slcan": Target(96, ["hal/slcan.cpp"]),
     "toml": Target(2048, [f"{WORLD}/{name}.cpp" for name in ("scenario", "toml_table", "toml_shape")]
                    + ["sim_host/campaign/parameters_file.cpp"]),

@@ -1,6 +1,6 @@
-# The library as a package: targets s4tp::core, s4tp::wire, s4tp::gate, s4tp::ecu and s4tp::hal (interfaces only), the
-# same names with find_package(s4tp) and with add_subdirectory().
-set(package_rooms core hal wire gate ecu)
+# The library as a package: targets s4tp::core, s4tp::wire, s4tp::gate, s4tp::ecu, s4tp::secoc and s4tp::hal (interfaces
+# only), the same names with find_package(s4tp) and with add_subdirectory().
+set(package_rooms core hal wire gate ecu secoc)
 set(package_targets ${package_rooms})
 list(TRANSFORM package_targets PREPEND s4tp_)
 foreach(room target IN ZIP_LISTS package_rooms package_targets)
@@ -28,7 +28,7 @@ install(DIRECTORY algo DESTINATION ${package_headers} FILES_MATCHING PATTERN *.h
   PATTERN kernel_*.hpp EXCLUDE PATTERN lanes*.hpp EXCLUDE
   PATTERN ilqr_model.hpp EXCLUDE PATTERN ilqr_backward.hpp EXCLUDE)
 install(FILES algo/planner/s4tp.h DESTINATION ${package_headers})
-foreach(room wire gate ecu)
+foreach(room wire gate ecu secoc)
   install(DIRECTORY firmware/${room} DESTINATION ${package_headers}/firmware FILES_MATCHING PATTERN *.hpp PATTERN *.dbc)
 endforeach()
 install(FILES ${PROJECT_BINARY_DIR}/generated/firmware/wire/generated/s4tp_codec.hpp

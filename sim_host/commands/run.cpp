@@ -60,6 +60,7 @@ struct RunOptions {
   std::string target;
   fs::path image;
   int patience_s = 1;
+  std::string key;
   bool machine = false;
   fs::path log;
   bool explain = false;
@@ -178,6 +179,7 @@ int run_on_bus(RunOptions run) {
   options.world.paced = run.live;
   options.world.wait_for_answers(run.patience_s);
   if (!run.log.empty()) options.world.log = run.log;
+  if (!run.key.empty()) options.world.keys = processes::open_keys(run.key);
   options.out = run.common.out;
   if (starts) {
     options.planner = run.planner;
@@ -190,6 +192,7 @@ int run_on_bus(RunOptions run) {
     }
     if (run.realtime) ecu.push_back("--realtime");
     if (!run.input.empty()) ecu.insert(ecu.end(), {"--input", run.input});
+    if (!run.key.empty()) ecu.insert(ecu.end(), {"--authentic", run.key});
     ecu.insert(ecu.end(), {"--telemetry", run.telemetry});
   }
   const auto meeting = run.realtime ? recording::Meeting::kRealTime : recording::Meeting::kLockStep;
@@ -309,6 +312,11 @@ Command add_run(CLI::App& tool) {
                   "on a bus: seconds for each of the ECU's answers (default 1)")
       ->check(CLI::Range(1, 600))
       ->needs(bus);
+  run->add_option("--authentic", options->key,
+                  "on a bus: both ends authenticate what moves the car; file with a key of 32 hexadecimal "
+                  "digits, or env:NAME (docs/threat_model.md)")
+      ->needs(bus)
+      ->excludes(record);  // a recording has the frames as the ECU takes them
   CLI::Option* const machine =
       run->add_flag("--vm", options->machine, "the vcan of a virtual machine, as where the kernel has no CAN")
           ->needs(bus);

@@ -44,6 +44,10 @@ int main(int argc, char** argv) {
       ->check(CLI::IsMember(campaign::planner_names()));
   std::string input;
   app.add_option("--input", input, "second link: track lists and the map come from it and not from the bus");
+  std::string key;
+  app.add_option("--authentic", key,
+                 "file with a key of 32 hexadecimal digits, or env:NAME: only what is authentic counts")
+      ->excludes("--input");
   std::string guard = "on";
   app.add_option("--guard", guard, "check, RSS and minimum-risk manoeuvre behind the planner (default on)")
       ->check(CLI::IsMember({"on", "off"}));
@@ -63,6 +67,7 @@ int main(int argc, char** argv) {
   try {
     options.guarded = guard == "on";
     if (!parameters_file.empty()) options.parameters = campaign::load_parameters(parameters_file);
+    if (!key.empty()) options.keys = processes::open_keys(key);
     const auto bus = std::make_unique<hal::linux_host::NamedBus>();
     processes::open_bus(*bus, options.bus, processes::Side::kEcu);
     const processes::EcuEnd end = run(bus->can(), input, options);

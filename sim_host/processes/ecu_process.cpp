@@ -54,6 +54,28 @@ bool wait_tick(ecu::LockstepBus& bus, hal::linux_host::LinuxCan& can, int timeou
   }
 }
 
+/// Authentication around a bus end, where there are keys.
+struct Authentic {
+  Authentic(hal::Can& bus, const EcuProcessOptions& options) {
+    if (options.keys != nullptr)
+      can = std::make_unique<secoc::AuthenticCan>(bus, *options.keys, secoc::End::kEcu);
+  }
+  /// What the ECU has to stand on.
+  [[nodiscard]] hal::Can& over(hal::Can& bus) const { return can != nullptr ? *can : bus; }
+  void announce() {
+    if (can != nullptr) can->announce();
+  }
+  void tell(std::ostream& out) {
+    if (can != nullptr) teller.tell(out, *can);
+  }
+  void sum_up(std::ostream& out) const {
+    if (can != nullptr) teller.sum_up(out, *can);
+  }
+
+  std::unique_ptr<secoc::AuthenticCan> can;
+  SessionTeller teller{"ECU"};
+};
+
 template <class Bus>
 void print_summary(std::ostream& out, const EcuProcessOptions& options, std::uint32_t ticks,
                    const EcuReporter& reporter, const campaign::AnyEcu& ecu, const Bus& bus) {
@@ -66,15 +88,20 @@ void print_summary(std::ostream& out, const EcuProcessOptions& options, std::uin
 EcuEnd run_in_lock_step(hal::linux_host::LinuxCan& can, const EcuProcessOptions& options, std::ostream& out,
                         const std::atomic<bool>& stop) {
   ecu::LockstepBus bus(can);
+  Authentic authentic(bus, options);
+  hal::Can& top = authentic.over(bus);
   const auto kept = std::make_unique<Devices>();  // tens of KiB
   Devices& devices = *kept;
-  const auto ecu = devices.make_ecu(options, bus, out);
+  const auto ecu = devices.make_ecu(options, top, out);
   ecu::Reporter hello;  // "I am there", until the world begins
   std::uint32_t ticks = 0;
   EcuEnd end = EcuEnd::kStopped;
   auto heard = steady_clock::now();
   while (!stop) {
-    if (ticks == 0) hello.version(can);
+    if (ticks == 0) {
+      hello.version(can);
+      authentic.announce();
+    }
     const bool opened = wait_tick(bus, can, kHelloEvery_ms);
     print_news(out, options.bus, can);
     if (!opened) {
@@ -87,9 +114,11 @@ EcuEnd run_in_lock_step(hal::linux_host::LinuxCan& can, const EcuProcessOptions&
     devices.clock.follow(++ticks * kTick_ms);
     ecu->control_tick();
     if (ecu->planning_due()) ecu->planning_cycle();
-    devices.tap.note_status(ecu->core(), bus);
+    devices.tap.note_status(ecu->core(), top);
     devices.reporter.print(out, options.bus);
+    authentic.tell(out);
   }
+  authentic.sum_up(out);
   print_summary(out, options, ticks, devices.reporter, *ecu, bus);
   return end;
 }
@@ -97,11 +126,14 @@ EcuEnd run_in_lock_step(hal::linux_host::LinuxCan& can, const EcuProcessOptions&
 EcuEnd run_in_real_time(hal::linux_host::LinuxCan& can, const EcuProcessOptions& options, std::ostream& out,
                         const std::atomic<bool>& stop) {
   TimedBus bus(can);
+  Authentic authentic(bus, options);
   const auto kept = std::make_unique<Devices>();  // tens of KiB
   Devices& devices = *kept;
-  const auto ecu = devices.make_ecu(options, bus, out);
-  const RealtimeDrive drive =
-      drive_in_real_time(*ecu, bus, can, devices.reporter, devices.tap, options, out, stop);
+  const auto ecu = devices.make_ecu(options, authentic.over(bus), out);
+  const RealtimeDrive drive = drive_in_real_time(
+      *ecu, bus, can, devices.reporter, devices.tap, options, [&authentic] { authentic.announce(); }, out,
+      stop);
+  authentic.sum_up(out);
   print_summary(out, options, drive.ticks, devices.reporter, *ecu, bus);
   if (drive.ticks > 0) print(out, drive.report);
   if (!options.report.empty()) {

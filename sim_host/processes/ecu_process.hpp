@@ -10,6 +10,7 @@
 #include "algo/core/parameters.hpp"
 #include "hal/linux/linux_can.hpp"
 #include "hal/linux/realtime.hpp"
+#include "sim_host/processes/authentic_link.hpp"
 
 namespace s4tp::processes {
 
@@ -25,6 +26,7 @@ struct EcuProcessOptions {
   std::string telemetry;         ///< shared memory to write records to (sim_host/telemetry); empty: none
   std::filesystem::path report;  ///< realtime: whether it was on time, as JSON
   hal::linux_host::RealtimeKernel* kernel = nullptr;  ///< realtime: null is the one we run on
+  Keys keys;                                          ///< with authentication
 };
 
 enum class EcuEnd {
@@ -38,8 +40,9 @@ enum class EcuEnd {
 ///
 /// PROC-013 Until the first tick it says ten times a second that it is there, with a VersionEcu frame.
 /// PROC-014 Planning ends before the next tick begins, so the frames are those of the in-process drive, bit
-/// by bit; with `realtime` it may take its time and miss its deadline. \throws std::invalid_argument as
-/// campaign::make_ecu()
+/// by bit; with `realtime` it may take its time and miss its deadline. AUTH-034 With keys no command, motion,
+/// track list or map is taken from the bus that no companion verifies, and until the first tick it says its
+/// nonce, too. \throws std::invalid_argument as campaign::make_ecu()
 [[nodiscard]] EcuEnd run_ecu(hal::linux_host::LinuxCan& can, const EcuProcessOptions& options,
                              std::ostream& out, const std::atomic<bool>& stop);
 

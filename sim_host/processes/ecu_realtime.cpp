@@ -31,13 +31,15 @@ std::uint32_t clamp_us(std::uint64_t time_us) {
 class Drive {
  public:
   Drive(campaign::AnyEcu& ecu, TimedBus& bus, hal::linux_host::LinuxCan& can, EcuReporter& reporter,
-        telemetry::EcuTap& tap, const EcuProcessOptions& options, const std::atomic<bool>& stop)
+        telemetry::EcuTap& tap, const EcuProcessOptions& options, const std::function<void()>& announce,
+        const std::atomic<bool>& stop)
       : ecu_(ecu),
         bus_(bus),
         can_(can),
         reporter_(reporter),
         tap_(tap),
         options_(options),
+        announce_(announce),
         kernel_(options.kernel != nullptr ? *options.kernel : hal::linux_host::this_kernel()),
         stop_(stop) {}
 
@@ -93,6 +95,7 @@ class Drive {
       const std::uint64_t now_us = clock_.now_us();
       if (now_us >= hello_us) {
         hello.version(can_);
+        announce_();
         hello_us = now_us + kHelloEvery_ms * 1000U;
       }
       (void)bus_.take(static_cast<int>((hello_us - now_us) / 1000U) + 1);
@@ -164,6 +167,7 @@ class Drive {
   EcuReporter& reporter_;
   telemetry::EcuTap& tap_;
   const EcuProcessOptions& options_;
+  const std::function<void()>& announce_;
   hal::linux_host::RealtimeKernel& kernel_;
   const std::atomic<bool>& stop_;
   hal::linux_host::MonotonicClock clock_;  // has no state
@@ -187,9 +191,9 @@ class Drive {
 
 RealtimeDrive drive_in_real_time(campaign::AnyEcu& ecu, TimedBus& bus, hal::linux_host::LinuxCan& can,
                                  EcuReporter& reporter, telemetry::EcuTap& tap,
-                                 const EcuProcessOptions& options, std::ostream& out,
-                                 const std::atomic<bool>& stop) {
-  return Drive(ecu, bus, can, reporter, tap, options, stop).run(out);
+                                 const EcuProcessOptions& options, const std::function<void()>& announce,
+                                 std::ostream& out, const std::atomic<bool>& stop) {
+  return Drive(ecu, bus, can, reporter, tap, options, announce, stop).run(out);
 }
 
 }  // namespace s4tp::processes

@@ -8,6 +8,7 @@
 /// \endcode
 
 #include <atomic>
+#include <functional>
 #include <ostream>
 
 #include "sim_host/campaign/any_ecu.hpp"
@@ -30,9 +31,11 @@ struct RealtimeDrive {
 /// PROC-015 From the first TICK frame on control runs every 10 ms of host time, whatever the bus brings,
 /// phase-locked to the motion frame; planning never holds it up. Both threads ask for SCHED_FIFO, control
 /// above planning, and the process for locked memory, before the first tick.
+/// \param announce  called on control's thread each time it says that it is there
 [[nodiscard]] RealtimeDrive drive_in_real_time(campaign::AnyEcu& ecu, TimedBus& bus,
                                                hal::linux_host::LinuxCan& can, EcuReporter& reporter,
                                                telemetry::EcuTap& tap, const EcuProcessOptions& options,
-                                               std::ostream& out, const std::atomic<bool>& stop);
+                                               const std::function<void()>& announce, std::ostream& out,
+                                               const std::atomic<bool>& stop);
 
 }  // namespace s4tp::processes

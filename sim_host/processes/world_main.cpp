@@ -37,6 +37,9 @@ int main(int argc, char** argv) {
   app.add_option("--patience", patience_s, "seconds for each of the ECU's answers (default 1)")
       ->check(CLI::Range(1, 600));
   app.add_option("--log", log, "write every frame on the bus here, in candump's format");
+  std::string key;
+  app.add_option("--authentic", key,
+                 "file with a key of 32 hexadecimal digits, or env:NAME: only what is authentic counts");
   app.add_option("--out", options.out, "folder for run.json");
   app.add_flag("--realtime", options.world.realtime, "10 ms of host time a tick, whatever the ECU does");
   try {
@@ -46,6 +49,7 @@ int main(int argc, char** argv) {
   }
   try {
     if (!log.empty()) options.world.log = log;
+    if (!key.empty()) options.world.keys = processes::open_keys(key);
     options.world.engine = world::engine_of(traffic);
     options.world.wait_for_answers(patience_s);
     const world::Scenario loaded =

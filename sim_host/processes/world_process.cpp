@@ -38,9 +38,15 @@ int to_ms(steady_clock::duration time) {
 
 class Session {
  public:
-  Session(const world::Scenario& scenario, hal::linux_host::LinuxCan& can, const WorldProcessOptions& options,
-          std::ostream& out, const std::atomic<bool>& stop)
-      : can_(can), options_(options), out_(out), stop_(stop), world_(scenario, world_options(options)) {
+  /// \param authentic  of `can`; null: none
+  Session(const world::Scenario& scenario, hal::linux_host::LinuxCan& can, secoc::AuthenticCan* authentic,
+          const WorldProcessOptions& options, std::ostream& out, const std::atomic<bool>& stop)
+      : can_(can),
+        authentic_(authentic),
+        options_(options),
+        out_(out),
+        stop_(stop),
+        world_(scenario, world_options(options)) {
     if (options.log) log_.emplace(*options.log, options.seed, options.ecu_note);
   }
 
@@ -53,6 +59,7 @@ class Session {
       drive_in_lock_step();
     }
     print_news(out_, options_.bus, can_);
+    if (authentic_ != nullptr) teller_.sum_up(out_, *authentic_);
     result_.recording = world_.recording();
     return result_;
   }
@@ -70,13 +77,19 @@ class Session {
 
   bool meet_ecu() {
     const auto end = steady_clock::now() + seconds(options_.wait_s);
+    bool there = false;
     while (options_.wait_s > 0) {
       hal::CanFrame frame;
       while (can_.receive(frame)) {
-        if (frame.id == wire::kVersionEcuId && wire::e2e_crc_fits(campaign::to_wire(frame))) return true;
+        if (frame.id == wire::kVersionEcuId && wire::e2e_crc_fits(campaign::to_wire(frame))) there = true;
       }
+      if (authentic_ != nullptr) authentic_->announce();
+      if (there && (authentic_ == nullptr || authentic_->session().has_key())) return true;
       print_news(out_, options_.bus, can_);
-      if (stop_ || !ecu_lives() || steady_clock::now() >= end) return false;
+      if (stop_ || !ecu_lives() || steady_clock::now() >= end) {
+        if (there) out_ << "the ECU says no nonce: it runs without --authentic" << std::endl;
+        return false;
+      }
       (void)can_.wait(to_ms(kLook));
     }
     return true;
@@ -163,6 +176,7 @@ class Session {
     world_.tick(frames_);
     ++result_.ticks;
     for (const wire::Frame& frame : frames_) (void)can_.send(campaign::to_hal(frame));  // counted there
+    if (authentic_ != nullptr) teller_.tell(out_, *authentic_);
     log(frames_);
     if (log_) log_->flush();
   }
@@ -213,6 +227,8 @@ class Session {
   }
 
   hal::linux_host::LinuxCan& can_;
+  secoc::AuthenticCan* authentic_;
+  SessionTeller teller_{"world"};
   const WorldProcessOptions& options_;
   std::ostream& out_;
   const std::atomic<bool>& stop_;
@@ -230,7 +246,9 @@ class Session {
 WorldProcessResult run_world(const world::Scenario& scenario, hal::linux_host::LinuxCan& can,
                              const WorldProcessOptions& options, std::ostream& out,
                              const std::atomic<bool>& stop) {
-  return Session(scenario, can, options, out, stop).run();
+  if (options.keys == nullptr) return Session(scenario, can, nullptr, options, out, stop).run();
+  const auto link = std::make_unique<AuthenticLink>(can, *options.keys, secoc::End::kWorld);
+  return Session(scenario, *link, &link->can, options, out, stop).run();
 }
 
 void print_link(std::ostream& out, const WorldProcessOptions& options, const WorldProcessResult& result,

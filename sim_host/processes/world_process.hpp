@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "hal/linux/linux_can.hpp"
+#include "sim_host/processes/authentic_link.hpp"
 #include "sim_host/processes/realtime_report.hpp"
 #include "sim_host/world/perception.hpp"
 #include "sim_host/world/recording.hpp"
@@ -35,6 +36,7 @@ struct WorldProcessOptions {
   int dead_after_ms = 2000;         ///< lock-step: without any answer
   std::function<bool()> ecu_lives;  ///< may be empty; false ends the wait for it
   hal::linux_host::RealtimeKernel* kernel = nullptr;  ///< realtime: null is the one we run on
+  Keys keys;  ///< with authentication; the log has no companion frames then
   /// Lock-step with an ECU that is given little time: so long for each answer, twice that before it is dead.
   void wait_for_answers(int seconds) {
     answer_within_ms = 1000 * seconds;
@@ -60,6 +62,8 @@ struct WorldProcessResult {
 /// skips ticks, so the car's time stands still for them. The calling thread asks for SCHED_FIFO and keeps it.
 /// PROC-024 A Command frame reaches the car only if its CRC fits and its echo is the present tick's (realtime:
 /// one of the last 10), so a frame recorded earlier never does. The car's own protection comes after that.
+/// AUTH-033 With keys it begins when an ECU has said its nonce, too, and a Command frame is one only if its
+/// companion verifies.
 /// \throws std::runtime_error when the log cannot be written
 [[nodiscard]] WorldProcessResult run_world(const world::Scenario& scenario, hal::linux_host::LinuxCan& can,
                                            const WorldProcessOptions& options, std::ostream& out,

@@ -19,7 +19,9 @@ constexpr const char* kCommandsFile = "commands.log";
 std::vector<std::vector<wire::Frame>> read_commands(const std::filesystem::path& file, int ticks) {
   std::vector<std::vector<wire::Frame>> commands(static_cast<std::size_t>(ticks));
   std::ifstream stream(file);
-  if (!stream) throw std::runtime_error(file.string() + ": cannot be read");
+  // Of a device there may be no end.
+  if (!std::filesystem::is_regular_file(file) || !stream)
+    throw std::runtime_error(file.string() + ": there is no such file");
   int number = 0;
   for (std::string line; std::getline(stream, line);) {
     ++number;

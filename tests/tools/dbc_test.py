@@ -62,10 +62,20 @@ class Generator(unittest.TestCase):
                          ("speed_mps : 24|10@1+ (0.06,0) [0|60]", "speed_mps : 24|10@1+ (0.06,0) [0|70]"),
                          ("BO_ 19 Tick: 8", "BO_ 19 Tick: 7"),
                          ('BA_ "GenMsgCycleTime" BO_ 19 10;', ""),
-                         ('VERSION "4"', 'VERSION "one"')):
+                         ('VERSION "5"', 'VERSION "one"')):
             result, _ = self.generate(self.replaced(old, new))
             self.assertNotEqual(result.returncode, 0, new)
             self.assertIn("dbc_codec:", result.stderr, new)
+
+
+    # AUTH-007 Of a message without a CRC only the companions are taken, whole: 48 bits of MAC, 16 of freshness.
+    def test_only_companions_have_no_crc(self):
+        for old, new in (('SG_ crc : 0|8@1+ (1,0) [0|255] "" ECU\n SG_ counter : 8|4@1+ (1,0) [0|14] "" ECU\n SG_ tick',
+                          "SG_ tick"),
+                         ("BO_ 9 CommandAuth: 8 ECU\n SG_ mac_low : 0|32@1+ (1,0) [0|4294967295]",
+                          "BO_ 9 CommandAuth: 8 ECU\n SG_ mac_low : 0|31@1+ (1,0) [0|2147483647]")):
+            result, _ = self.generate(self.replaced(old, new))
+            self.assertIn("has no crc", result.stderr, new)
 
 
 class BusLoad(unittest.TestCase):
@@ -94,6 +104,7 @@ class BusLoad(unittest.TestCase):
         document = (ROOT / "docs/bus_load.md").read_text(encoding="utf-8")
         self.assertIn("Every frame counts 135 bits", document)
         self.assertIn("| Motion | VEHICLE | 100.0 | 13.5 | 2.7 % |", document)
+        self.assertIn("| CommandAuth | ECU | 100.0 | 13.5 | 2.7 % |", document)
         self.assertIn("| TrackPose | PERCEPTION | 160.0 | 21.6 | 4.3 % |", document)
 
 
