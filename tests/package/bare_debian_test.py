@@ -7,6 +7,7 @@
 import os
 import pathlib
 import shutil
+import socket
 import subprocess
 import sys
 import tempfile
@@ -19,7 +20,7 @@ s4tp --version
 s4tp --help
 s4tp run --scenario cruise --seed 0 --record drive.log
 s4tp replay drive.log
-s4tp run --scenario cruise --seed 0 --bus slcan:pty:$PWD/pty --out two_processes
+s4tp run --scenario cruise --seed 0 --bus slcan:tcp:127.0.0.1:PORT --out two_processes
 s4tp record --out reference.log
 s4tp eval --scenarios cruise,left_turn --episodes 2 --out campaign
 s4tp eval report campaign --out page
@@ -51,7 +52,10 @@ class BareDebian(unittest.TestCase):
             config = pathlib.Path(os.environ["S4TP_BUILD"]) / "CPackConfig.cmake"
             subprocess.run(["cpack", "--config", config, "-B", folder], check=True, stdout=subprocess.DEVNULL, cwd=folder)
             package, = folder.glob("s4tp_*.deb")
-            (folder / "job").write_text(JOB, encoding="utf-8")
+            with socket.socket() as probe:  # the chroot has the host's network
+                probe.bind(("127.0.0.1", 0))
+                port = probe.getsockname()[1]
+            (folder / "job").write_text(JOB.replace("PORT", str(port)), encoding="utf-8")
             hooks = [f"copy-in {package} {folder}/job /tmp",
                      f'chroot "$1" apt-get install --yes --no-install-recommends /tmp/{package.name}',
                      'chroot "$1" runuser -u nobody -- sh /tmp/job']
