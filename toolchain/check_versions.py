@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The same version must not be said twice and differently: DBC, versions.hpp, CMake project.
+"""The same version must not be said twice and differently: versions.hpp and the DBC; CMake's project and the newest changes.
 
     check_versions.py [ROOT]
 """
@@ -25,6 +25,10 @@ def findings(root):
         result.append(f"versions: kWireVersion is {wire}, VERSION of s4tp.dbc is {dbc}")
     for name in ("kApiVersion", "kParametersVersion", "kWeightsVersion"):
         find(header, rf"{name} = (\d+);", name)
+    project = find((root / "CMakeLists.txt").read_text(encoding="utf-8"), r"^project\(s4tp VERSION ([\d.]+)", "VERSION of the project")
+    changes = find((root / "CHANGELOG.md").read_text(encoding="utf-8"), r"^## ([\d.]+)", "a version in CHANGELOG.md")
+    if changes != project:
+        result.append(f"versions: the project is {project}, the newest entry of CHANGELOG.md {changes}")
     return result
 
 

@@ -42,14 +42,7 @@ configure_package_config_file(toolchain/s4tp-config.cmake.in ${PROJECT_BINARY_DI
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/s4tp-config-version.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/s4tp-config.cmake ${PROJECT_BINARY_DIR}/s4tp-config-version.cmake
   DESTINATION ${package_config})
-install(FILES LICENSE docs/parameters.md docs/bus_load.md DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libs4tp-dev)
-
-# cpack makes the Debian package of the host's library.
-set(CPACK_GENERATOR DEB)
-set(CPACK_PACKAGE_NAME libs4tp-dev)
-set(CPACK_PACKAGE_CONTACT "s4tp developers <s4tp@localhost>")
-set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "Planner firmware for cars: library and headers")
-set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
-set(CPACK_DEBIAN_PACKAGE_SECTION libdevel)
-set(CPACK_STRIP_FILES OFF)
-include(CPack)
+file(RELATIVE_PATH S4TP_PC_TO_PREFIX /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
+configure_file(toolchain/s4tp.pc.in ${PROJECT_BINARY_DIR}/s4tp.pc @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/s4tp.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/s4tp RENAME copyright)

@@ -11,13 +11,15 @@
 #   --build            only gets the machine ready
 #
 # One argument alone is taken as a line for bash. Output and exit code are the command's; 125: the machine itself failed.
-# The kernel is Debian's, unpacked once into build/machine; nothing is installed. Emulated without the help of the
+# The kernel is Debian's, unpacked once into build/machine (installed: ~/.cache/s4tp); nothing is installed. Emulated without the help of the
 # processor (nested virtualisation is not to be relied on), so about a tenth of the host's speed.
 set -euo pipefail
 
 modules=(virtio_pci 9pnet_virtio 9p overlay vcan can-raw can-bcm sch_tbf)
 packages=(qemu-system-x86 busybox-static cpio iproute2 can-utils)
-cache_root=$(realpath "$(dirname "${BASH_SOURCE[0]}")/..")/build/machine
+# In the sources; an installed script has a folder of the user's.
+cache_root=$(realpath "$(dirname "${BASH_SOURCE[0]}")/..")
+[[ -e $cache_root/CMakeLists.txt ]] && cache_root=$cache_root/build/machine || cache_root=${XDG_CACHE_HOME:-$HOME/.cache}/s4tp
 
 die() {
   echo "vcan_machine.sh: $*" >&2

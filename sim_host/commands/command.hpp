@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "algo/core/parameters.hpp"
+#include "sim_host/processes/own_files.hpp"
 #include "sim_host/world/scenario.hpp"
 
 namespace s4tp::commands {
@@ -40,6 +41,8 @@ struct Command {
 [[nodiscard]] Command add_roads(CLI::App& tool);
 [[nodiscard]] Command add_train(CLI::App& tool);
 [[nodiscard]] Command add_predict(CLI::App& tool);
+[[nodiscard]] Command add_telemetry(CLI::App& tool);
+[[nodiscard]] Command add_view(CLI::App& tool);
 
 /// What `--roads` names: the scenario folders in a folder, by name; or, as "N:K", roads N to N + K - 1, drawn
 /// into `out`. \throws std::invalid_argument when it is neither, std::runtime_error as roads::write_road()
@@ -63,7 +66,7 @@ extern const CLI::Validator kEpisodes;
 
 /// Options that commands share, with the same words and meaning everywhere.
 struct CommonOptions {
-  std::filesystem::path scenario_root = S4TP_SCENARIOS;
+  std::filesystem::path scenario_root = processes::own_data("scenarios");
   std::string flavour = "smarts";
   std::string parameters_file;
   std::filesystem::path out;

@@ -5,6 +5,7 @@
 #include "sim_host/campaign/digest.hpp"
 #include "sim_host/campaign/records.hpp"
 #include "sim_host/commands/command.hpp"
+#include "sim_host/processes/own_files.hpp"
 #include "sim_host/processes/stop_signals.hpp"
 #include "sim_host/view/failure_replays.hpp"
 #include "sim_host/view/report.hpp"
@@ -19,7 +20,7 @@ struct ReportOptions {
   fs::path out = fs::path("out") / "report";
   std::string replays = "3";
   int jobs = 0;
-  fs::path scenario_root = S4TP_SCENARIOS;
+  fs::path scenario_root = processes::own_data("scenarios");
 };
 
 std::size_t most_of(const std::string& text) {

@@ -9,9 +9,11 @@
 #include <cstring>
 #include <iostream>
 #include <stdexcept>
+#include <utility>
 
 #include "hal/linux/bus_name.hpp"
 #include "sim_host/processes/log_follower.hpp"
+#include "sim_host/processes/own_files.hpp"
 #include "sim_host/processes/stop_signals.hpp"
 
 namespace s4tp::commands {
@@ -81,17 +83,16 @@ void show_machine(const fs::path& log, const std::string& memory, const processe
 
 void run_in_machine(const std::string& bus, const std::vector<std::string>& arguments,
                     const std::vector<fs::path>& writable) {
-  std::vector<std::string> words{S4TP_LAUNCHER, "machine", "--seconds", kSeconds, "--interface", bus};
+  // The launcher of the sources installs what is missing first; an installed script says what is.
+  std::vector<std::string> words{processes::own_data("vcan_machine.sh")};
+  if (processes::has_own_data("source")) words = {processes::own_data("source") / "s4tp", "machine"};
+  words.insert(words.end(), {"--seconds", kSeconds, "--interface", bus});
   for (const fs::path& folder : writable) {
     if (fs::is_directory(folder)) words.insert(words.end(), {"--writable", folder.string()});
   }
   words.push_back(fs::read_symlink("/proc/self/exe").string());
   words.insert(words.end(), arguments.begin(), arguments.end());
-  std::vector<char*> argv;
-  for (std::string& word : words) argv.push_back(word.data());
-  argv.push_back(nullptr);
-  execv(argv[0], argv.data());
-  throw std::runtime_error(words[0] + ": " + std::strerror(errno));
+  processes::become(std::move(words));
 }
 
 }  // namespace s4tp::commands

@@ -8,7 +8,6 @@
 
 #include <cerrno>
 #include <cstring>
-#include <filesystem>
 #include <stdexcept>
 
 namespace s4tp::processes {
@@ -57,10 +56,6 @@ ChildProcess::~ChildProcess() {
 bool ChildProcess::lives() {
   if (process_ > 0 && waitpid(process_, nullptr, WNOHANG) != 0) process_ = -1;
   return process_ > 0;
-}
-
-std::string own_program(const std::string& name) {
-  return std::filesystem::read_symlink("/proc/self/exe").replace_filename(name);
 }
 
 }  // namespace s4tp::processes

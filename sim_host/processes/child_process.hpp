@@ -23,7 +23,4 @@ class ChildProcess {
   int process_ = -1;
 };
 
-/// A program of ours, in the folder of the running one.
-[[nodiscard]] std::string own_program(const std::string& name);
-
 }  // namespace s4tp::processes

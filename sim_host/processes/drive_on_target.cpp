@@ -9,6 +9,7 @@
 #include "sim_host/processes/board_twin.hpp"
 #include "sim_host/processes/drive_on_bus.hpp"
 #include "sim_host/processes/emulated_board.hpp"
+#include "sim_host/processes/own_files.hpp"
 
 namespace s4tp::processes {
 namespace {
@@ -30,16 +31,21 @@ void look_for_qemu() {
   throw std::runtime_error(std::string(kProgram) + " is not installed: apt-get install " + kProgram);
 }
 
+/// Where a source tree builds it.
+fs::path built_image(const std::string& target) {
+  const fs::path source = has_own_data("source") ? own_data("source") : fs::path();
+  return source / "build" / target / "firmware" / "targets" / "ecu_lockstep";
+}
+
 }  // namespace
 
 int drive_on_target(const world::Scenario& scenario, const TargetOptions& options, std::ostream& out) {
   const EmulatedBoard& board = find_board(options.target);
-  const fs::path image =
-      options.image.empty() ? fs::path(S4TP_BUILDS) / options.target / "firmware" / "targets" / "ecu_lockstep"
-                            : options.image;
+  const fs::path image = options.image.empty() ? built_image(options.target) : options.image;
   if (!fs::exists(image)) {
-    throw std::runtime_error(image.string() + ": no such image; cmake --preset " + options.target +
-                             " && cmake --build --preset " + options.target + " --target ecu_lockstep");
+    throw std::runtime_error(image.string() + ": no such image; in the source tree: cmake --preset " +
+                             options.target + " && cmake --build --preset " + options.target +
+                             " --target ecu_lockstep");
   }
   look_for_qemu();
   fs::create_directories(options.out);
@@ -66,7 +72,7 @@ int drive_on_target(const world::Scenario& scenario, const TargetOptions& option
   for (std::size_t i = 1; i < console.others.size(); ++i) {  // the first one says that it has started
     out << options.target << ": " << console.others[i] << '\n';
   }
-  const auto budget = load_budget(S4TP_BUDGET);
+  const auto budget = load_budget(own_data("budget.json"));
   print_costs(out, console, budget);
   const fs::path cost = options.out / ("cost_" + options.target + ".json");
   write_costs(cost, options.target, console, budget);

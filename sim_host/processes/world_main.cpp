@@ -5,12 +5,13 @@
 #include <iostream>
 
 #include "sim_host/processes/drive_on_bus.hpp"
+#include "sim_host/processes/own_files.hpp"
 
 int main(int argc, char** argv) {
   using namespace s4tp;
   namespace fs = std::filesystem;
   processes::DriveOptions options;
-  fs::path scenario_root = S4TP_SCENARIOS;
+  fs::path scenario_root;
   fs::path log;
   std::string scenario = "left_turn";
   std::string flavour = "smarts";
@@ -52,6 +53,7 @@ int main(int argc, char** argv) {
     if (!key.empty()) options.world.keys = processes::open_keys(key);
     options.world.engine = world::engine_of(traffic);
     options.world.wait_for_answers(patience_s);
+    if (scenario_root.empty()) scenario_root = processes::own_data("scenarios");
     const world::Scenario loaded =
         world::load_scenario(world::scenario_path(scenario_root, scenario), flavour);
     return processes::drive_on_bus(loaded, options, std::cout);

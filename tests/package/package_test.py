@@ -4,13 +4,17 @@ Every consumer stands outside our tree and has its own flags. S4TP_BUILD names t
 the package is built; S4TP_LAUNCHER, if set, a compiler cache.
 """
 
+import json
 import os
 import pathlib
 import platform
+import re
 import shutil
+import socket
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -30,6 +34,12 @@ def run(*command, code=0, **options):
     if result.returncode != code:
         raise AssertionError(f"{' '.join(map(str, command))}\nanswered {result.returncode}, not {code}:\n{result.stdout}")
     return result.stdout
+
+
+def free_port():
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return probe.getsockname()[1]
 
 
 def run_image(target, image, *arguments, code=0):
@@ -140,18 +150,79 @@ class Package(unittest.TestCase):
     def test_nothing_installed_names_our_folder(self):
         for file in self.install(BUILD).rglob("*"):
             if file.is_file():
-                self.assertNotIn(str(ROOT).encode(), file.read_bytes(), file)
+                self.assertFalse(str(ROOT).encode() in file.read_bytes(), file)
 
-    # The Debian package, unpacked instead of installed.
+    # A C program by way of pkg-config alone, wherever the prefix is.
+    def test_pkg_config(self):
+        prefix = self.install(BUILD)
+        folder, = prefix.rglob("pkgconfig")
+        said = run("pkg-config", "--cflags", "--libs", "s4tp", env={**os.environ, "PKG_CONFIG_PATH": str(folder)})
+        self.assertIn(str(prefix), said)
+        sources = sorted(self.consumer.glob("*.c"))
+        run("cc", "-O2", *sources, *said.split(), "-o", self.folder / "consumer_c")
+        self.assertEqual(run(self.folder / "consumer_c"), run(self.on_host(prefix)))
+
+    # PROC-047: installed anywhere, moved after that, called through the link: the programs find their own scenarios and
+    # each other.
+    def test_programs_find_what_is_theirs(self):
+        prefix = self.install(BUILD).rename(self.folder / "moved")
+        tool = prefix / "bin/s4tp"
+        self.assertEqual(run(tool, "--version"), run(ROOT / "s4tp", "--version"))
+        self.assertRegex(run(tool, "run", "--scenario", "cruise", cwd=self.folder), r": goal after [\d.]+ s")
+        said = run(tool, "run", "--scenario", "cruise", "--bus", f"slcan:tcp:127.0.0.1:{free_port()}", "--out", "bus", cwd=self.folder)
+        self.assertIn("goal after", said)
+        for program in ("view", "telemetry"):
+            if (prefix / f"lib/s4tp/s4tp-{program}").exists():
+                self.assertIn("--ecu", run(tool, program, "--help"))
+        (prefix / "share/s4tp/scenarios").rename(prefix / "elsewhere")
+        self.assertIn("s4tp: share/s4tp/scenarios is in no folder above", run(tool, "run", code=2))
+
+    # Every library a program loads, and those of which only headers are used, are in the bill, with version and licence.
+    def test_bill_of_materials(self):
+        prefix = self.install(BUILD)
+        bill = json.loads((prefix / "share/doc/s4tp/s4tp.spdx.json").read_text(encoding="utf-8"))
+        self.assertEqual(bill["spdxVersion"], "SPDX-2.3")
+        self.assertEqual(bill["relationships"][0]["relationshipType"], "DESCRIBES")
+        packages = {package["SPDXID"]: package for package in bill["packages"]}
+        kinds = {(row["relationshipType"], packages[row["relatedSpdxElement"]]["name"]) for row in bill["relationships"]}
+        programs = [file for file in (prefix / "lib/s4tp").iterdir() if file.is_file()]
+        self.assertGreater(len(programs), 2)
+        for program in programs:
+            for soname in re.findall(r"\(NEEDED\).*\[(.*)\]", run("readelf", "--dynamic", "--wide", program)):
+                path = re.search(rf"{re.escape(soname)}(?: => | )\(?(\S+)|(\S*{re.escape(soname)}) \(", run("ldd", program))
+                file = pathlib.Path(path[1] or path[2]).resolve()
+                owner = run("sh", "-c", f"dpkg-query -S {file} 2>/dev/null || dpkg-query -S {str(file).removeprefix('/usr')}").split(":")[0]
+                self.assertIn(("DYNAMIC_LINK", owner), kinds, soname)
+        for header_only in ("libcli11-dev", "libeigen3-dev", "libtoml11-dev", "nlohmann-json3-dev", "libstdc++-12-dev"):
+            self.assertIn(("STATIC_LINK", header_only), kinds)
+        texts = {entry["licenseId"] for entry in bill["hasExtractedLicensingInfos"]}
+        for package in packages.values():
+            self.assertTrue(package["versionInfo"], package)
+            names = set(package["licenseDeclared"].split(" AND "))
+            self.assertLessEqual({name for name in names if name.startswith("LicenseRef-")}, texts, package)
+        self.assertEqual({package["name"]: package["licenseDeclared"] for package in packages.values()}["nlohmann-json3-dev"].count("MIT"), 1)
+
+    def debian_package(self, folder):
+        run("cpack", "--config", BUILD / "CPackConfig.cmake", "-B", self.folder / folder, env={**os.environ, "SOURCE_DATE_EPOCH": "1700000000"})
+        package, = (self.folder / folder).glob("s4tp_*.deb")
+        return package
+
+    # The Debian package, unpacked instead of installed; made twice it is the same to the byte.
     def test_debian_package(self):
-        run("cpack", "--config", BUILD / "CPackConfig.cmake", "-B", self.folder / "deb")
-        package, = (self.folder / "deb").glob("libs4tp-dev_*.deb")
+        package = self.debian_package("deb")
         self.assertEqual(run("dpkg-deb", "--field", package, "Architecture").strip(),
                          run("dpkg", "--print-architecture").strip())
+        self.assertIn("libpugixml1", run("dpkg-deb", "--field", package, "Depends"))
         run("dpkg-deb", "--extract", package, self.folder / "root")
         usr = self.folder / "root/usr"
-        self.assertEqual({file.name for file in usr.iterdir()}, {"include", "lib", "share"})
+        self.assertEqual({file.name for file in usr.iterdir()}, {"bin", "include", "lib", "share"})
+        for path in ("bin/s4tp", "include/s4tp/s4tp.h", "share/s4tp/s4tp.dbc", "share/man/man1/s4tp.1",
+                     "share/bash-completion/completions/s4tp", *(f"share/doc/s4tp/{name}" for name in (
+                         "README.md", "CHANGELOG.md", "copyright", "docs/architecture.md", "s4tp.spdx.json"))):
+            self.assertTrue((usr / path).is_file(), path)
         self.assertIn("S4TP_OK", run(self.on_host(usr)))
+        time.sleep(1.1)  # tar knows seconds
+        self.assertEqual(package.read_bytes(), self.debian_package("again").read_bytes())
 
 
 if __name__ == "__main__":

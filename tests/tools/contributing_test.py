@@ -81,8 +81,8 @@ int main() {
     def test_message(self):
         dbc = self.folder / "firmware/wire/s4tp.dbc"
         versions = self.folder / "algo/core/versions.hpp"
-        for file in (dbc, versions):
-            file.parent.mkdir(parents=True)
+        for file in (dbc, versions, self.folder / "CMakeLists.txt", self.folder / "CHANGELOG.md"):
+            file.parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(ROOT / file.relative_to(self.folder), file)
         lines = recipe("s4tp.dbc").splitlines(True)
         text = dbc.read_text(encoding="utf-8")

@@ -5,6 +5,7 @@ import pathlib
 import re
 import signal
 import subprocess
+import sys
 import tempfile
 import time
 import unittest
@@ -84,6 +85,14 @@ class Launcher(unittest.TestCase):
         done = subprocess.run(arguments, check=False, text=True, timeout=60, stdin=subprocess.DEVNULL,
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, **options)
         return done.stdout
+
+    # The test of the package that a chroot needs says what is missing; ./s4tp test leaves it out then, and shows that line.
+    def test_what_cannot_run_is_named(self):
+        test = LAUNCHER.parent / "tests/package/bare_debian_test.py"
+        done = subprocess.run([sys.executable, "-B", test, "--possible"], check=False, text=True, stdout=subprocess.PIPE, timeout=60,
+                              env={**os.environ, "PATH": str(self.folder)})
+        self.assertEqual((done.returncode, done.stdout), (1, "mmdebstrap is missing: apt-get install mmdebstrap\n"))
+        self.assertIn("tests/package/bare_debian_test.py --possible", LAUNCHER.read_text(encoding="utf-8"))
 
     # A relative path means the caller's folder, not the launcher's: for a scenario, a log, an output, and of replay.
     def test_paths_are_the_callers(self):

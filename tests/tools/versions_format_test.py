@@ -13,17 +13,19 @@ import check_versions  # noqa: E402
 
 
 class Versions(unittest.TestCase):
-    # The same two files, once as they are and once with the DBC a version ahead.
-    def test_dbc_ahead_of_the_header_is_found(self):
+    # The same files, once as they are and once each with one of them a version ahead.
+    def test_version_ahead_of_the_others_is_found(self):
         with tempfile.TemporaryDirectory() as folder:
             root = pathlib.Path(folder)
-            for path in ("firmware/wire/s4tp.dbc", "algo/core/versions.hpp"):
-                (root / path).parent.mkdir(parents=True)
+            for path in ("firmware/wire/s4tp.dbc", "algo/core/versions.hpp", "CMakeLists.txt", "CHANGELOG.md"):
+                (root / path).parent.mkdir(parents=True, exist_ok=True)
                 shutil.copy(ROOT / path, root / path)
             self.assertEqual(check_versions.findings(root), [])
-            dbc = root / "firmware/wire/s4tp.dbc"
-            dbc.write_text(dbc.read_text(encoding="utf-8").replace('VERSION "', 'VERSION "9', 1), encoding="utf-8")
-            self.assertEqual(len(check_versions.findings(root)), 1)
+            for path, before in (("firmware/wire/s4tp.dbc", 'VERSION "'), ("CMakeLists.txt", "(s4tp VERSION "), ("CHANGELOG.md", "## ")):
+                text = (root / path).read_text(encoding="utf-8")
+                (root / path).write_text(text.replace(before, before + "9", 1), encoding="utf-8")
+                self.assertEqual(len(check_versions.findings(root)), 1, path)
+                (root / path).write_text(text, encoding="utf-8")
 
 
 class Format(unittest.TestCase):
