@@ -12,7 +12,8 @@ constexpr float kChangeRoomM = 60.0F;  // a lane change left to do starts to pre
 constexpr float kGapShare = 0.5F;      // of what the lane beside gains, for each second until its gap is met
 constexpr float kLongestS = 8.0F;
 constexpr float kLookS = static_cast<float>(kHorizonSteps) * kStepS;
-constexpr float kShortOfRoom = 0.04F;  // share of that, with no room left to change from rest
+constexpr float kShortOfRoom = 0.5F;  // with this share of the room to change from rest lacking, it is missed
+constexpr float kInLaneShare = 0.4F;  // of its width from a lane's centre, a change counts as made
 constexpr float kMissedRoute = 80.0F;  // times lane_route: driving past the last place to change lanes
 
 /// Price of the lane: how many changes are left, more pressing as the room for them shortens.
@@ -28,7 +29,8 @@ float route_cost(const EgoPath& path, float end_s_m, float end_mps, const Parame
   if (to_place_m < 0.0F) return missed;
   const float shortage = max(0.0F, 1.0F - to_place_m / (kChangeWayM * count));
   const float pressing = 1.0F + kChangeRoomM * count / (room_m + 10.0F);
-  return parameters.scoring.lane_route * count * pressing + kShortOfRoom * missed * shortage;
+  return parameters.scoring.lane_route * count * pressing +
+         missed * min(1.0F, square(shortage / kShortOfRoom));
 }
 
 /// What being in the lane of `path` at the horizon's end costs: time, and lane changes left.
@@ -65,6 +67,31 @@ float gap_cost(const Scene& scene, const Outlook& outlook, int path, float s_m, 
          min(outlook.time_to_gap_s(lane, there_s_m, speed_mps), kLongestS);
 }
 
+/// Where a lane change is to be over its line: what the lane we leave is good for, by our box centre.
+struct LastPlace {
+  float s_m;        ///< of our rear axle, along the path changed to
+  float in_lane_m;  ///< from that path's centre we count as in its lane
+  float before_s_m = 0.0F;
+  float before_d_m = 0.0F;
+  bool in_time = true;
+  bool passed = false;
+
+  void note(float at_s_m, float d_m) {
+    if (!passed && at_s_m >= s_m) {
+      passed = true;
+      const float part = (s_m - before_s_m) / max(at_s_m - before_s_m, 1e-3F);
+      in_time = abs(lerp(before_d_m, d_m, part)) <= in_lane_m;
+    }
+    before_s_m = at_s_m;
+    before_d_m = d_m;
+  }
+  /// Whether what is left to change beyond the last one noted has its room.
+  [[nodiscard]] bool holds(float width_m) const {
+    if (passed) return in_time;
+    return before_s_m + kChangeWayM * max(0.0F, abs(before_d_m) - in_lane_m) / width_m <= s_m;
+  }
+};
+
 }  // namespace
 
 GapAim gap_to_aim_at(const Scene& scene, const Outlook& outlook, const Parameters& parameters) {
@@ -87,6 +114,10 @@ CostBreakdown score_motion(const Scene& scene, const Outlook& outlook, int path_
   float lateral_sum = 0.0F;
   float offset_sum = 0.0F;
   int offset_count = 0;
+  const EgoPath& own = scene.ego_paths[0];
+  const float width_m = path_point(*scene.map, path.path, path.frenet.s_m).width_m;
+  LastPlace last{own.route_end_s_m + path.frenet.s_m - own.frenet.s_m - rear_axle_to_centre_m(parameters),
+                 kInLaneShare * width_m, start_s_m, path.frenet.d_m};
   for (int i = 1; i < kTrajectoryPoints; ++i) {
     const TrajectoryPoint& before = trajectory.points[i - 1];
     const TrajectoryPoint& point = trajectory.points[i];
@@ -108,6 +139,7 @@ CostBreakdown score_motion(const Scene& scene, const Outlook& outlook, int path_
     // Too fast is worse than too slow by as much: the limit is a limit.
     speed_sum = speed_sum + (excess_mps > 0.0F ? 4.0F * excess_mps : -excess_mps);
     offset_sum = offset_sum + square(frenet.d_m);
+    last.note(s_m, frenet.d_m);
     ++offset_count;
   }
   const float steps = static_cast<float>(kHorizonSteps);
@@ -123,6 +155,8 @@ CostBreakdown score_motion(const Scene& scene, const Outlook& outlook, int path_
   cost.lane = parameters.scoring.lane_offset * (offset_sum / samples) + lane;
   if (path.manoeuvre == Manoeuvre::kKeep)
     cost.lane = cost.lane + gap_cost(scene, outlook, path_index, s_m, end_mps, lane, parameters);
+  if (path.manoeuvre != Manoeuvre::kKeep && own.changes_needed != 0 && !last.holds(width_m))
+    cost.lane = cost.lane + kMissedRoute * parameters.scoring.lane_route;
   if (other_lane) cost.lane = cost.lane + parameters.scoring.lane_change;
   return cost;
 }

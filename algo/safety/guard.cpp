@@ -81,7 +81,8 @@ void Guard::commit(int path, const Verdict& verdict) {
   goes_through_ = verdict.clears;
   clear_by_ms_ =
       scene_->time_ms + static_cast<std::uint32_t>(to_int(1e3F * (lead_s_ + verdict.clear_s), 0, 1'000'000));
-  if (!verdict.clears) latched_.clear();
+  // A licence lost before it was used is not in here any more.
+  latched_.clear();
   if (!verdict.clears || path < 0 || path >= scene_->ego_paths.size()) return;
   // Groups further on are not entered yet: what holds there now need not hold then.
   const EgoPath& way = scene_->ego_paths[path];
@@ -194,8 +195,9 @@ bool Guard::leaves_in_time(const ZoneGroup& group, const Own& own) const {
 bool Guard::passes_group(const EgoPath& path, const Sight& sight, const ZoneGroup& group, const Own& own,
                          Verdict& verdict) const {
   const bool inside = own.s_m[0] > group.entry_s_m;
+  const bool entered = inside || (goes_through_ && sight.stop_s_m > group.stop_s_m);
   const bool stands = own.end_s_m() < group.exit_s_m && own.speed_mps[kHorizonSteps] < kStandingMps;
-  if (!inside && group.yields) {
+  if (!entered && group.yields) {
     if (stands) {
       verdict = {Cause::kNoRoom};
       return false;
@@ -222,8 +224,26 @@ bool Guard::passes_group(const EgoPath& path, const Sight& sight, const ZoneGrou
     const bool bound = own.s_m[0] + occupancy::stopping_way_m(own.speed_mps[0], hard_mps2) > zone.entry_s_m;
     const bool behind_it = zone.merging && threat.when.to_entry_m <= 0.0F;
     if (bound && (behind_it || own.blocked || leaves_in_time(group, own))) continue;
-    verdict = refused;
-    return false;
+    // Who entered by right stops short of one that comes after all.
+    verdict.stops_short = entered && stops_short(path, sight, group, own);
+    if (!verdict.stops_short) verdict = refused;
+    return verdict.stops_short;
+  }
+  return true;
+}
+
+bool Guard::stops_short(const EgoPath& path, const Sight& sight, const ZoneGroup& group,
+                        const Own& own) const {
+  const float stop_s_m = own.stop_s_m(parameters_->guard.braking_mps2);
+  const float at_once_s_m =
+      own.s_m[0] + occupancy::stopping_way_m(own.speed_mps[0], parameters_->vehicle.braking_max_mps2);
+  for (const Threat& threat : sight.threats) {
+    if (threat.zone < group.first || threat.zone >= group.end) continue;
+    const ConflictZone& zone = path.zones[threat.zone];
+    const bool stands_there = own.s_m[0] <= zone.exit_s_m && stop_s_m > zone.entry_s_m;
+    // D2 binds the others to ground we are on, or cannot stay out of; to no more.
+    const bool ours = at_once_s_m > zone.entry_s_m;
+    if (stands_there && !(ours && threat.when.can_stop)) return false;
   }
   return true;
 }
@@ -295,7 +315,9 @@ Verdict Guard::judge(int path_index, const Trajectory& trajectory) const {
     verdict.clears = true;
     verdict.cleared_end = group.end;
     if (!passes_group(path, sight, group, own, verdict)) return verdict;
+    if (verdict.stops_short) break;  // the fail-safe comes no further
   }
+  if (verdict.stops_short) verdict.fail_safe.branch_s = guard.takeover_s;
   if (sight.changes && !sight.half_over) {
     bool brakes = false;
     for (const Settling& settling : kSettlings) {

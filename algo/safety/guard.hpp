@@ -6,10 +6,11 @@
 /// leave it to us. GUARD-003 Nobody stops in a group where it gives way, nor enters one without room beyond.
 /// GUARD-004 It can be stopped behind a leader who brakes as hard as can be; behind a cut-in it only must not
 /// get worse. GUARD-005 What is safe only by hard braking says so. GUARD-006 A licence used holds, for the
-/// ground it was given for; used it is once we cannot stop before that any more. GUARD-007 Who cannot stay out of a zone any more leaves it no later than it was
-/// to. GUARD-008 Merging leaves room, in both orders. GUARD-009 A lane change leaves who is behind room to
-/// brake. GUARD-010 Whoever drives only what passes, and else the last fail-safe, touches nobody who keeps to
-/// the law.
+/// ground it was given for; used it is once we cannot stop before that any more. GUARD-007 Who cannot stay out
+/// of a zone any more leaves it no later than it was to. GUARD-008 Merging leaves room, in both orders.
+/// GUARD-009 A lane change leaves who is behind room to brake. GUARD-010 Whoever drives only what passes, and
+/// else the last fail-safe, touches nobody who keeps to the law. GUARD-011 Who entered a group by right may
+/// stand in it, short of one that comes after all, where nobody comes who cannot stop for it.
 ///
 /// \code
 ///   plan    ----+------------------------>
@@ -44,6 +45,7 @@ struct Verdict {
   std::uint8_t agent = 255;      ///< who is in the way; 255: nobody
   float from_s = 0.0F;           ///< kZone: how soon it can be there
   float needed_s = 0.0F;         ///< kZone: until when we are there
+  bool stops_short = false;      ///< the fail-safe stands in a group entered by right, short of who comes
   bool clears = false;           ///< the fail-safe is to go through a group of zones; else it stops
   std::uint8_t cleared_end = 0;  ///< those groups' zones are among [0, this) of the path
   float clear_s = 0.0F;          ///< when it has left the first of them
@@ -133,6 +135,9 @@ class Guard {
                                   const Own& own, Verdict& verdict) const;
   [[nodiscard]] bool passes_threat(const EgoPath& path, const Sight& sight, const Threat& threat,
                                    const Own& own, Verdict& verdict) const;
+  /// Whether the fail-safe stands where nobody comes who cannot stop for it.
+  [[nodiscard]] bool stops_short(const EgoPath& path, const Sight& sight, const ZoneGroup& group,
+                                 const Own& own) const;
   /// Whether a plan that cannot stay out of the group any more is out of it no later than it was to be.
   [[nodiscard]] bool leaves_in_time(const ZoneGroup& group, const Own& own) const;
   [[nodiscard]] bool followers_can_brake(const Sight& sight, const Own& own, float brakes_from_s,

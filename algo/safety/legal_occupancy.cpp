@@ -33,9 +33,9 @@ float seen_mps(const Agent& agent) {
   return max(agent.track.speed_mps - agent.coasted_mps, 0.0F);
 }
 
-/// D1: whoever owes us the way stops before the zone, if the duty's braking does it. The response runs once:
-/// from when the vehicle was first in sight.
-bool gives_way(const Agent& agent, float to_entry_m, const Parameters& parameters) {
+/// D1 and D2: whoever owes us the way, or finds us there by right, stops before the zone if the duty's braking
+/// does it. The response runs once: from when the vehicle was first in sight.
+bool can_stop(const Agent& agent, float to_entry_m, const Parameters& parameters) {
   const auto& law = parameters.law;
   const float known_s = seconds(agent.known_ms) - seconds(agent.age_ms);
   const float response_s = max(0.0F, law.duty_response_s - max(0.0F, known_s));
@@ -103,8 +103,9 @@ ZoneOccupancy zone_occupancy(const Scene& scene, const Agent& agent, const occup
     const float before_s = occupancy::time_to_cover_s(fastest, entry_m - in_bend_m);
     result.from_s = max(result.from_s, before_s + in_bend_m / max(grip_mps, 1.0F) - unseen_s - lead_s);
   }
+  result.can_stop = can_stop(agent, entry_m, parameters);
   if (zone.priority == Priority::kFirstHasPriority) {
-    if (gives_way(agent, entry_m, parameters)) result.claim = Claim::kOwes;
+    if (result.can_stop) result.claim = Claim::kOwes;
   } else if (can_stop_gently(fastest, entry_m, unseen_s, parameters)) {
     result.claim = Claim::kCanStop;
   } else if (stands_in_sight(scene, agent, parameters)) {

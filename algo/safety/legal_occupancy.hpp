@@ -39,6 +39,7 @@ struct ZoneOccupancy {
   float until_s = occupancy::kNeverS;  ///< when it is certain to have left
   float to_entry_m = 0.0F;             ///< at the scene's time, of its box for a usual car's zone
   float to_exit_m = 0.0F;
+  bool can_stop = false;  ///< D2: before it, for whoever is there by right
 };
 
 /// Speed, gain and top speed of a vehicle that drives as fast as the law lets it to the zone's lane.

@@ -264,7 +264,7 @@ TEST(Guard, ALicenceUsedHolds) {
 
 // GUARD-006 Both stand, it in sight of us (L2), and we set off. Then it does too, at 1 m/s 8 m before the zone
 // (0.35 s at our speed, then the way of a stop with 6 m/s^2). At 95.4 and 0.8 m/s we can still stand at 95.73,
-// before the zone at 96: the licence is not used. At 95.4 and 1.6 m/s that would be 96.17: it holds.
+// before the zone at 96: the licence is not used, and we do. At 95.4 and 1.6 m/s that would be 96.17: it holds.
 TEST(Guard, ALicenceIsNotUsedBeforeWeAreBound) {
   for (const float speed_mps : {0.8F, 1.6F}) {
     SharedGround road(Priority::kFirstYields);
@@ -275,14 +275,16 @@ TEST(Guard, ALicenceIsNotUsedBeforeWeAreBound) {
     road.guard.commit(0, begun);
     road.scene.agents.clear();
     road.other(96.0F - 8.0F, 3.0F);
-    EXPECT_EQ(road.safe(95.4F, speed_mps, 2.0F), speed_mps > 1.0F) << speed_mps;
+    const Verdict now = road.judge(95.4F, speed_mps, 2.0F);
+    EXPECT_TRUE(now.safe()) << speed_mps;
+    EXPECT_EQ(now.stops_short, speed_mps < 1.0F) << speed_mps;
   }
 }
 
 // GUARD-006 A licence holds for the ground it was given for. At 10 m/s, 26 m before the first zone, the other
 // owes us the way; 40 m before the second, where it goes first, it comes after 3.1 s, and we are gone
 // after 2.5 s. It breaks its duty, and is 5 m before the second zone, which we enter after 1.2 s: nobody said
-// it would stay out of that.
+// it would stay out of that. From 95 m at 8 m/s we stand at 103.1, short of it; from 98 m nowhere short of it.
 TEST(Guard, ALicenceHoldsForItsZone) {
   SharedGround road(Priority::kFirstHasPriority);
   const LaneIndex beyond = add_lane(road.map, {{0.0F, 0.0F}, {6.0F, 2.0F}, {50.0F, 2.0F}});
@@ -307,7 +309,29 @@ TEST(Guard, ALicenceHoldsForItsZone) {
   road.guard.commit(0, begun);
   road.scene.agents.clear();
   road.other(95.0F, 12.0F);
-  EXPECT_FALSE(road.safe(95.0F, 8.0F, 0.0F));
+  EXPECT_TRUE(road.judge(95.0F, 8.0F, 0.0F).stops_short);
+  EXPECT_FALSE(road.safe(98.0F, 8.0F, 0.0F));
+}
+
+// GUARD-011 Gone in by right at 6 m/s, from 97 m we stand at 102.1, short of the second zone at 104.5, whose
+// vehicle is nearly there. Another one with priority at the ground we would stand on: 30 m off at 8 m/s it stops
+// for us there (8 m with 4 m/s^2; it has known us for long); 5 m off it cannot.
+TEST(Guard, StopsShortOnlyWhereOthersCanStopForIt) {
+  for (const float off_m : {30.0F, 5.0F}) {
+    SharedGround road(Priority::kFirstYields);
+    ConflictZone second = road.zone();
+    second.entry_s_m = 104.5F;
+    second.exit_s_m = 110.0F;
+    second.other_lane = add_lane(road.map, {{14.0F, -100.0F}, {14.0F, 300.0F}});
+    const LanePath beside = path_of(road.map, {second.other_lane});
+    (void)road.scene.ego_paths[0].zones.push(second);
+    const Verdict begun = road.judge(94.0F, 6.0F, 0.0F);
+    ASSERT_TRUE(begun.safe() && begun.clears);
+    road.guard.commit(0, begun);
+    add_vehicle(road.scene, road.map, beside, second.other_entry_m - 4.0F, 8.0F);
+    road.other(96.0F - off_m, 8.0F);
+    EXPECT_EQ(road.safe(97.0F, 6.0F, 0.0F), off_m > 20.0F) << off_m;
+  }
 }
 
 // GUARD-006 A licence is used by who goes through its group: 40 m off at 6 m/s it could stop gently before
