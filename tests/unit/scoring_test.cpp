@@ -1,0 +1,65 @@
+// What a motion costs towards the route: a lane change that is due, in time or not.
+
+#include "algo/planner/scoring.hpp"
+
+#include <gtest/gtest.h>
+
+#include "algo/trajectory/bicycle.hpp"
+#include "tests/support/driving_scenes.hpp"
+
+namespace s4tp {
+namespace {
+
+using namespace test;  // NOLINT: the map builders are the language of these tests
+
+constexpr float kMissed = 480.0F;  // 80 times scoring.lane_route
+
+/// We are at s = 40 m of the right of two lanes; to the goal we have to be in the left one, from `route_end_m` on.
+struct Road {
+  LaneMap map = straight_road(2, 300.0F, 10.0F);
+  Scene scene;
+  Outlook outlook;
+  Parameters parameters;
+
+  explicit Road(float route_end_m) {
+    EgoPath& own = add_way(scene, map, path_of(map, {0}));
+    own.changes_needed = 1;
+    own.route_end_s_m = route_end_m;
+    (void)add_way(scene, map, path_of(map, {1}), Manoeuvre::kLeft);
+    put_ego(scene, state_on(map, scene.ego_paths[0].path, 40.0F, 5.0F));
+    outlook.look(scene, {}, 0.0F, parameters);
+  }
+  /// Cost of the lane of 3 s at 5 m/s: along our lane, or over to the left one by a quintic of 15 m.
+  [[nodiscard]] float lane_cost(bool changes) const {
+    Trajectory trajectory;
+    for (int i = 0; i < kTrajectoryPoints; ++i) {
+      const float way_m = 0.5F * static_cast<float>(i);
+      TrajectoryPoint& point = trajectory.points[i];
+      point = state_on(map, scene.ego_paths[0].path, 40.0F + way_m, 5.0F);
+      const float u = way_m / 15.0F;
+      if (changes) point.rear_axle.y_m += 3.2F * u * u * u * (10.0F - 15.0F * u + 6.0F * u * u);
+    }
+    const int path = changes ? 1 : 0;
+    return score_motion(scene, outlook, path, 40.0F, trajectory, false, false, parameters).lane;
+  }
+};
+
+// Our centre is 1.5 m before our rear axle. Where the route ends at 54 m we are 0.27 m from the new lane's centre
+// there (u = 0.83); at 48 m, 2.0 m from it (u = 0.43): between the lanes, which takes us nowhere.
+TEST(Scoring, ALaneChangeThatIsDueIsOverItsLineInTime) {
+  EXPECT_LT(Road(54.0F).lane_cost(true), 0.1F * kMissed);
+  EXPECT_GT(Road(48.0F).lane_cost(true), kMissed);
+}
+
+// At 55 m and 5 m/s our front is at 59 m, and stands 5 m further on. With 15 m left from there a change from rest
+// is possible; with 7 m it is not: the route is missed as surely as for one who cannot stop.
+TEST(Scoring, WhoWaitsForALaneChangeKeepsRoomForIt) {
+  const float front_m = rear_axle_to_front_m(Parameters{});
+  const float stands_m = 55.0F + front_m + 5.0F;
+  EXPECT_LT(Road(stands_m + 15.0F).lane_cost(false), 0.2F * kMissed);
+  EXPECT_GT(Road(stands_m + 7.0F).lane_cost(false), kMissed);
+  EXPECT_GT(Road(stands_m - 1.0F).lane_cost(false), kMissed);
+}
+
+}  // namespace
+}  // namespace s4tp
