@@ -19,9 +19,7 @@ constexpr const char* kCommandsFile = "commands.log";
 std::vector<std::vector<wire::Frame>> read_commands(const std::filesystem::path& file, int ticks) {
   std::vector<std::vector<wire::Frame>> commands(static_cast<std::size_t>(ticks));
   std::ifstream stream(file);
-  // Of a device there may be no end.
-  if (!std::filesystem::is_regular_file(file) || !stream)
-    throw std::runtime_error(file.string() + ": there is no such file");
+  if (!stream) throw std::runtime_error(file.string() + ": cannot be read");
   int number = 0;
   for (std::string line; std::getline(stream, line);) {
     ++number;
@@ -65,7 +63,7 @@ Cut read_cut(TomlTable table, const std::filesystem::path& file) {
   static_cast<void>(table.require("start_tick"));
   cut.start_tick = table.integer("start_tick", 0, 0, kTicksMax);
   cut.commands_file = folder / table.text("commands");
-  if (!std::filesystem::is_regular_file(cut.commands_file)) {
+  if (!std::filesystem::is_regular_file(cut.commands_file)) {  // of a device there may be no end
     table.fail("commands", cut.commands_file.string() + ": there is no such file");
   }
   table.no_other_keys();

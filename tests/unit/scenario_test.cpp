@@ -234,8 +234,9 @@ TEST(ScenarioPath, NamesTheShippedOnes) {
 
 // A cut's commands are an ordinary file: a device's might never end. (Found by the fuzz target cut.)
 TEST(Scenario, ACutsCommandsAreAnOrdinaryFile) {
-  const std::string cut =
-      "[cut]\nof = \"of.toml\"\nseed = 1\ntraffic = \"builtin\"\nperception = \"ideal\"\nstart_tick = 1\n";
+  const std::string merge = std::string(S4TP_SOURCE_DIR) + "/sim_host/scenarios/merge";
+  const std::string cut = "[cut]\nof = \"" + merge +
+                          "\"\nseed = 1\ntraffic = \"builtin\"\nperception = \"ideal\"\nstart_tick = 1\n";
   for (const std::string file : {"/dev/null", ".", "none.log"}) {
     const std::string error = error_of(cut + "commands = \"" + file + "\"\n");
     EXPECT_NE(error.find(file + ": there is no such file"), std::string::npos) << error;
