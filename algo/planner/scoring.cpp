@@ -12,8 +12,7 @@ constexpr float kChangeRoomM = 60.0F;  // a lane change left to do starts to pre
 constexpr float kGapShare = 0.5F;      // of what the lane beside gains, for each second until its gap is met
 constexpr float kLongestS = 8.0F;
 constexpr float kLookS = static_cast<float>(kHorizonSteps) * kStepS;
-constexpr float kShortOfRoom = 0.5F;  // with this share of the room to change from rest lacking, it is missed
-constexpr float kInLaneShare = 0.4F;  // of its width from a lane's centre, a change counts as made
+constexpr float kInLaneShare = 0.4F;   // of its width from a lane's centre, a change counts as made
 constexpr float kMissedRoute = 80.0F;  // times lane_route: driving past the last place to change lanes
 
 /// Price of the lane: how many changes are left, more pressing as the room for them shortens.
@@ -29,8 +28,7 @@ float route_cost(const EgoPath& path, float end_s_m, float end_mps, const Parame
   if (to_place_m < 0.0F) return missed;
   const float shortage = max(0.0F, 1.0F - to_place_m / (kChangeWayM * count));
   const float pressing = 1.0F + kChangeRoomM * count / (room_m + 10.0F);
-  return parameters.scoring.lane_route * count * pressing +
-         missed * min(1.0F, square(shortage / kShortOfRoom));
+  return parameters.scoring.lane_route * count * pressing + missed * square(shortage);
 }
 
 /// What being in the lane of `path` at the horizon's end costs: time, and lane changes left.
