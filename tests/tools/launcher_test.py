@@ -64,7 +64,7 @@ class Launcher(unittest.TestCase):
                 ("  7/1043 Test   #9: unit.Gate.Denies ....   Passed    0.02 sec\n      Start   12: unit.Gate.Stops\n",
                  "test 7 of 1043: unit.Gate.Denies"),
                 ("[3/250] Building CXX object a.o\n", "step 3 of 250"),
-                ("Get:1 http://deb.debian.org\nUnpacking cmake\n", "Unpacking cmake"), ("", "")):
+                ("Get:1 http://mirror.example\nUnpacking cmake\n", "Unpacking cmake"), ("", "")):
             file = self.folder / "output"
             file.write_text(output, encoding="utf-8")
             done = subprocess.run(["bash", "-c", f"{function}progress '{file}'"], check=True, text=True,
