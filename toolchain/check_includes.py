@@ -34,13 +34,14 @@ ALLOWED = {
     "hal/sim/": ["hal/"],
     "firmware/wire/": [],
     "firmware/gate/": ["firmware/wire/"],
-    "firmware/ecu/": ["algo/", "firmware/gate/", "firmware/wire/", "hal/"],
-    "firmware/secoc/": ["firmware/wire/", "hal/"],
+    "firmware/can/": ["firmware/wire/", "hal/"],
+    "firmware/ecu/": ["algo/", "firmware/can/", "firmware/gate/", "firmware/wire/", "hal/"],
+    "firmware/secoc/": ["firmware/can/", "firmware/wire/", "hal/"],
     "firmware/targets/": ["algo/", "firmware/", "hal/"],
     "sim_host/world/": ["firmware/wire/"],
     "sim_host/metrics/": ["sim_host/world/"],
     "sim_host/roads/": ["sim_host/world/"],
-    **{f"sim_host/{room}/": ["algo/", "firmware/ecu/", "firmware/gate/", "firmware/secoc/", "firmware/wire/", "hal/", "sim_host/"]
+    **{f"sim_host/{room}/": ["algo/", "firmware/can/", "firmware/ecu/", "firmware/gate/", "firmware/secoc/", "firmware/wire/", "hal/", "sim_host/"]
        for room in ("baselines", "clips", "replay", "train", "view", "campaign", "processes", "faults", "telemetry")},
     "sim_host/": ["algo/", "firmware/", "hal/", "sim_host/"],  # main.cpp and its commands
     "tests/": ["algo/", "firmware/", "hal/", "sim_host/", "tests/"],

@@ -65,28 +65,29 @@ float gap_cost(const Scene& scene, const Outlook& outlook, int path, float s_m, 
          min(outlook.time_to_gap_s(lane, there_s_m, speed_mps), kLongestS);
 }
 
-/// Where a lane change is to be over its line: what the lane we leave is good for, by our box centre.
+/// The last place at which a lane change that is due may still be between the lanes: where ours ends. Followed
+/// along a motion.
 struct LastPlace {
   float s_m;        ///< of our rear axle, along the path changed to
-  float in_lane_m;  ///< from that path's centre we count as in its lane
-  float before_s_m = 0.0F;
-  float before_d_m = 0.0F;
-  bool in_time = true;
+  float in_lane_m;  ///< so near to that path's centre the change counts as made
+  float at_s_m;     ///< of the motion so far
+  float at_d_m;
   bool passed = false;
+  bool in_time = false;
 
-  void note(float at_s_m, float d_m) {
-    if (!passed && at_s_m >= s_m) {
+  void go_on(float to_s_m, float to_d_m) {
+    if (!passed && to_s_m >= s_m) {
       passed = true;
-      const float part = (s_m - before_s_m) / max(at_s_m - before_s_m, 1e-3F);
-      in_time = abs(lerp(before_d_m, d_m, part)) <= in_lane_m;
+      const float part = (s_m - at_s_m) / max(to_s_m - at_s_m, 1e-3F);
+      in_time = abs(lerp(at_d_m, to_d_m, part)) <= in_lane_m;
     }
-    before_s_m = at_s_m;
-    before_d_m = d_m;
+    at_s_m = to_s_m;
+    at_d_m = to_d_m;
   }
-  /// Whether what is left to change beyond the last one noted has its room.
+  /// Whether the motion, and what it leaves to be changed, is over the line by then.
   [[nodiscard]] bool holds(float width_m) const {
     if (passed) return in_time;
-    return before_s_m + kChangeWayM * max(0.0F, abs(before_d_m) - in_lane_m) / width_m <= s_m;
+    return at_s_m + kChangeWayM * max(0.0F, abs(at_d_m) - in_lane_m) / width_m <= s_m;
   }
 };
 
@@ -137,7 +138,7 @@ CostBreakdown score_motion(const Scene& scene, const Outlook& outlook, int path_
     // Too fast is worse than too slow by as much: the limit is a limit.
     speed_sum = speed_sum + (excess_mps > 0.0F ? 4.0F * excess_mps : -excess_mps);
     offset_sum = offset_sum + square(frenet.d_m);
-    last.note(s_m, frenet.d_m);
+    last.go_on(s_m, frenet.d_m);
     ++offset_count;
   }
   const float steps = static_cast<float>(kHorizonSteps);

@@ -48,6 +48,10 @@ struct Guard::Own {
   [[nodiscard]] float stop_s_m(float braking_mps2) const {
     return branch_s_m + occupancy::stopping_way_m(branch_mps, braking_mps2);
   }
+  /// Where the centre stands if all braking begins at plan start.
+  [[nodiscard]] float at_once_s_m(float braking_mps2) const {
+    return s_m[0] + occupancy::stopping_way_m(speed_mps[0], braking_mps2);
+  }
   [[nodiscard]] Pace beyond(float cap_mps) const {
     const float end_mps = speed_mps[kHorizonSteps];
     return {end_mps, kGoesOnMps2, max(end_mps, cap_mps)};
@@ -213,7 +217,7 @@ bool Guard::passes_group(const EgoPath& path, const Sight& sight, const ZoneGrou
     verdict = {Cause::kZone};
     return false;
   }
-  const float hard_mps2 = parameters_->vehicle.braking_max_mps2;
+  const float bound_s_m = own.at_once_s_m(parameters_->vehicle.braking_max_mps2);
   for (const Threat& threat : sight.threats) {
     if (threat.zone < group.first || threat.zone >= group.end) continue;
     const ConflictZone& zone = path.zones[threat.zone];
@@ -221,7 +225,7 @@ bool Guard::passes_group(const EgoPath& path, const Sight& sight, const ZoneGrou
     Verdict refused = verdict;
     if (passes_threat(path, sight, threat, own, refused)) continue;
     // Who cannot stay out any more leaves it as soon as it was to.
-    const bool bound = own.s_m[0] + occupancy::stopping_way_m(own.speed_mps[0], hard_mps2) > zone.entry_s_m;
+    const bool bound = bound_s_m > zone.entry_s_m;
     const bool behind_it = zone.merging && threat.when.to_entry_m <= 0.0F;
     if (bound && (behind_it || own.blocked || leaves_in_time(group, own))) continue;
     // Who entered by right stops short of one that comes after all.
@@ -235,14 +239,13 @@ bool Guard::passes_group(const EgoPath& path, const Sight& sight, const ZoneGrou
 bool Guard::stops_short(const EgoPath& path, const Sight& sight, const ZoneGroup& group,
                         const Own& own) const {
   const float stop_s_m = own.stop_s_m(parameters_->guard.braking_mps2);
-  const float at_once_s_m =
-      own.s_m[0] + occupancy::stopping_way_m(own.speed_mps[0], parameters_->vehicle.braking_max_mps2);
+  const float bound_s_m = own.at_once_s_m(parameters_->vehicle.braking_max_mps2);
   for (const Threat& threat : sight.threats) {
     if (threat.zone < group.first || threat.zone >= group.end) continue;
     const ConflictZone& zone = path.zones[threat.zone];
     const bool stands_there = own.s_m[0] <= zone.exit_s_m && stop_s_m > zone.entry_s_m;
     // D2 binds the others to ground we are on, or cannot stay out of; to no more.
-    const bool ours = at_once_s_m > zone.entry_s_m;
+    const bool ours = bound_s_m > zone.entry_s_m;
     if (stands_there && !(ours && threat.when.can_stop)) return false;
   }
   return true;
@@ -275,15 +278,14 @@ Verdict Guard::judge(int path_index, const Trajectory& trajectory) const {
   const float front_m = front_m_ - centre_m_;
   // Who cannot stop before the end any more brakes; at rest it stays.
   const float last_s_m = sight.end_s_m - front_m;
-  const bool past = own.s_m[0] + occupancy::stopping_way_m(own.speed_mps[0], guard.braking_mps2) > last_s_m;
-  const float braked_m = occupancy::stopping_way_m(own.speed_mps[0], kEndShare * guard.braking_mps2);
-  if (stop_s_m > (past ? own.s_m[0] + braked_m + kEndRoundingM : last_s_m)) {
+  const float at_once_s_m = own.at_once_s_m(guard.braking_mps2);
+  const bool past = at_once_s_m > last_s_m;
+  if (stop_s_m > (past ? own.at_once_s_m(kEndShare * guard.braking_mps2) + kEndRoundingM : last_s_m)) {
     verdict.cause = Cause::kRoadEnd;
     return verdict;
   }
   // Behind a leader. The fail-safe in force stops behind whoever keeps to the law; a moving one nearer than
   // that has broken it: then it only must not get worse, and behind a slower one that takes braking.
-  const float at_once_s_m = own.s_m[0] + occupancy::stopping_way_m(own.speed_mps[0], guard.braking_mps2);
   const float coasting_s_m = at_once_s_m + own.speed_mps[0] * guard.takeover_s;
   float free_s_m = sight.leader_stop_s_m - front_m - guard.margin_m;
   if (at_once_s_m > free_s_m) {

@@ -1,6 +1,7 @@
 #include "firmware/ecu/ecu_core.hpp"
 
 #include "algo/core/check.hpp"
+#include "firmware/can/frames.hpp"
 #include "firmware/ecu/gate_limits.hpp"
 #include "firmware/ecu/map_conversion.hpp"
 #include "firmware/ecu/plan_digest.hpp"
@@ -80,10 +81,7 @@ void EcuCore::control_tick() {
 void EcuCore::take_frames() {
   hal::CanFrame received;
   for (int i = 0; i < kMaxFramesPerTick && ports_.can->receive(received); ++i) {
-    wire::Frame frame;
-    frame.id = received.id;
-    frame.length = received.length <= 8 ? received.length : std::uint8_t{0};  // no FD frame is ours
-    for (int k = 0; k < frame.length; ++k) frame.data[k] = received.data[k];
+    const wire::Frame frame = to_wire(received);
     inputs_.accept(frame);
     gate_.observe(frame);
   }

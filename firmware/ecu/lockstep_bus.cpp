@@ -1,5 +1,6 @@
 #include "firmware/ecu/lockstep_bus.hpp"
 
+#include "firmware/can/frames.hpp"
 #include "firmware/wire/codec.hpp"
 #include "firmware/wire/e2e.hpp"
 
@@ -42,10 +43,7 @@ bool LockstepBus::take_tick(std::uint64_t now_ms) {
 
 bool LockstepBus::take(const hal::CanFrame& can_frame, std::uint64_t now_ms) {
   if (can_frame.length > 8) return false;  // no FD frame is ours
-  wire::Frame frame;
-  frame.id = can_frame.id;
-  frame.length = can_frame.length;
-  for (int i = 0; i < frame.length; ++i) frame.data[i] = can_frame.data[i];
+  const wire::Frame frame = to_wire(can_frame);
   const bool is_tick = frame.id == wire::kTickId;
   if (is_tick && !opener_.opens(frame, now_ms)) {
     ++refused_ticks_;

@@ -2,6 +2,7 @@
 
 #include "algo/core/check.hpp"
 #include "algo/core/versions.hpp"
+#include "firmware/can/frames.hpp"
 #include "firmware/wire/codec.hpp"
 #include "firmware/wire/version.hpp"
 
@@ -14,11 +15,7 @@ void send(hal::Can& can, const Message& message, wire::E2eSender& sender) {
   const bool encoded = wire::encode(message, frame);
   S4TP_ASSERT(encoded);  // every value below is brought into its range
   sender.protect(frame);
-  hal::CanFrame out;
-  out.id = frame.id;
-  out.length = frame.length;
-  for (int i = 0; i < frame.length; ++i) out.data[i] = frame.data[i];
-  static_cast<void>(can.send(out));
+  static_cast<void>(can.send(to_hal(frame)));
 }
 
 template <class Integer>

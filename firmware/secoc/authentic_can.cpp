@@ -1,36 +1,22 @@
 #include "firmware/secoc/authentic_can.hpp"
 
+#include "firmware/can/frames.hpp"
 #include "firmware/secoc/frames.hpp"
 #include "firmware/wire/codec.hpp"
 #include "firmware/wire/e2e.hpp"
 
 namespace s4tp::secoc {
-namespace {
-
-hal::CanFrame to_can(const wire::Frame& frame) {
-  hal::CanFrame out;
-  out.id = frame.id;
-  out.length = frame.length;
-  for (int i = 0; i < frame.length && i < 8; ++i) out.data[i] = frame.data[i];
-  return out;
-}
-
-/// \pre can_frame.length is 8
-wire::Frame to_wire(const hal::CanFrame& can_frame) {
-  wire::Frame frame;
-  frame.id = can_frame.id;
-  frame.length = can_frame.length;
-  for (int i = 0; i < 8; ++i) frame.data[i] = can_frame.data[i];
-  return frame;
-}
-
-}  // namespace
 
 AuthenticCan::AuthenticCan(hal::Can& below, hal::Authenticator& keys, End end)
     : below_(below), keys_(keys), end_(end), session_(keys, end) {}
 
 bool AuthenticCan::is_incoming(Group group) const {
   return (group == Group::kCommand) == (end_ == End::kWorld);
+}
+
+AuthenticCan::Open& AuthenticCan::open_of(Group group) {
+  if (group == Group::kCommand) return command_;
+  return group == Group::kMotion ? motion_ : tracks_;
 }
 
 hal::CanCounters AuthenticCan::counters() const {
@@ -47,7 +33,7 @@ void AuthenticCan::announce() {
 }
 
 void AuthenticCan::say(const Nonce& nonce) {
-  static_cast<void>(below_.send(to_can(write_nonce(end_, nonce))));  // said again if it is lost
+  static_cast<void>(below_.send(to_hal(write_nonce(end_, nonce))));  // said again if it is lost
 }
 
 void AuthenticCan::pass_period() {
@@ -69,7 +55,7 @@ void AuthenticCan::seal(const wire::Frame& frame) {
   if (is_map(frame.id)) return seal_map(frame);
   if (frame.id == wire::kTrackListId || is_member(frame.id)) return seal_tracks(frame);
   const bool command = frame.id == wire::kCommandId;
-  Open& open = command ? command_ : motion_;
+  Open& open = open_of(command ? Group::kCommand : Group::kMotion);
   if (begins(frame.id)) {
     open.frames.clear();
     open.begun = true;
@@ -116,7 +102,7 @@ void AuthenticCan::send_group(Group group, Open& open) {
 void AuthenticCan::send_companion(Message& message) {
   Companion companion;
   if (is_incoming(message.group()) || !session_.seal(message, companion)) return;
-  static_cast<void>(below_.send(to_can(write_companion(message.group(), companion))));
+  static_cast<void>(below_.send(to_hal(write_companion(message.group(), companion))));
 }
 
 // In.
@@ -124,7 +110,7 @@ void AuthenticCan::send_companion(Message& message) {
 bool AuthenticCan::receive(hal::CanFrame& frame) {
   for (int i = 0; i <= kLookedAt; ++i) {
     if (ready_at_ < ready_.size()) {
-      frame = to_can(ready_.at(ready_at_++));
+      frame = to_hal(ready_.at(ready_at_++));
       return true;
     }
     if (has_passed_) {
@@ -165,7 +151,7 @@ void AuthenticCan::hold(Group group, const wire::Frame& frame) {
     if (!head_.take(frame)) take_record(frame);
     return;
   }
-  Open& open = group == Group::kCommand ? command_ : group == Group::kMotion ? motion_ : tracks_;
+  Open& open = open_of(group);
   if (begins(frame.id) && !open.frames.has(frame)) {
     open.frames.clear();
     open.begun = true;
@@ -179,7 +165,7 @@ void AuthenticCan::take_record(const wire::Frame& frame) {
   if (!find_place(frame, place)) return;
   static_cast<void>(records_.take(frame, place));
   if (!verified_.has(frame, place)) return;
-  passed_ = to_can(frame);
+  passed_ = to_hal(frame);
   has_passed_ = true;
 }
 
@@ -189,7 +175,7 @@ void AuthenticCan::judge(Group group, const Companion& companion) {
   if (group == Group::kMap) {
     genuine = judge_map(companion);
   } else {
-    Open& open = group == Group::kCommand ? command_ : group == Group::kMotion ? motion_ : tracks_;
+    Open& open = open_of(group);
     Message message(group);
     open.frames.add_to(message);
     genuine = open.begun && session_.verify(message, companion);
@@ -227,11 +213,11 @@ bool AuthenticCan::judge_map(const Companion& companion) {
 bool AuthenticCan::release(hal::CanFrame& frame) {
   if (head_at_ < 0) {
     ++head_at_;
-    frame = to_can(verified_head_.before());
+    frame = to_hal(verified_head_.before());
     return true;
   }
   if (head_at_ < MapHead::kFrames) {
-    frame = to_can(verified_head_.frame(head_at_++));
+    frame = to_hal(verified_head_.frame(head_at_++));
     return true;
   }
   for (int i = 0; i < kRecords && !changed_[record_at_]; ++i) {
@@ -239,7 +225,7 @@ bool AuthenticCan::release(hal::CanFrame& frame) {
     part_at_ = 0;
   }
   if (!changed_[record_at_]) return false;
-  frame = to_can(verified_.frame(record_at_, part_at_++));
+  frame = to_hal(verified_.frame(record_at_, part_at_++));
   changed_[record_at_] = part_at_ < verified_.parts(record_at_);
   return true;
 }

@@ -91,6 +91,8 @@ class AuthenticCan final : public hal::Can {
   [[nodiscard]] bool judge_map(const Companion& companion);
   [[nodiscard]] bool release(hal::CanFrame& frame);
   [[nodiscard]] bool is_incoming(Group group) const;
+  /// \pre group is not kMap
+  [[nodiscard]] Open& open_of(Group group);
 
   hal::Can& below_;
   hal::Authenticator& keys_;

@@ -2,10 +2,10 @@
 
 #include <stdexcept>
 
+#include "firmware/can/frames.hpp"
 #include "hal/sim/bus.hpp"
 #include "hal/sim/null_devices.hpp"
 #include "hal/sim/sim_clock.hpp"
-#include "sim_host/campaign/frames.hpp"
 
 namespace s4tp::campaign {
 namespace {

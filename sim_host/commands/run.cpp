@@ -233,10 +233,9 @@ int run_on_target(RunOptions run) {
   if (run.common.out_named->count() == 0) arguments.push_back("--out=" + run.common.out.string());
   fs::path log = run.log;
   if (run.realtime && !run.telemetry.empty()) {
-    std::cout << "./s4tp view does not show this drive: in real time there is no telling what the machine's "
-                 "ECU heard "
-                 "in a tick"
-              << std::endl;
+    std::cout
+        << "./s4tp view does not show this drive: in real time nobody knows what the ECU heard in a tick"
+        << std::endl;
   } else if (!run.telemetry.empty()) {
     if (log.empty()) arguments.push_back("--log=" + (log = run.common.out / "bus.log").string());
     show_machine(log, run.telemetry,

@@ -5,13 +5,13 @@
 #include <stdexcept>
 
 #include "algo/core/parameters.hpp"
+#include "firmware/can/frames.hpp"
 #include "firmware/ecu/lockstep_bus.hpp"
 #include "firmware/ecu/records.hpp"
 #include "firmware/wire/codec.hpp"
 #include "hal/sim/bus.hpp"
 #include "hal/sim/null_devices.hpp"
 #include "sim_host/campaign/any_ecu.hpp"
-#include "sim_host/campaign/frames.hpp"
 #include "sim_host/faults/faulty_bus.hpp"
 #include "sim_host/world/world.hpp"
 
@@ -26,7 +26,7 @@ class Witness final : public hal::Can {
   Witness(hal::Can& can, Judge& judge) : can_(can), judge_(judge) {}
   bool receive(hal::CanFrame& frame) override {
     if (!can_.receive(frame)) return false;
-    taken.push_back(campaign::to_wire(frame));
+    taken.push_back(to_wire(frame));
     judge_.taken(taken.back());
     return true;
   }
@@ -113,7 +113,7 @@ class Run {
     ecu_port_->set_state(state);
     // A full queue loses the frame, which is as it should be in a burst.
     for (const wire::Frame& frame : faults_.to_ecu(tick, frames)) {
-      static_cast<void>(world_port_->send(campaign::to_hal(frame)));
+      static_cast<void>(world_port_->send(to_hal(frame)));
     }
     if (faults_.plan_late(tick) && tick % 10 == 0) ecu_->inject_deadline_miss();
     const bool off_bus = state == hal::CanState::kBusOff || state == hal::CanState::kDown;
@@ -136,7 +136,7 @@ class Run {
     if (ecu_->planning_due()) ecu_->planning_cycle();
     Frames sent;
     hal::CanFrame frame;
-    while (world_port_->receive(frame)) sent.push_back(campaign::to_wire(frame));
+    while (world_port_->receive(frame)) sent.push_back(to_wire(frame));
     if (options_.defect) options_.defect(witness_.taken, sent);
     judge_.control_tick(sent, off_bus && ecu_port_->counters().dropped > refused);
     to_world.insert(to_world.end(), sent.begin(), sent.end());

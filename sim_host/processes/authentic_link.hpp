@@ -21,21 +21,20 @@ class AuthenticLink final : public hal::linux_host::LinuxCan {
  public:
   /// Both must outlive this.
   AuthenticLink(hal::linux_host::LinuxCan& below, hal::Authenticator& keys, secoc::End end)
-      : below_(below), can(below, keys, end) {}
+      : below_(below), can_(below, keys, end) {}
 
-  [[nodiscard]] bool receive(hal::CanFrame& frame) override { return can.receive(frame); }
-  [[nodiscard]] bool send(const hal::CanFrame& frame) override { return can.send(frame); }
-  [[nodiscard]] hal::CanState state() const override { return can.state(); }
-  [[nodiscard]] hal::CanCounters counters() const override { return can.counters(); }
+  [[nodiscard]] bool receive(hal::CanFrame& frame) override { return can_.receive(frame); }
+  [[nodiscard]] bool send(const hal::CanFrame& frame) override { return can_.send(frame); }
+  [[nodiscard]] hal::CanState state() const override { return can_.state(); }
+  [[nodiscard]] hal::CanCounters counters() const override { return can_.counters(); }
   [[nodiscard]] bool wait(int timeout_ms) override { return below_.wait(timeout_ms); }
   [[nodiscard]] std::uint64_t received_at_us() const override { return below_.received_at_us(); }
   [[nodiscard]] bool take_news(hal::linux_host::LinkNews& news) override { return below_.take_news(news); }
+  [[nodiscard]] secoc::AuthenticCan& authentic() { return can_; }
 
  private:
   hal::linux_host::LinuxCan& below_;
-
- public:
-  secoc::AuthenticCan can;
+  secoc::AuthenticCan can_;
 };
 
 /// AUTH-032 Tells when a session begins or ends, and at last how many companions were verified and refused.

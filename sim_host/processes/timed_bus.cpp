@@ -2,11 +2,11 @@
 
 #include <utility>
 
+#include "firmware/can/frames.hpp"
 #include "firmware/wire/codec.hpp"
 #include "firmware/wire/e2e.hpp"
 #include "hal/linux/host_clock.hpp"
 #include "hal/linux/timer_tick.hpp"
-#include "sim_host/campaign/frames.hpp"
 
 namespace s4tp::processes {
 
@@ -26,13 +26,12 @@ int TimedBus::take(int timeout_ms) {
 void TimedBus::keep(const hal::CanFrame& frame) {
   if (frame.length > 8) return;  // no FD frame is ours
   const bool is_tick = frame.id == wire::kTickId;
-  if (is_tick &&
-      !opener_.opens(campaign::to_wire(frame), hal::linux_host::MonotonicClock().now_us() / 1000U)) {
+  if (is_tick && !opener_.opens(to_wire(frame), hal::linux_host::MonotonicClock().now_us() / 1000U)) {
     ++refused_ticks_;
     return;
   }
   heard_ = heard_ || is_tick;
-  if (frame.id == wire::kMotionId && wire::e2e_crc_fits(campaign::to_wire(frame)))
+  if (frame.id == wire::kMotionId && wire::e2e_crc_fits(to_wire(frame)))
     motion_us_ = hal::linux_host::monotonic_us(can_.received_at_us(), hal::linux_host::kTickPeriodUs);
   if (size_ == kQueueFrames) {
     first_ = (first_ + 1) % kQueueFrames;

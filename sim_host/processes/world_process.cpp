@@ -6,12 +6,12 @@
 #include <thread>
 #include <vector>
 
+#include "firmware/can/frames.hpp"
 #include "firmware/wire/codec.hpp"
 #include "firmware/wire/e2e.hpp"
 #include "hal/linux/host_clock.hpp"
 #include "hal/linux/timer_tick.hpp"
 #include "sim_host/campaign/bus_log.hpp"
-#include "sim_host/campaign/frames.hpp"
 #include "sim_host/processes/bus_end.hpp"
 #include "sim_host/world/tick_echo.hpp"
 #include "sim_host/world/world.hpp"
@@ -81,7 +81,7 @@ class Session {
     while (options_.wait_s > 0) {
       hal::CanFrame frame;
       while (can_.receive(frame)) {
-        if (frame.id == wire::kVersionEcuId && wire::e2e_crc_fits(campaign::to_wire(frame))) there = true;
+        if (frame.id == wire::kVersionEcuId && wire::e2e_crc_fits(to_wire(frame))) there = true;
       }
       if (authentic_ != nullptr) authentic_->announce();
       if (there && (authentic_ == nullptr || authentic_->session().has_key())) return true;
@@ -175,7 +175,7 @@ class Session {
     frames_.clear();
     world_.tick(frames_);
     ++result_.ticks;
-    for (const wire::Frame& frame : frames_) (void)can_.send(campaign::to_hal(frame));  // counted there
+    for (const wire::Frame& frame : frames_) (void)can_.send(to_hal(frame));  // counted there
     if (authentic_ != nullptr) teller_.tell(out_, *authentic_);
     log(frames_);
     if (log_) log_->flush();
@@ -187,7 +187,7 @@ class Session {
     hal::CanFrame received;
     while (can_.receive(received)) {
       if (received.length > 8) continue;  // no FD frame is ours
-      const wire::Frame frame = campaign::to_wire(received);
+      const wire::Frame frame = to_wire(received);
       // Until its first command the ECU only says that it is there.
       if (!first_answer_ && frame.id == wire::kVersionEcuId) continue;
       log({frame});
@@ -248,7 +248,7 @@ WorldProcessResult run_world(const world::Scenario& scenario, hal::linux_host::L
                              const std::atomic<bool>& stop) {
   if (options.keys == nullptr) return Session(scenario, can, nullptr, options, out, stop).run();
   const auto link = std::make_unique<AuthenticLink>(can, *options.keys, secoc::End::kWorld);
-  return Session(scenario, *link, &link->can, options, out, stop).run();
+  return Session(scenario, *link, &link->authentic(), options, out, stop).run();
 }
 
 void print_link(std::ostream& out, const WorldProcessOptions& options, const WorldProcessResult& result,

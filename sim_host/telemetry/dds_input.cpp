@@ -3,7 +3,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "sim_host/campaign/frames.hpp"
+#include "firmware/can/frames.hpp"
 
 namespace s4tp::telemetry {
 namespace {
@@ -15,7 +15,7 @@ constexpr std::uint32_t kTellEveryMs = 1000;
 
 /// A full queue is counted by the bus; the list is then broken and refused.
 void pass_on(const wire::Frame& frame, hal::Can& can) {
-  (void)can.send(campaign::to_hal(frame));
+  (void)can.send(to_hal(frame));
 }
 
 }  // namespace

@@ -14,9 +14,9 @@
 #include <string>
 #include <vector>
 
+#include "firmware/can/frames.hpp"
 #include "hal/linux/named_bus.hpp"
 #include "sim_host/campaign/driver.hpp"
-#include "sim_host/campaign/frames.hpp"
 #include "sim_host/campaign/trace.hpp"
 #include "sim_host/processes/child_process.hpp"
 #include "sim_host/processes/input_link.hpp"
@@ -33,7 +33,6 @@ namespace s4tp::telemetry {
 namespace {
 
 using namespace std::chrono_literals;
-using campaign::to_wire;
 using tests::message_of;
 using tests::Publisher;
 using tests::wait_for;

@@ -124,7 +124,7 @@ class Watch {
   void tick() {
     int commands = 0;
     for (hal::CanFrame can; port_->receive(can);) {
-      const wire::Frame frame = campaign::to_wire(can);
+      const wire::Frame frame = to_wire(can);
       commands += frame.id == wire::kCommandId ? 1 : 0;
       check_.take(frame);
     }

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "firmware/can/frames.hpp"
 #include "firmware/secoc/authentic_can.hpp"
 #include "firmware/secoc/frames.hpp"
 #include "firmware/wire/lane_map.hpp"
@@ -61,14 +62,6 @@ struct Port final : hal::Can {
   std::vector<hal::CanFrame> out;
 };
 
-hal::CanFrame to_can(const wire::Frame& frame) {
-  hal::CanFrame out;
-  out.id = frame.id;
-  out.length = frame.length;
-  for (int i = 0; i < 8; ++i) out.data[i] = frame.data[i];
-  return out;
-}
-
 std::string text_of(const hal::CanFrame& frame) {
   std::string text(1, static_cast<char>(frame.id));
   text.append(reinterpret_cast<const char*>(frame.data), 8);
@@ -85,8 +78,8 @@ struct Bus {
   void restart_world() { world.emplace(world_port, world_keys, secoc::End::kWorld); }
 
   void send(const wire::Frame& frame) {
-    said.insert(text_of(to_can(frame)));
-    expect(world->send(to_can(frame)), "the bus takes all");
+    said.insert(text_of(to_hal(frame)));
+    expect(world->send(to_hal(frame)), "the bus takes all");
   }
   template <class Message>
   void say(const Message& message, wire::E2eSender& sender) {
@@ -119,8 +112,8 @@ struct Bus {
     wire::Frame frame;
     expect(wire::encode(message, frame), "every value fits");
     command.protect(frame);
-    commanded.insert(text_of(to_can(frame)));
-    expect(ecu->send(to_can(frame)), "the bus takes all");
+    commanded.insert(text_of(to_hal(frame)));
+    expect(ecu->send(to_hal(frame)), "the bus takes all");
   }
   /// What the ECU's application gets.
   void take() {
@@ -228,7 +221,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         break;
       case 3: {
         const wire::Frame frame = fuzz::take_frame(input, counters);
-        hal::CanFrame forged = to_can(frame);
+        hal::CanFrame forged = to_hal(frame);
         forged.length = frame.length;
         bus->inject(forged);
         break;

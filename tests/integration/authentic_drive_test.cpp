@@ -65,14 +65,14 @@ class Drive {
     frames_.clear();
     world_.tick(frames_);
     hal::Can& world_can = over(world_end, *world_port_);
-    for (const wire::Frame& frame : frames_) (void)world_can.send(campaign::to_hal(frame));
+    for (const wire::Frame& frame : frames_) (void)world_can.send(to_hal(frame));
     if (before_ecu) before_ecu();
     ecu_->control_tick();
     if (ecu_->planning_due()) ecu_->planning_cycle();
     if (before_world) before_world();
     hal::CanFrame frame;
     while (world_can.receive(frame)) {
-      const wire::Frame taken = campaign::to_wire(frame);
+      const wire::Frame taken = to_wire(frame);
       if (taken.id == wire::kCommandId) commands.push_back(taken);
       world_.receive(taken);
     }
@@ -84,7 +84,7 @@ class Drive {
   }
   void inject(const wire::Frame& frame) {
     wire.enabled = false;
-    (void)stranger_->send(campaign::to_hal(frame));
+    (void)stranger_->send(to_hal(frame));
     wire.enabled = true;
   }
   [[nodiscard]] const world::World& world() const { return world_; }

@@ -7,11 +7,11 @@
 #include <thread>
 #include <vector>
 
+#include "firmware/can/frames.hpp"
 #include "hal/sim/bus.hpp"
 #include "hal/sim/null_devices.hpp"
 #include "sim_host/campaign/any_ecu.hpp"
 #include "sim_host/campaign/episode.hpp"
-#include "sim_host/campaign/frames.hpp"
 #include "sim_host/processes/ecu_process.hpp"
 #include "sim_host/processes/world_process.hpp"
 #include "sim_host/world/world.hpp"
@@ -79,9 +79,9 @@ ThreadedDrive drive_on_two_threads(const world::Scenario& scenario, int late_one
     frames.clear();
     world.tick(frames);
     ++result.ticks;
-    for (const wire::Frame& frame : frames) (void)world_port->send(campaign::to_hal(frame));
+    for (const wire::Frame& frame : frames) (void)world_port->send(to_hal(frame));
     ecu->control_tick();
-    for (hal::CanFrame frame; world_port->receive(frame);) world.receive(campaign::to_wire(frame));
+    for (hal::CanFrame frame; world_port->receive(frame);) world.receive(to_wire(frame));
     if (!ecu->planning_due()) {
       busy_ticks = 0;
       hold = false;  // a cycle that had begun before it was to be held

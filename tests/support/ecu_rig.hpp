@@ -8,11 +8,11 @@
 #include <optional>
 #include <vector>
 
+#include "firmware/can/frames.hpp"
 #include "firmware/ecu/ecu.hpp"
 #include "firmware/wire/version.hpp"
 #include "hal/sim/bus.hpp"
 #include "hal/sim/null_devices.hpp"
-#include "sim_host/campaign/frames.hpp"
 
 namespace s4tp::ecu {
 
@@ -87,9 +87,6 @@ struct Plant {
     }
   }
 };
-
-using campaign::to_hal;
-using campaign::to_wire;
 
 /// One straight lane of 300 m in slot 5.
 inline wire::Map straight_map() {

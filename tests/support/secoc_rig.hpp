@@ -8,12 +8,12 @@
 #include <random>
 #include <vector>
 
+#include "firmware/can/frames.hpp"
 #include "firmware/secoc/authentic_can.hpp"
 #include "firmware/wire/codec.hpp"
 #include "firmware/wire/e2e.hpp"
 #include "hal/linux/mbedtls_authenticator.hpp"
 #include "hal/sim/bus.hpp"
-#include "sim_host/campaign/frames.hpp"
 #include "tests/support/wire_samples.hpp"
 
 namespace s4tp::secoc {
@@ -57,10 +57,10 @@ struct BusEnd {
     restart();
   }
   void restart() { can.emplace(port, keys, end); }
-  void send(const wire::Frame& frame) { (void)can->send(campaign::to_hal(frame)); }
+  void send(const wire::Frame& frame) { (void)can->send(to_hal(frame)); }
   std::vector<wire::Frame> take() {
     std::vector<wire::Frame> frames;
-    for (hal::CanFrame frame; can->receive(frame);) frames.push_back(campaign::to_wire(frame));
+    for (hal::CanFrame frame; can->receive(frame);) frames.push_back(to_wire(frame));
     return frames;
   }
 
@@ -74,7 +74,7 @@ struct BusEnd {
 struct Wire final : hal::sim::BusFault {
   bool pass(hal::CanFrame& frame) override {
     if (!enabled) return true;
-    seen.push_back(campaign::to_wire(frame));
+    seen.push_back(to_wire(frame));
     return !lost || !lost(seen.back());
   }
   bool enabled = true;
@@ -142,7 +142,7 @@ class SecocRig {
   /// A frame as a stranger on the bus sends it.
   void inject(const wire::Frame& frame) {
     wire.enabled = false;
-    (void)stranger->send(campaign::to_hal(frame));
+    (void)stranger->send(to_hal(frame));
     wire.enabled = true;
   }
   /// Frames of one id that have been on the bus.

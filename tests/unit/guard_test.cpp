@@ -14,6 +14,17 @@ namespace {
 
 using namespace test;  // NOLINT: the map builders are the language of these tests
 
+/// Behind the first zone, with a lane of its own, from where it is as far as to the first.
+/// \return the way of those who come there
+LanePath add_second_zone(SharedGround& road, float entry_s_m, float exit_s_m) {
+  ConflictZone zone = road.zone();
+  zone.entry_s_m = entry_s_m;
+  zone.exit_s_m = exit_s_m;
+  zone.other_lane = add_lane(road.map, {{14.0F, -100.0F}, {14.0F, 300.0F}});
+  (void)road.scene.ego_paths[0].zones.push(zone);
+  return path_of(road.map, {zone.other_lane});
+}
+
 // GUARD-001 Whoever may come: who can still stop 0.7 m before the zone, at 95.3, may go on. 95.3 - 16.2
 // = 79.1.
 TEST(Guard, WhoCanStopBeforeTheZoneGoesOn) {
@@ -319,16 +330,11 @@ TEST(Guard, ALicenceHoldsForItsZone) {
 TEST(Guard, StopsShortOnlyWhereOthersCanStopForIt) {
   for (const float off_m : {30.0F, 5.0F}) {
     SharedGround road(Priority::kFirstYields);
-    ConflictZone second = road.zone();
-    second.entry_s_m = 104.5F;
-    second.exit_s_m = 110.0F;
-    second.other_lane = add_lane(road.map, {{14.0F, -100.0F}, {14.0F, 300.0F}});
-    const LanePath beside = path_of(road.map, {second.other_lane});
-    (void)road.scene.ego_paths[0].zones.push(second);
+    const LanePath beside = add_second_zone(road, 104.5F, 110.0F);
     const Verdict begun = road.judge(94.0F, 6.0F, 0.0F);
     ASSERT_TRUE(begun.safe() && begun.clears);
     road.guard.commit(0, begun);
-    add_vehicle(road.scene, road.map, beside, second.other_entry_m - 4.0F, 8.0F);
+    add_vehicle(road.scene, road.map, beside, 96.0F - 4.0F, 8.0F);
     road.other(96.0F - off_m, 8.0F);
     EXPECT_EQ(road.safe(97.0F, 6.0F, 0.0F), off_m > 20.0F) << off_m;
   }
@@ -339,12 +345,7 @@ TEST(Guard, StopsShortOnlyWhereOthersCanStopForIt) {
 // second; it is 8 m before that now, and has not been asked to stay out of it.
 TEST(Guard, LicencesOfLaterGroupsAreNotUsedYet) {
   SharedGround road(Priority::kFirstYields);
-  ConflictZone later = road.zone();
-  later.entry_s_m = 110.0F;
-  later.exit_s_m = 118.0F;
-  later.other_lane = add_lane(road.map, {{14.0F, -100.0F}, {14.0F, 300.0F}});
-  const LanePath beside = path_of(road.map, {later.other_lane});
-  (void)road.scene.ego_paths[0].zones.push(later);
+  const LanePath beside = add_second_zone(road, 110.0F, 118.0F);
   add_vehicle(road.scene, road.map, beside, 96.0F - 40.0F, 6.0F);
   const Verdict begun = road.judge(94.0F, 8.0F, 0.0F);
   ASSERT_TRUE(begun.safe() && begun.clears);

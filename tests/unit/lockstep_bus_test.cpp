@@ -4,9 +4,9 @@
 
 #include <vector>
 
+#include "firmware/can/frames.hpp"
 #include "firmware/wire/codec.hpp"
 #include "firmware/wire/e2e.hpp"
-#include "sim_host/campaign/frames.hpp"
 #include "tests/support/fake_bus.hpp"
 
 namespace s4tp::ecu {
@@ -99,7 +99,7 @@ TEST(LockstepBus, HandsOutTickByTick) {
   hal::linux_host::FakeBus fake;
   for (const int tick : {1, 2}) {
     fake.incoming.push_back(other_frame(0x100U + static_cast<std::uint32_t>(tick)));
-    fake.incoming.push_back(campaign::to_hal(tick_frame(tick)));
+    fake.incoming.push_back(to_hal(tick_frame(tick)));
   }
   fake.incoming.push_back(other_frame(0x103));
   LockstepBus bus(fake);
@@ -116,8 +116,7 @@ TEST(LockstepBus, HandsOutTickByTick) {
 TEST(LockstepBus, RefusedTicksAreNotHandedOn) {
   hal::linux_host::FakeBus fake;
   LockstepBus bus(fake);
-  fake.incoming = {campaign::to_hal(tick_frame(1)), campaign::to_hal(tick_frame(65'536)),
-                   campaign::to_hal(tick_frame(1))};
+  fake.incoming = {to_hal(tick_frame(1)), to_hal(tick_frame(65'536)), to_hal(tick_frame(1))};
   EXPECT_TRUE(bus.take_tick(0));
   EXPECT_FALSE(bus.take_tick(0));
   EXPECT_EQ(ids_of(bus), (std::vector<std::uint32_t>{wire::kTickId}));
@@ -130,7 +129,7 @@ TEST(LockstepBus, FloodKeepsTheNewest) {
   hal::linux_host::FakeBus fake;
   LockstepBus bus(fake);
   for (std::uint32_t i = 0; i < 600; ++i) fake.incoming.push_back(other_frame(0x100 + i));
-  fake.incoming.push_back(campaign::to_hal(tick_frame(1)));
+  fake.incoming.push_back(to_hal(tick_frame(1)));
   EXPECT_FALSE(bus.take_tick(0));  // 256 a call
   EXPECT_FALSE(bus.take_tick(0));
   ASSERT_TRUE(bus.take_tick(0));

@@ -13,9 +13,9 @@
 #include <string>
 #include <vector>
 
+#include "firmware/can/frames.hpp"
 #include "firmware/wire/codec.hpp"
 #include "firmware/wire/e2e.hpp"
-#include "sim_host/campaign/frames.hpp"
 #include "sim_host/processes/bus_end.hpp"
 #include "sim_host/processes/drive_on_bus.hpp"
 #include "sim_host/processes/ecu_process.hpp"
@@ -41,7 +41,7 @@ hal::CanFrame sealed(const Message& message, wire::E2eSender& sender) {
   wire::Frame frame;
   EXPECT_TRUE(wire::encode(message, frame));
   sender.protect(frame);
-  return campaign::to_hal(frame);
+  return to_hal(frame);
 }
 
 hal::CanFrame hello() {
@@ -62,7 +62,7 @@ struct ScriptedEcu {
     bus.on_send = [this](const hal::CanFrame& frame) {
       if (frame.id != wire::kTickId) return;
       wire::Tick tick;
-      EXPECT_TRUE(wire::decode(campaign::to_wire(frame), tick));
+      EXPECT_TRUE(wire::decode(to_wire(frame), tick));
       ++ticks;
       if (beside) beside(tick.tick);
       if (ticks <= answers_until)
@@ -342,8 +342,7 @@ TEST(EcuProcess, FloodDoesNotDelayTheAnswer) {
   std::vector<int> echoes;
   for (const hal::CanFrame& frame : bus.sent) {
     wire::Command command;
-    if (frame.id == wire::kCommandId && wire::decode(campaign::to_wire(frame), command))
-      echoes.push_back(command.tick);
+    if (frame.id == wire::kCommandId && wire::decode(to_wire(frame), command)) echoes.push_back(command.tick);
   }
   ASSERT_EQ(echoes.size(), 20U);
   EXPECT_EQ(echoes.front(), 0);  // the first TICK frame is not trusted yet
