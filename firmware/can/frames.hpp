@@ -6,12 +6,12 @@
 
 namespace s4tp {
 
-/// \pre frame.length <= 8
+/// A length past 8 is kept, for the other end to refuse; the bytes are eight at most.
 [[nodiscard]] inline hal::CanFrame to_hal(const wire::Frame& frame) {
   hal::CanFrame can;
   can.id = frame.id;
   can.length = frame.length;
-  for (int i = 0; i < frame.length; ++i) can.data[i] = frame.data[i];
+  for (int i = 0; i < frame.length && i < 8; ++i) can.data[i] = frame.data[i];
   return can;
 }
 
