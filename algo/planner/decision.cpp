@@ -12,7 +12,7 @@ static_assert(kVehicleBit + kMaxAgents <= 32, "a decision key is 32 bits");
 }  // namespace
 
 DecisionKey decision_key(const Scene& scene, int path_index, const Trajectory& trajectory,
-                         const PredictionSet& unconditioned) {
+                         const PredictionSet& marginal) {
   const EgoPath& path = scene.ego_paths[path_index];
   const Pose& end = trajectory.points[kHorizonSteps].rear_axle;
   float reached_m = path.frenet.s_m;
@@ -25,8 +25,8 @@ DecisionKey decision_key(const Scene& scene, int path_index, const Trajectory& t
     if (reached_m > path.zones[i].entry_s_m) key |= DecisionKey{1} << (kZoneBit + i);
   }
   const Point ahead = direction(end.heading_rad);
-  for (int i = 0; i < unconditioned.agents.size(); ++i) {
-    const AgentPrediction& agent = unconditioned.agents[i];
+  for (int i = 0; i < marginal.agents.size(); ++i) {
+    const AgentPrediction& agent = marginal.agents[i];
     if (agent.modes.empty()) continue;
     const Point there = position(agent.modes[0].steps[kHorizonSteps - 1]);
     if (dot(ahead, there - position(end)) < 0.0F) key |= DecisionKey{1} << (kVehicleBit + i);

@@ -16,7 +16,7 @@ namespace s4tp {
 using DecisionKey = std::uint32_t;
 
 [[nodiscard]] DecisionKey decision_key(const Scene& scene, int path, const Trajectory& trajectory,
-                                       const PredictionSet& unconditioned);
+                                       const PredictionSet& marginal);
 
 /// A candidate that stands for its decision.
 struct Decision {

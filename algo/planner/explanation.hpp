@@ -23,7 +23,7 @@ struct CostBreakdown {
 };
 
 /// The motion that would have gone furthest, had the guard not refused it.
-struct HeldUp {
+struct BlockingReason {
   safety::Verdict verdict;   ///< why it was; safe: nothing was refused
   std::uint8_t track = 255;  ///< track id of who is in its way; 255: nobody
   Manoeuvre manoeuvre = Manoeuvre::kKeep;
@@ -62,8 +62,8 @@ struct Explanation {
   RiskProfile risk{};
   std::uint8_t dominating_track = 255;  ///< track id of the vehicle whose risk is largest; 255: nobody
   std::uint8_t dominating_step = 0;
-  HeldUp held_up;                        ///< in our lane
-  HeldUp beside;                         ///< in the lanes beside
+  BlockingReason blocking;               ///< in our lane
+  BlockingReason beside;                 ///< in the lanes beside
   std::uint8_t leader_track = 255;       ///< track id of who drives ahead on the way chosen; 255: nobody
   float leader_gap_m = 0.0F;             ///< bumper to bumper
   std::uint8_t id_clashes = 0;           ///< vehicles whose ids were not their own (CORE-035)

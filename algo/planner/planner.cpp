@@ -10,8 +10,8 @@
 #include "algo/satp/shipped_weights.hpp"
 #include "algo/trajectory/along_path.hpp"
 #include "algo/trajectory/bicycle.hpp"
+#include "algo/trajectory/lateral_offset.hpp"
 #include "algo/trajectory/plan_limits.hpp"
-#include "algo/trajectory/standing_room.hpp"
 
 namespace s4tp {
 namespace {
@@ -116,7 +116,7 @@ Status PlanningCycle::plan(const PlannerInput& input, Plan& plan, Explanation& e
                                     parameters_, scene_);
       believe(scene_);
       build_drivable(input.map, drivable_);
-      keep_aside(parameters_, scene_);
+      set_lateral_offsets(parameters_, scene_);
       explanation.id_clashes = scene_.id_clashes;
       count(explanation, Stage::kScene, scene_.agents.size());
     }
@@ -165,11 +165,11 @@ void PlanningCycle::give_up(Status status, Plan& plan) {
 
 void PlanningCycle::explain_risk(Status status, Explanation& explanation) {
   const StageScope scope(probe, Stage::kExactRisk);
-  // What the optimizer changed, or the minimum-risk manoeuvre, is felt anew while the allowance lasts.
+  // What the optimizer changed, or the minimum-risk manoeuvre, has its risk anew while the allowance lasts.
   const bool changed = status != Status::kOk || risk_outdated_;
-  const PredictionSet& prediction = status == Status::kOk ? conditioned_.set : unconditioned_;
-  if (changed && can_feel(explanation)) {
-    feel(prediction, chosen_, explanation, explanation.risk);
+  const PredictionSet& prediction = status == Status::kOk ? conditioned_.set : marginal_;
+  if (changed && can_evaluate_risk(explanation)) {
+    evaluate_risk(prediction, chosen_, explanation, explanation.risk);
   } else if (status != Status::kOk) {
     explanation.risk = RiskProfile{};  // it is of a motion that was rejected
   }
@@ -205,9 +205,9 @@ void PlanningCycle::predict(Explanation& explanation) {
   YieldHypotheses hypotheses[kMaxAgents];
   arena_.predictor.hypotheses(hypotheses);
   beliefs_.observe(scene_, hypotheses);
-  arena_.predictor.decode(nullptr, allowance.prediction, unconditioned_);
-  if (weights_.present()) trust_.remember(scene_, unconditioned_, start_ms_);
-  arena_.predictor.keep_going(keep_going_);
+  arena_.predictor.decode(nullptr, allowance.prediction, marginal_);
+  if (weights_.present()) trust_.remember(scene_, marginal_, start_ms_);
+  arena_.predictor.constant_velocity(constant_velocity_);
   count(explanation, Stage::kPredict, arena_.predictor.work());
 }
 
@@ -284,13 +284,13 @@ bool PlanningCycle::hold(int index, Explanation& explanation) {
   return true;
 }
 
-bool PlanningCycle::can_feel(const Explanation& explanation) const {
+bool PlanningCycle::can_evaluate_risk(const Explanation& explanation) const {
   return explanation.work[static_cast<int>(Stage::kExactRisk)] < allowance.exact_risks;
 }
 
-void PlanningCycle::feel(const PredictionSet& prediction, const Trajectory& trajectory,
-                         Explanation& explanation, RiskProfile& profile) {
-  exact_risk(scene_, drivable_, prediction, keep_going_, trajectory, parameters_, profile);
+void PlanningCycle::evaluate_risk(const PredictionSet& prediction, const Trajectory& trajectory,
+                                  Explanation& explanation, RiskProfile& profile) {
+  exact_risk(scene_, drivable_, prediction, constant_velocity_, trajectory, parameters_, profile);
   count(explanation, Stage::kExactRisk, 1);
 }
 
@@ -299,8 +299,8 @@ bool PlanningCycle::evaluate(int index, Explanation& explanation) {
   if (!hold(index, explanation)) return false;
   // Without an allowance left the ranking's risk stands; without a prediction of its own, too.
   const StageScope scope(probe, Stage::kExactRisk);
-  if (allowance.decisions <= 0 || !can_feel(explanation)) return true;
-  feel(conditioned_.set, chosen_, explanation, explanation.risk);
+  if (allowance.decisions <= 0 || !can_evaluate_risk(explanation)) return true;
+  evaluate_risk(conditioned_.set, chosen_, explanation, explanation.risk);
   costs_[index].risk = parameters_.scoring.risk * risk_integral(explanation.risk, parameters_) +
                        crash_cost(conditioned_.set) + hard_[index];
   return true;
@@ -313,15 +313,15 @@ const RefinementProblem* PlanningCycle::last_refinement() const {
 void PlanningCycle::refine(const Candidate& candidate, Explanation& explanation) {
   const int passes = to_int(parameters_.refinement.passes, 0, allowance.optimizer_iterations);
   // In the field the exact risk decides.
-  const bool can_decide = can_feel(explanation);
-  const int feelings = can_decide && parameters_.scoring.risk > 0.0F ? allowance.field_feelings : 0;
+  const bool can_decide = can_evaluate_risk(explanation);
+  const int evaluations = can_decide && parameters_.scoring.risk > 0.0F ? allowance.field_evaluations : 0;
   RefinementResult result;
   {
     const StageScope scope(probe, Stage::kOptimize);
     new (&arena_.optimizer) Optimizer;
     refining_ = passes > 0;
     result = arena_.optimizer.refine(lines_[candidate.path], candidate.start_s_m, surroundings(), parameters_,
-                                     {passes, feelings}, chosen_, refined_);
+                                     {passes, evaluations}, chosen_, refined_);
     count(explanation, Stage::kOptimize, result.passes);
   }
   if (!result.improved) return;
@@ -334,17 +334,17 @@ void PlanningCycle::refine(const Candidate& candidate, Explanation& explanation)
     const bool postpones = refined_.points[1].speed_mps < 0.5F * chosen_.points[1].speed_mps;
     if (!passes_check || postpones) return;
   }
-  if (result.feelings > 0 && !is_better(result, explanation)) return;
-  risk_outdated_ = result.feelings == 0;
+  if (result.evaluations > 0 && !is_better(result, explanation)) return;
+  risk_outdated_ = result.evaluations == 0;
   chosen_ = refined_;
 }
 
 bool PlanningCycle::is_better(const RefinementResult& result, Explanation& explanation) {
   const StageScope scope(probe, Stage::kExactRisk);
   RiskProfile profile;
-  feel(conditioned_.set, refined_, explanation, profile);
-  const float felt = risk_integral(profile, parameters_) - risk_integral(explanation.risk, parameters_);
-  if (result.own_after - result.own_before + parameters_.scoring.risk * felt > 0.0F) return false;
+  evaluate_risk(conditioned_.set, refined_, explanation, profile);
+  const float more = risk_integral(profile, parameters_) - risk_integral(explanation.risk, parameters_);
+  if (result.own_after - result.own_before + parameters_.scoring.risk * more > 0.0F) return false;
   explanation.risk = profile;
   return true;
 }

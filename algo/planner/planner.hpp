@@ -46,9 +46,9 @@ struct WorkAllowance {
   /// told is that of the plan before its last changes.
   int exact_risks = kMaxExactRisk;
   int optimizer_iterations = 16;  ///< passes of the optimizer
-  /// Times the optimizer feels the risk field, at most 3; 0: it smooths only. To judge what comes of it takes an
+  /// Times the optimizer evaluates the risk field, at most 3; 0: it smooths only. To judge what comes of it takes an
   /// exact risk more.
-  int field_feelings = 0;
+  int field_evaluations = 0;
 };
 
 /// The cycle. What it is composed with, the guard and the belief that others move as they are seen to, a
@@ -75,9 +75,9 @@ class PlanningCycle {
 
   /// What the optimizer was asked in the last cycle, for benchmarks; null when it was not asked.
   [[nodiscard]] const RefinementProblem* last_refinement() const;
-  /// And what it felt there.
+  /// And what the risk was there.
   [[nodiscard]] Surroundings surroundings() const {
-    return {scene_, unconditioned_, conditioned_.set, keep_going_};
+    return {scene_, marginal_, conditioned_.set, constant_velocity_};
   }
 
   WorkAllowance allowance;
@@ -114,9 +114,9 @@ class PlanningCycle {
   [[nodiscard]] int shortlisted() const;  ///< decisions that get a prediction of their own
   [[nodiscard]] std::uint8_t track_id(int agent) const;
   void explain_risk(Status status, Explanation& explanation);
-  [[nodiscard]] bool can_feel(const Explanation& explanation) const;
-  void feel(const PredictionSet& prediction, const Trajectory& trajectory, Explanation& explanation,
-            RiskProfile& profile);
+  [[nodiscard]] bool can_evaluate_risk(const Explanation& explanation) const;
+  void evaluate_risk(const PredictionSet& prediction, const Trajectory& trajectory, Explanation& explanation,
+                     RiskProfile& profile);
   /// Price of the touches that are to be expected.
   [[nodiscard]] float crash_cost(const PredictionSet& prediction) const;
   /// Drives the fail-safe of the plan in force.
@@ -145,8 +145,8 @@ class PlanningCycle {
   satp::WeightStatus weight_status_ = satp::WeightStatus::kAbsent;
   bool given_weights_ = false;  ///< or looked for in the build
   PredictionTrust trust_;
-  PredictionSet unconditioned_;
-  KinematicSet keep_going_;
+  PredictionSet marginal_;
+  KinematicSet constant_velocity_;
   ReferenceLines lines_;
   CandidateList candidates_;
   CostBreakdown costs_[kMaxCandidates];

@@ -1,5 +1,5 @@
 #include "algo/core/inline.hpp"
-#include "algo/planner/outlook.hpp"
+#include "algo/planner/lane_cost_to_go.hpp"
 #include "algo/planner/planner.hpp"
 #include "algo/planner/scoring.hpp"
 #include "algo/planner/stage_scope.hpp"
@@ -15,12 +15,14 @@ class PlanningCycle::Ranking final : public CandidateVisitor {
   Ranking(PlanningCycle& planner, bool careful, Explanation& explanation)
       : CandidateVisitor(planner.chosen_), planner_(planner), careful_(careful), explanation_(explanation) {
     const std::int32_t lead_ms = static_cast<std::int32_t>(planner.start_ms_ - planner.scene_.time_ms);
-    outlook_.look(planner.scene_, planner.keep_going_, 0.001F * static_cast<float>(lead_ms),
-                  planner.parameters_);
+    cost_to_go_.look(planner.scene_, planner.constant_velocity_, 0.001F * static_cast<float>(lead_ms),
+                     planner.parameters_);
   }
 
   /// The gap beside worth a candidate of its own.
-  [[nodiscard]] GapAim aim() const { return gap_to_aim_at(planner_.scene_, outlook_, planner_.parameters_); }
+  [[nodiscard]] MergeTarget aim() const {
+    return merge_target_of(planner_.scene_, cost_to_go_, planner_.parameters_);
+  }
 
   void visit(int index) override {
     const InnerStageScope scope(planner_.probe, Stage::kCandidates, Stage::kRank);
@@ -50,10 +52,10 @@ class PlanningCycle::Ranking final : public CandidateVisitor {
     DecisionList& decisions = planner_.decisions_;
     CostBreakdown& cost = planner_.costs_[index];
     const bool other_lane = candidate.path != plan_path_;
-    cost = score_motion(scene, outlook_, candidate.path, planner_.guard_.start_s_m(candidate.path),
+    cost = score_motion(scene, cost_to_go_, candidate.path, planner_.guard_.start_s_m(candidate.path),
                         rolled_out, other_lane, careful_, parameters);
     count(explanation_, Stage::kRank, 1);
-    const DecisionKey key = decision_key(scene, candidate.path, rolled_out, planner_.unconditioned_);
+    const DecisionKey key = decision_key(scene, candidate.path, rolled_out, planner_.marginal_);
     if (previous) {
       planner_.keeps_plan_ = true;
       planner_.plan_key_ = key;
@@ -63,11 +65,11 @@ class PlanningCycle::Ranking final : public CandidateVisitor {
     const bool stays = planner_.keeps_plan_ && key == planner_.plan_key_;
     const int places = stays ? kMaxCandidates : planner_.shortlisted();
     if (!decisions.open_to(key, cost.total(), places)) return;
-    cost.risk = planner_.crash_cost(planner_.unconditioned_) + planner_.hard_[index];
+    cost.risk = planner_.crash_cost(planner_.marginal_) + planner_.hard_[index];
     if (!decisions.open_to(key, cost.total(), places)) return;
     cost.risk +=
         parameters.scoring.risk *
-        rank_risk_of_vehicles(scene, planner_.unconditioned_, planner_.keep_going_, rolled_out, parameters);
+        rank_risk_of_vehicles(scene, planner_.marginal_, planner_.constant_velocity_, rolled_out, parameters);
     if (!decisions.open_to(key, cost.total(), places)) return;
     cost.risk += parameters.scoring.risk * rank_risk_of_road(planner_.drivable_, rolled_out, parameters);
     decisions.offer(key, index, cost.total());
@@ -75,17 +77,17 @@ class PlanningCycle::Ranking final : public CandidateVisitor {
 
   void note_held_up(int path, const safety::Verdict& verdict) {
     const Manoeuvre manoeuvre = planner_.scene_.ego_paths[path].manoeuvre;
-    HeldUp& held_up = manoeuvre == Manoeuvre::kKeep ? explanation_.held_up : explanation_.beside;
+    BlockingReason& blocking = manoeuvre == Manoeuvre::kKeep ? explanation_.blocking : explanation_.beside;
     float way_m = 0.0F;
     for (const TrajectoryPoint& point : rolled_out.points) way_m = way_m + kStepS * point.speed_mps;
-    if (!held_up.verdict.safe() && way_m <= held_up.way_m) return;
-    held_up = {verdict, planner_.track_id(verdict.agent), manoeuvre, way_m};
+    if (!blocking.verdict.safe() && way_m <= blocking.way_m) return;
+    blocking = {verdict, planner_.track_id(verdict.agent), manoeuvre, way_m};
   }
 
   PlanningCycle& planner_;
   const bool careful_;
   Explanation& explanation_;
-  Outlook outlook_;
+  LaneCostToGo cost_to_go_;
   int plan_path_ = 0;  ///< where the running plan leads, as far as it can go on; our own lane's path else
 };
 

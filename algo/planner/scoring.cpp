@@ -32,21 +32,21 @@ float route_cost(const EgoPath& path, float end_s_m, float end_mps, const Parame
 }
 
 /// What being in the lane of `path` at the horizon's end costs: time, and lane changes left.
-float lane_cost(const Scene& scene, const Outlook& outlook, int path, float s_m, float speed_mps,
+float lane_cost(const Scene& scene, const LaneCostToGo& cost_to_go, int path, float s_m, float speed_mps,
                 const Parameters& parameters) {
-  return parameters.scoring.delay * outlook.delay_s(path, s_m, speed_mps) +
+  return parameters.scoring.delay * cost_to_go.delay_s(path, s_m, speed_mps) +
          route_cost(scene.ego_paths[path], s_m, speed_mps, parameters);
 }
 
 /// The lane beside that we had rather be in, or -1. \param gain  receives what it saves, 0: nothing
-int better_lane(const Scene& scene, const Outlook& outlook, int path, float s_m, float speed_mps,
+int better_lane(const Scene& scene, const LaneCostToGo& cost_to_go, int path, float s_m, float speed_mps,
                 float cost_here, const Parameters& parameters, float& gain) {
   gain = 0.0F;
   int best = -1;
   for (int i = 0; i < scene.ego_paths.size(); ++i) {
     if (i == path) continue;
     const float there_s_m = s_m + scene.ego_paths[i].frenet.s_m - scene.ego_paths[path].frenet.s_m;
-    const float cost = lane_cost(scene, outlook, i, there_s_m, speed_mps, parameters);
+    const float cost = lane_cost(scene, cost_to_go, i, there_s_m, speed_mps, parameters);
     if (cost_here - cost <= gain) continue;
     gain = cost_here - cost;
     best = i;
@@ -55,14 +55,14 @@ int better_lane(const Scene& scene, const Outlook& outlook, int path, float s_m,
 }
 
 /// Price of the time until we are in the gap of the lane beside that we had rather be in, if there is one.
-float gap_cost(const Scene& scene, const Outlook& outlook, int path, float s_m, float speed_mps,
+float gap_cost(const Scene& scene, const LaneCostToGo& cost_to_go, int path, float s_m, float speed_mps,
                float cost_here, const Parameters& parameters) {
   float gain = 0.0F;
-  const int lane = better_lane(scene, outlook, path, s_m, speed_mps, cost_here, parameters, gain);
+  const int lane = better_lane(scene, cost_to_go, path, s_m, speed_mps, cost_here, parameters, gain);
   if (lane < 0) return 0.0F;
   const float there_s_m = s_m + scene.ego_paths[lane].frenet.s_m - scene.ego_paths[path].frenet.s_m;
   return kGapShare * min(gain, parameters.scoring.lane_route) *
-         min(outlook.time_to_gap_s(lane, there_s_m, speed_mps), kLongestS);
+         min(cost_to_go.time_to_gap_s(lane, there_s_m, speed_mps), kLongestS);
 }
 
 /// The last place at which a lane change that is due may still be between the lanes: where ours ends. Followed
@@ -93,18 +93,19 @@ struct LastPlace {
 
 }  // namespace
 
-GapAim gap_to_aim_at(const Scene& scene, const Outlook& outlook, const Parameters& parameters) {
+MergeTarget merge_target_of(const Scene& scene, const LaneCostToGo& cost_to_go,
+                            const Parameters& parameters) {
   if (scene.ego_paths.empty()) return {};
   const float speed_mps = scene.ego.speed_mps;
   const float s_m = scene.ego_paths[0].frenet.s_m + kLookS * speed_mps;
-  const float here = lane_cost(scene, outlook, 0, s_m, speed_mps, parameters);
+  const float here = lane_cost(scene, cost_to_go, 0, s_m, speed_mps, parameters);
   float gain = 0.0F;
-  const int lane = better_lane(scene, outlook, 0, s_m, speed_mps, here, parameters, gain);
-  return lane < 0 ? GapAim{} : outlook.gap_aim(scene, lane);
+  const int lane = better_lane(scene, cost_to_go, 0, s_m, speed_mps, here, parameters, gain);
+  return lane < 0 ? MergeTarget{} : cost_to_go.merge_target(scene, lane);
 }
 
-CostBreakdown score_motion(const Scene& scene, const Outlook& outlook, int path_index, float start_s_m,
-                           const Trajectory& trajectory, bool other_lane, bool careful,
+CostBreakdown score_motion(const Scene& scene, const LaneCostToGo& cost_to_go, int path_index,
+                           float start_s_m, const Trajectory& trajectory, bool other_lane, bool careful,
                            const Parameters& parameters) {
   const EgoPath& path = scene.ego_paths[path_index];
   float s_m = start_s_m;
@@ -150,10 +151,10 @@ CostBreakdown score_motion(const Scene& scene, const Outlook& outlook, int path_
   cost.jerk = parameters.scoring.jerk * (jerk_sum / steps);
   cost.lateral = parameters.scoring.lateral_acceleration * (lateral_sum / steps);
   const float end_mps = trajectory.points[kHorizonSteps].speed_mps;
-  const float lane = lane_cost(scene, outlook, path_index, s_m, end_mps, parameters);
+  const float lane = lane_cost(scene, cost_to_go, path_index, s_m, end_mps, parameters);
   cost.lane = parameters.scoring.lane_offset * (offset_sum / samples) + lane;
   if (path.manoeuvre == Manoeuvre::kKeep)
-    cost.lane = cost.lane + gap_cost(scene, outlook, path_index, s_m, end_mps, lane, parameters);
+    cost.lane = cost.lane + gap_cost(scene, cost_to_go, path_index, s_m, end_mps, lane, parameters);
   if (path.manoeuvre != Manoeuvre::kKeep && own.changes_needed != 0 && !last.holds(width_m))
     cost.lane = cost.lane + kMissedRoute * parameters.scoring.lane_route;
   if (other_lane) cost.lane = cost.lane + parameters.scoring.lane_change;

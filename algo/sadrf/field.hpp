@@ -1,5 +1,5 @@
 #pragma once
-/// Driving risk field of one driver: how strongly each point ahead is felt as "where I am about to be".
+/// Driving risk field of one driver: how strongly each point ahead is perceived as "where I am about to be".
 ///
 /// \code
 ///          . - outer sigma_2 - .

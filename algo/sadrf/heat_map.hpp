@@ -1,5 +1,5 @@
 #pragma once
-/// The picture of the risk shown to people: what the others feel, summed over the horizon, with the cost map
+/// The picture of the risk shown to people: what the others perceive, summed over the horizon, with the cost map
 /// laid over it. Computed in idle time when somebody subscribes; nothing in the plan depends on it.
 ///
 /// \code

@@ -19,11 +19,11 @@ Point moved_at(const Mode& mode, int step) {
   return position(mode.steps[first + kWindow]) - position(mode.steps[first]);
 }
 
-Motion motion_at(const Mode& mode, int step) {
+RecentMotion motion_at(const Mode& mode, int step) {
   return motion_at(mode, step, moved_at(mode, step));
 }
 
-Motion motion_at(const Mode& mode, int step, Point moved) {
+RecentMotion motion_at(const Mode& mode, int step, Point moved) {
   constexpr float kShortestM = 0.5F;
   constexpr float kSharpest_1pm = 0.2F;
   const int first = first_of_window(step);
@@ -34,7 +34,8 @@ Motion motion_at(const Mode& mode, int step, Point moved) {
           clamp(turned_rad / max(moved_m, kShortestM), -kSharpest_1pm, kSharpest_1pm)};
 }
 
-Field field_of_other(const FieldParams& params, const Pose& centre, const Motion& motion, float length_m) {
+Field field_of_other(const FieldParams& params, const Pose& centre, const RecentMotion& motion,
+                     float length_m) {
   const Point ahead = direction(centre.heading_rad);
   const Point rear_axle = position(centre) - (0.3F * length_m) * ahead;
   const float steering_rad = atan(0.6F * length_m * motion.curvature_1pm);

@@ -9,7 +9,7 @@ namespace s4tp {
 inline constexpr float kMotionWindowS = 0.3F;
 
 /// Speed and path curvature over the 0.3 s up to a step (the first three steps: over the first 0.3 s).
-struct Motion {
+struct RecentMotion {
   float speed_mps = 0.0F;
   float curvature_1pm = 0.0F;  ///< |kappa| <= 0.2
 };
@@ -17,13 +17,13 @@ struct Motion {
 /// How far the box centre moves in those 0.3 s. \param step  index into mode.steps
 [[nodiscard]] Point moved_at(const Mode& mode, int step);
 
-[[nodiscard]] Motion motion_at(const Mode& mode, int step);
+[[nodiscard]] RecentMotion motion_at(const Mode& mode, int step);
 /// \param moved  moved_at() of the same
-[[nodiscard]] Motion motion_at(const Mode& mode, int step, Point moved);
+[[nodiscard]] RecentMotion motion_at(const Mode& mode, int step, Point moved);
 
 /// The field of the driver of a vehicle of `length_m`: wheelbase 0.6 x length, rear axle 0.3 x length behind
 /// the box centre (method.md 3).
-[[nodiscard]] Field field_of_other(const FieldParams& params, const Pose& centre, const Motion& motion,
+[[nodiscard]] Field field_of_other(const FieldParams& params, const Pose& centre, const RecentMotion& motion,
                                    float length_m);
 
 }  // namespace s4tp

@@ -35,9 +35,9 @@ void exact_risk(const Scene& scene, const DrivableArea& area, const PredictionSe
   profile.dominating_step = 0;
   float largest = 0.0F;
   const StepInputs inputs = step_inputs(scene, futures, trajectory, parameters, Precision::kSlices);
-  CostBoxes felt;
+  CostBoxes boxes;
   for (int i = 0; i < kHorizonSteps; ++i) {
-    const StepRisk risk = risk_at(inputs, i, felt);
+    const StepRisk risk = risk_at(inputs, i, boxes);
     profile.obstacle[i] = risk.obstacle;
     profile.social[i] = risk.social;
     for (int agent = 0; agent < scene.agents.size(); ++agent) {
@@ -59,9 +59,9 @@ void smooth_risk(const Scene& scene, const PredictionSet& prediction, const Kine
   const float threshold = parameters.risk.threshold;
   const float blend = kBlend * threshold;
   const float at_none = 0.5F * (sqrt(square(threshold) + square(blend)) - threshold);
-  CostBoxes felt;
+  CostBoxes boxes;
   for (int i = first; i < kHorizonSteps; i += stride) {
-    const StepSlope step = slope_at(inputs, i, felt);
+    const StepSlope step = slope_at(inputs, i, boxes);
     const float over = step.obstacle_risk - threshold;
     const float root = sqrt(square(over) + square(blend));
     const float excess_slope = root > 0.0F ? 0.5F * (1.0F + over / root) : 0.0F;
@@ -81,10 +81,10 @@ float rank_risk_of_vehicles(const Scene& scene, const PredictionSet& prediction,
   Futures futures = all_modes(scene, prediction, others);
   keep_likeliest(futures);
   const StepInputs inputs = step_inputs(scene, futures, trajectory, parameters, Precision::kLines);
-  CostBoxes felt;
+  CostBoxes boxes;
   float sum = 0.0F;
   for (int i = kRankMiddle; i < kHorizonSteps; i += kRankStride) {
-    const StepRisk risk = risk_at(inputs, i, felt);
+    const StepRisk risk = risk_at(inputs, i, boxes);
     sum += instant(risk.obstacle, 0.0F, risk.social, parameters);
   }
   return static_cast<float>(kRankStride) * kStepS * sum;

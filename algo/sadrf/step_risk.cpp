@@ -52,24 +52,24 @@ using Indices = BoundedVector<std::uint8_t, CostBoxes::kCapacity>;
 
 /// Sum of those boxes' costs that the point lies in. \param from  first of a run of `indices` of one agent
 /// \return where the next agent's run begins
-int add_run(const CostBoxes& felt, const Indices& indices, int from, Point point, float& cost) {
-  const int agent = felt[indices[from]].agent;
+int add_run(const CostBoxes& boxes, const Indices& indices, int from, Point point, float& cost) {
+  const int agent = boxes[indices[from]].agent;
   int i = from;
-  for (; i < indices.size() && felt[indices[i]].agent == agent; ++i) {
-    if (covers(felt[indices[i]], point)) cost += felt[indices[i]].cost;
+  for (; i < indices.size() && boxes[indices[i]].agent == agent; ++i) {
+    if (covers(boxes[indices[i]], point)) cost += boxes[indices[i]].cost;
   }
   return i;
 }
 
 /// What part of a box's risk is its own: M is the largest of any vehicle's, so that a vehicle pays only for
 /// what it adds to those before it. 4 x 4 sub-samples, weighted by the field.
-float own_part(const Field& field, const CostBoxes& felt, int index) {
-  const CostBox& one = felt[index];
+float own_part(const Field& field, const CostBoxes& boxes, int index) {
+  const CostBox& one = boxes[index];
   const float reach_m = radius(one.box.length_m, one.box.width_m);
   Indices before;  // of other vehicles, on some of the same ground
   Indices same;    // of this vehicle
-  for (int i = 0; i < felt.size(); ++i) {
-    const CostBox& other = felt[i];
+  for (int i = 0; i < boxes.size(); ++i) {
+    const CostBox& other = boxes[i];
     if (other.agent == one.agent) {
       (void)same.push(static_cast<std::uint8_t>(i));
       continue;
@@ -96,11 +96,11 @@ float own_part(const Field& field, const CostBoxes& felt, int index) {
     float others = 0.0F;
     for (int j = 0; j < before.size();) {
       float cost = 0.0F;
-      j = add_run(felt, before, j, point, cost);
+      j = add_run(boxes, before, j, point, cost);
       others = max(others, cost);
     }
     float mine = 0.0F;
-    (void)add_run(felt, same, 0, point, mine);
+    (void)add_run(boxes, same, 0, point, mine);
     whole += weight;
     own += weight * max(mine - others, 0.0F) / max(mine, 1e-6F);
   }
@@ -109,8 +109,9 @@ float own_part(const Field& field, const CostBoxes& felt, int index) {
 
 /// R_ego of the vehicles: our field over their boxes. Calls each(field, box, part of it that counts, risk).
 template <typename Each>
-void for_felt(const StepInputs& inputs, const Field& field, int step, CostBoxes& felt, const Each& each) {
-  felt.clear();
+void for_boxes_in_our_field(const StepInputs& inputs, const Field& field, int step, CostBoxes& boxes,
+                            const Each& each) {
+  boxes.clear();
   float risks[CostBoxes::kCapacity];
   for (const Future& future : inputs.futures) {
     const Track& track = *future.track;
@@ -122,10 +123,10 @@ void for_felt(const StepInputs& inputs, const Field& field, int step, CostBoxes&
         inputs.parameters.risk.cost_obstacle * future.probability * inputs.modulation[future.agent];
     const float risk = risk_of_box(field, box, ahead, cost, inputs.precision);
     if (risk <= 0.0F) continue;
-    risks[felt.size()] = risk;
-    if (!felt.push({box, ahead, cost, future.agent})) break;
+    risks[boxes.size()] = risk;
+    if (!boxes.push({box, ahead, cost, future.agent})) break;
   }
-  for (int i = 0; i < felt.size(); ++i) each(felt[i], own_part(field, felt, i), risks[i]);
+  for (int i = 0; i < boxes.size(); ++i) each(boxes[i], own_part(field, boxes, i), risks[i]);
 }
 
 /// True when we are surely behind a driver or further away than he looks: found from where he is and has come
@@ -150,7 +151,7 @@ bool unseen(Point moved, float look_ahead_per_moved, Point towards_us, float mar
 
 /// R_soc: their fields over our box. Calls each(future, their field, how it was made, cost).
 template <typename Each>
-void for_feeling(const StepInputs& inputs, const Driver& driver, int step, const Each& each) {
+void for_fields_on_us(const StepInputs& inputs, const Driver& driver, int step, const Each& each) {
   const Box& ego = driver.box;
   const float ego_radius_m = radius(ego.length_m, ego.width_m);
   const float look_ahead_per_moved = driver.params.look_ahead_s / kMotionWindowS;
@@ -161,7 +162,7 @@ void for_feeling(const StepInputs& inputs, const Driver& driver, int step, const
     const float margin_m = ego_radius_m + track.length_m + 1.0F;
     const Point moved = moved_at(*future.mode, step);
     if (unseen(moved, look_ahead_per_moved, position(ego.centre) - position(centre), margin_m)) continue;
-    const Motion motion = motion_at(*future.mode, step, moved);
+    const RecentMotion motion = motion_at(*future.mode, step, moved);
     params.base_width_m = 0.25F * track.width_m;
     const Field field = field_of_other(params, centre, motion, track.length_m);
     if (out_of_reach(field, position(ego.centre), ego_radius_m)) continue;
@@ -196,15 +197,15 @@ StepInputs step_inputs(const Scene& scene, const Futures& futures, const Traject
   return inputs;
 }
 
-StepRisk risk_at(const StepInputs& inputs, int step, CostBoxes& felt) {
+StepRisk risk_at(const StepInputs& inputs, int step, CostBoxes& boxes) {
   const Driver driver = driver_at(inputs, step);
   StepRisk risk;
   for (int i = 0; i < inputs.scene.agents.size(); ++i) risk.share[i] = 0.0F;
-  for_felt(inputs, driver.field, step, felt, [&](const CostBox& one, float part, float whole) {
+  for_boxes_in_our_field(inputs, driver.field, step, boxes, [&](const CostBox& one, float part, float whole) {
     risk.obstacle += part * whole;
     risk.share[one.agent] += part * whole;
   });
-  for_feeling(inputs, driver, step, [&](const Future& future, const Field& field, float cost) {
+  for_fields_on_us(inputs, driver, step, [&](const Future& future, const Field& field, float cost) {
     const float value = risk_of_box(field, driver.box, driver.field.ahead, cost, inputs.precision);
     risk.social += value;
     risk.share[future.agent] += inputs.parameters.risk.weight_social * value;
@@ -212,13 +213,13 @@ StepRisk risk_at(const StepInputs& inputs, int step, CostBoxes& felt) {
   return risk;
 }
 
-StepSlope slope_at(const StepInputs& inputs, int step, CostBoxes& felt) {
+StepSlope slope_at(const StepInputs& inputs, int step, CostBoxes& boxes) {
   const Driver driver = driver_at(inputs, step);
   const TrajectoryPoint& point = inputs.trajectory.points[step + 1];
   const FieldSlopes slopes = field_slopes(driver.params, point.speed_mps, point.curvature_1pm,
                                           driver.steering_rad, inputs.parameters.vehicle.wheelbase_m);
   StepSlope slope;
-  for_felt(inputs, driver.field, step, felt, [&](const CostBox& one, float part, float whole) {
+  for_boxes_in_our_field(inputs, driver.field, step, boxes, [&](const CostBox& one, float part, float whole) {
     if (whole < kWorthSlope) {
       slope.obstacle_risk += part * whole;
       return;
@@ -227,7 +228,7 @@ StepSlope slope_at(const StepInputs& inputs, int step, CostBoxes& felt) {
     slope.obstacle_risk += part * one.cost * field_over_slices(driver.field, one.box, slopes, gradient);
     add(gradient, part * one.cost, slope.obstacle);
   });
-  for_feeling(inputs, driver, step, [&](const Future&, const Field& field, float cost) {
+  for_fields_on_us(inputs, driver, step, [&](const Future&, const Field& field, float cost) {
     FieldGradient gradient;
     const float value = cost * field_over_slices(field, driver.box, {}, gradient);
     slope.social_risk += value;

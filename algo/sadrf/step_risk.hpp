@@ -36,8 +36,8 @@ struct StepRisk {
 };
 
 /// Both sides at step `step` + 1 of the trajectory.
-/// \param felt  scratch, too large to be made anew at every step
-[[nodiscard]] StepRisk risk_at(const StepInputs& inputs, int step, CostBoxes& felt);
+/// \param boxes  scratch, too large to be made anew at every step
+[[nodiscard]] StepRisk risk_at(const StepInputs& inputs, int step, CostBoxes& boxes);
 
 /// Derivatives of both parts by x, y, heading, speed and road-wheel angle of the trajectory's point; R_soc
 /// knows neither speed nor steering of ours.
@@ -50,6 +50,6 @@ struct StepSlope {
 
 /// CORE-069 Values and slopes at step `step` + 1; what covers what counts as fixed. Boxes whose risk is below
 /// 20 have no slope. Work: about 6,000 instructions a box in reach.
-[[nodiscard]] StepSlope slope_at(const StepInputs& inputs, int step, CostBoxes& felt);
+[[nodiscard]] StepSlope slope_at(const StepInputs& inputs, int step, CostBoxes& boxes);
 
 }  // namespace s4tp

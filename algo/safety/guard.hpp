@@ -126,7 +126,7 @@ class Guard {
   };
   struct Own;
 
-  void look_along(int path_index);
+  void look_at_path(int path_index);
   void find_groups(const EgoPath& path, Sight& sight) const;
   void find_threats(const EgoPath& path, const occupancy::LaneReach (&reach)[kMaxTracks], Sight& sight) const;
   [[nodiscard]] bool is_behind(const ZoneOccupancy (&when)[kMaxTracks], int index) const;

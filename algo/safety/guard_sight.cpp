@@ -28,12 +28,12 @@ void Guard::look(const Scene& scene, const TrajectoryPoint& start, float lead_s,
   occupancy::LaneReach reach[kMaxTracks];
   for (int i = 0; i < scene.agents.size(); ++i) reach[i].measure(*scene.map, scene.agents[i]);
   for (int path = 0; path < scene.ego_paths.size(); ++path) {
-    look_along(path);
+    look_at_path(path);
     find_threats(scene.ego_paths[path], reach, sights_[path]);
   }
 }
 
-void Guard::look_along(int path_index) {
+void Guard::look_at_path(int path_index) {
   const EgoPath& path = scene_->ego_paths[path_index];
   Sight& sight = sights_[path_index];
   sight = Sight{};

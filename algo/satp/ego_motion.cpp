@@ -77,7 +77,7 @@ EgoOnPath EgoMotion::on_path(const LanePath& path, float their_s_m, const Track&
     const float half_width_m = 0.5F * parameters_.vehicle.width_m;
     const float along_m = half_length_m * abs(turn.cos) + half_width_m * abs(turn.sin);
     const float across_m = half_length_m * abs(turn.sin) + half_width_m * abs(turn.cos);
-    // Who only crosses its path is a matter of zones and right of way, unless he stops there.
+    // Who only crosses its path is a matter of zones and right of way, unless it stops there.
     const bool along = turn.cos > kAlongCos || speed_[i] < kMovingMps;
     there[i] = along && abs(d_m) < across_m + 0.5F * track.width_m + kSideMarginM;
     ego.centre_s_m[i] = s_m;
@@ -93,29 +93,29 @@ EgoOnPath EgoMotion::on_path(const LanePath& path, float their_s_m, const Track&
   return ego;
 }
 
-bool EgoMotion::zone_on_our_path(const Crossing& crossing, float& entry_s_m, float& exit_s_m) const {
+bool EgoMotion::zone_on_our_path(const PathConflict& conflict, float& entry_s_m, float& exit_s_m) const {
   if (path_ == nullptr) return false;
   for (const PathLane& part : path_->path.lanes) {
-    if (part.lane != crossing.our_lane) continue;
-    entry_s_m = part.start_s_m + crossing.our_entry_m;
-    exit_s_m = part.start_s_m + crossing.our_exit_m;
+    if (part.lane != conflict.our_lane) continue;
+    entry_s_m = part.start_s_m + conflict.our_entry_m;
+    exit_s_m = part.start_s_m + conflict.our_exit_m;
     return true;
   }
   return false;
 }
 
-bool EgoMotion::inside(const Crossing& crossing) const {
+bool EgoMotion::inside(const PathConflict& conflict) const {
   float entry_s_m = 0.0F;
   float exit_s_m = 0.0F;
-  if (!zone_on_our_path(crossing, entry_s_m, exit_s_m)) return false;
+  if (!zone_on_our_path(conflict, entry_s_m, exit_s_m)) return false;
   return s_m_[0] > entry_s_m + kZoneMarginM && s_m_[0] < exit_s_m;
 }
 
-Passage EgoMotion::passage(const Crossing& crossing) const {
-  Passage passage;
+EgoPassage EgoMotion::passage(const PathConflict& conflict) const {
+  EgoPassage passage;
   float entry_s_m = 0.0F;
   float exit_s_m = 0.0F;
-  if (!zone_on_our_path(crossing, entry_s_m, exit_s_m) || s_m_[0] >= exit_s_m) return passage;
+  if (!zone_on_our_path(conflict, entry_s_m, exit_s_m) || s_m_[0] >= exit_s_m) return passage;
   const float end_mps = speed_[kEgoKnots - 1];
   const float end_s = kEgoKnotS * static_cast<float>(kEgoKnots - 1);
   // When the arc length `goal` is reached; 1e3: not within 5 s.

@@ -4,7 +4,7 @@
 
 #include "algo/core/parameters.hpp"
 #include "algo/core/trajectory.hpp"
-#include "algo/satp/way.hpp"
+#include "algo/satp/path_hypothesis.hpp"
 #include "algo/scene/scene.hpp"
 
 namespace s4tp {
@@ -24,7 +24,7 @@ struct EgoOnPath {
 };
 
 /// When we are in a zone; entry > exit: never.
-struct Passage {
+struct EgoPassage {
   float entry_s = 1e3F;
   float exit_s = 0.0F;
 };
@@ -37,12 +37,12 @@ class EgoMotion {
   [[nodiscard]] bool conditioned() const { return plan_ != nullptr; }
   /// \param their_s_m  where the vehicle is on its path at plan start
   [[nodiscard]] EgoOnPath on_path(const LanePath& path, float their_s_m, const Track& track) const;
-  [[nodiscard]] Passage passage(const Crossing& crossing) const;
+  [[nodiscard]] EgoPassage passage(const PathConflict& conflict) const;
   /// Whether our box is inside the crossing at plan start.
-  [[nodiscard]] bool inside(const Crossing& crossing) const;
+  [[nodiscard]] bool inside(const PathConflict& conflict) const;
 
  private:
-  [[nodiscard]] bool zone_on_our_path(const Crossing& crossing, float& entry_s_m, float& exit_s_m) const;
+  [[nodiscard]] bool zone_on_our_path(const PathConflict& conflict, float& entry_s_m, float& exit_s_m) const;
 
   const Scene& scene_;
   const Parameters& parameters_;

@@ -99,9 +99,9 @@ void mix_agents(const Weights& weights, int agents, EncoderScratch& scratch) {
 }
 
 // One lane path as its vehicle sees it, before the rest of the block.
-void look_along(const Weights& weights, const Attention& block,
-                const float (&points)[kLanePoints][kLaneFeatures], int count, const std::int8_t* asked,
-                EncoderScratch& scratch, std::int8_t* seen) {
+void attend_lanes(const Weights& weights, const Attention& block,
+                  const float (&points)[kLanePoints][kLaneFeatures], int count, const std::int8_t* asked,
+                  EncoderScratch& scratch, std::int8_t* seen) {
   static_assert(padded(kLaneFeatures) <= kMaxFeatures);
   for (int p = 0; p < count; ++p) embed_features(points[p], kLaneUnit, scratch.features[p]);
   linear_relu(weights.linear(kMapPoint1), {scratch.features[0], kMaxFeatures}, count, write(scratch.inner));
@@ -127,7 +127,7 @@ void encode_maps(const Weights& weights, const NetworkInput& input, EncoderScrat
       const int count = input.lane_points[i][k];
       if (count == 0) continue;
       mask |= 1U << k;
-      look_along(weights, lane, input.lane[i][k], count, asked_of_lanes[i], scratch, scratch.lanes[k]);
+      attend_lanes(weights, lane, input.lane[i][k], count, asked_of_lanes[i], scratch, scratch.lanes[k]);
     }
     finish(lane, {vehicles[i], 0}, kPathsPerAgent, scratch.attention, write(scratch.lanes));
     for (int k = 0; k < kPathsPerAgent; ++k) {

@@ -69,12 +69,12 @@ bool stop_line_next(const LaneMap& map, const LanePath& path, float from_s_m) {
   return false;
 }
 
-int fill_lane(const LaneMap& map, const LanePath& path, const Way& way, const Pose& anchor,
+int fill_lane(const LaneMap& map, const LanePath& path, const PathHypothesis& hypothesis, const Pose& anchor,
               float (&rows)[kLanePoints][kLaneFeatures]) {
   PathCursor cursor(map, path);
   int count = 0;
   for (int p = 0; p < kLanePoints; ++p) {
-    const float s_m = way.start_s_m + kLaneSpacingM * static_cast<float>(p);
+    const float s_m = hypothesis.start_s_m + kLaneSpacingM * static_cast<float>(p);
     if (p > 0 && s_m > path.length_m) break;
     const PathPoint point = cursor.at(s_m);
     const Pose local = to_anchor(anchor, point.pose);
@@ -83,10 +83,10 @@ int fill_lane(const LaneMap& map, const LanePath& path, const Way& way, const Po
     row[1] = local.y_m;
     row[2] = local.heading_rad;
     row[3] = point.speed_limit_mps;
-    for (const Crossing& crossing : way.crossings) {
+    for (const PathConflict& conflict : hypothesis.conflicts) {
       // A zone shorter than the spacing still marks the point before it.
-      if (s_m + kLaneSpacingM <= crossing.entry_s_m || s_m > crossing.exit_s_m) continue;
-      row[4 + static_cast<int>(crossing.priority)] = 1.0F;
+      if (s_m + kLaneSpacingM <= conflict.entry_s_m || s_m > conflict.exit_s_m) continue;
+      row[4 + static_cast<int>(conflict.priority)] = 1.0F;
     }
     row[7] = stop_line_next(map, path, s_m) ? 1.0F : 0.0F;
     count = p + 1;
@@ -116,24 +116,24 @@ bool goes_on_in(const LaneMap& map, LaneIndex lane, const LanePath& path) {
 }
 
 // The first zone on the likeliest way that has one ahead of both of us.
-void fill_zone(const Scene& scene, const Agent& agent, const Way (&ways)[kPathsPerAgent], float centre_m,
-               float (&row)[kPairFeatures]) {
+void fill_zone(const Scene& scene, const Agent& agent, const PathHypothesis (&hypotheses)[kPathsPerAgent],
+               float centre_m, float (&row)[kPairFeatures]) {
   for (int k = 0; k < agent.paths.size(); ++k) {
-    for (const Crossing& crossing : ways[k].crossings) {
+    for (const PathConflict& conflict : hypotheses[k].conflicts) {
       float lane_start_m = 0.0F;
-      if (!on_our_path(scene, crossing.our_lane, centre_m, lane_start_m)) continue;
-      const float our_exit_m = lane_start_m + crossing.our_exit_m;
+      if (!on_our_path(scene, conflict.our_lane, centre_m, lane_start_m)) continue;
+      const float our_exit_m = lane_start_m + conflict.our_exit_m;
       if (our_exit_m < 0.0F) continue;
       at(row, PairFeature::kZone) = 1.0F;
-      at(row, PairFeature::kEntryM) = within_reach(crossing.entry_s_m - ways[k].start_s_m);
-      at(row, PairFeature::kExitM) = within_reach(crossing.exit_s_m - ways[k].start_s_m);
-      at(row, PairFeature::kOurEntryM) = within_reach(lane_start_m + crossing.our_entry_m);
+      at(row, PairFeature::kEntryM) = within_reach(conflict.entry_s_m - hypotheses[k].start_s_m);
+      at(row, PairFeature::kExitM) = within_reach(conflict.exit_s_m - hypotheses[k].start_s_m);
+      at(row, PairFeature::kOurEntryM) = within_reach(lane_start_m + conflict.our_entry_m);
       at(row, PairFeature::kOurExitM) = within_reach(our_exit_m);
-      at(row, PairFeature::kYields) = crossing.priority == Priority::kFirstYields ? 1.0F : 0.0F;
-      at(row, PairFeature::kFirstCome) = crossing.priority == Priority::kFirstCome ? 1.0F : 0.0F;
-      at(row, PairFeature::kHasPriority) = crossing.priority == Priority::kFirstHasPriority ? 1.0F : 0.0F;
+      at(row, PairFeature::kYields) = conflict.priority == Priority::kFirstYields ? 1.0F : 0.0F;
+      at(row, PairFeature::kFirstCome) = conflict.priority == Priority::kFirstCome ? 1.0F : 0.0F;
+      at(row, PairFeature::kHasPriority) = conflict.priority == Priority::kFirstHasPriority ? 1.0F : 0.0F;
       at(row, PairFeature::kMerging) =
-          goes_on_in(*scene.map, crossing.our_lane, agent.paths[k]) ? 1.0F : 0.0F;
+          goes_on_in(*scene.map, conflict.our_lane, agent.paths[k]) ? 1.0F : 0.0F;
       return;
     }
   }
@@ -141,7 +141,8 @@ void fill_zone(const Scene& scene, const Agent& agent, const Way (&ways)[kPathsP
 
 // Who of the two is ahead on the other's way, bumper to bumper.
 void fill_same_way(const Scene& scene, const Parameters& parameters, const Agent& agent,
-                   const Way (&ways)[kPathsPerAgent], float lead_s, float (&row)[kPairFeatures]) {
+                   const PathHypothesis (&hypotheses)[kPathsPerAgent], float lead_s,
+                   float (&row)[kPairFeatures]) {
   if (scene.ego_paths.empty()) return;
   const float half_lengths_m = 0.5F * (agent.track.length_m + parameters.vehicle.length_m);
   const float centre_m = centre_ahead_m(parameters) + scene.ego.speed_mps * lead_s;
@@ -149,7 +150,7 @@ void fill_same_way(const Scene& scene, const Parameters& parameters, const Agent
   for (int k = 0; k < agent.paths.size(); ++k) {
     for (const PathLane& part : agent.paths[k].lanes) {
       if (part.lane != our_lane) continue;
-      const float gap_m = part.start_s_m + scene.ego_paths[0].frenet.s_m + centre_m - ways[k].start_s_m;
+      const float gap_m = part.start_s_m + scene.ego_paths[0].frenet.s_m + centre_m - hypotheses[k].start_s_m;
       if (gap_m < 0.0F || at(row, PairFeature::kWeAhead) > 0.0F) continue;
       at(row, PairFeature::kWeAhead) = 1.0F;
       at(row, PairFeature::kAheadGapM) = within_reach(gap_m - half_lengths_m);
@@ -167,26 +168,26 @@ void fill_same_way(const Scene& scene, const Parameters& parameters, const Agent
 }
 
 void fill_pair(const Scene& scene, const Parameters& parameters, const Agent& agent,
-               const Way (&ways)[kPathsPerAgent], float lead_s, const Pose& anchor, const Pose& ego_anchor,
-               float (&row)[kPairFeatures]) {
+               const PathHypothesis (&hypotheses)[kPathsPerAgent], float lead_s, const Pose& anchor,
+               const Pose& ego_anchor, float (&row)[kPairFeatures]) {
   const float centre_m = centre_ahead_m(parameters) + scene.ego.speed_mps * lead_s;
-  fill_zone(scene, agent, ways, centre_m, row);
-  fill_same_way(scene, parameters, agent, ways, lead_s, row);
+  fill_zone(scene, agent, hypotheses, centre_m, row);
+  fill_same_way(scene, parameters, agent, hypotheses, lead_s, row);
   at(row, PairFeature::kStoodS) = min(0.001F * static_cast<float>(agent.stood_ms), kLongestStandS);
   at(row, PairFeature::kWeStoodS) = min(scene.waited_s, kLongestStandS);
   at(row, PairFeature::kLengthM) = agent.track.length_m;
   at(row, PairFeature::kWidthM) = agent.track.width_m;
   if (!agent.paths.empty()) {
-    const Way& way = ways[0];
-    if (way.follows) {
-      const float gap_m = way.leader_rear_s_m - way.start_s_m - 0.5F * agent.track.length_m;
+    const PathHypothesis& hypothesis = hypotheses[0];
+    if (hypothesis.follows) {
+      const float gap_m = hypothesis.leader_rear_s_m - hypothesis.start_s_m - 0.5F * agent.track.length_m;
       at(row, PairFeature::kLeader) = 1.0F;
       at(row, PairFeature::kLeaderGapM) = within_reach(gap_m);
-      at(row, PairFeature::kLeaderMps) = way.leader_mps;
+      at(row, PairFeature::kLeaderMps) = hypothesis.leader_mps;
     }
     at(row, PairFeature::kLikeliest) = agent.path_probability[0];
     if (agent.paths.size() > 1) at(row, PairFeature::kSecond) = agent.path_probability[1];
-    at(row, PairFeature::kHoldS) = clamp(way.hold_until_s, 0.0F, kLongestHoldS);
+    at(row, PairFeature::kHoldS) = clamp(hypothesis.hold_until_s, 0.0F, kLongestHoldS);
   }
   at(row, PairFeature::kSpeedMps) = agent.track.speed_mps;
   at(row, PairFeature::kOurSpeedMps) = scene.ego.speed_mps;
@@ -213,14 +214,15 @@ Pose from_anchor(const Pose& anchor, const Pose& pose) {
   return {point.x_m, point.y_m, wrap_angle(pose.heading_rad + anchor.heading_rad)};
 }
 
-void read_ways(const Scene& scene, float lead_s, Ways& ways) {
+void read_path_hypotheses(const Scene& scene, float lead_s, PathHypotheses& hypotheses) {
   for (int i = 0; i < scene.watched; ++i) {
-    for (int k = 0; k < scene.agents[i].paths.size(); ++k) ways[i][k] = read_way(scene, i, k, lead_s);
+    for (int k = 0; k < scene.agents[i].paths.size(); ++k)
+      hypotheses[i][k] = read_path_hypothesis(scene, i, k, lead_s);
   }
 }
 
-void build_network_input(const Scene& scene, const Parameters& parameters, float lead_s, const Ways& ways,
-                         NetworkInput& input) {
+void build_network_input(const Scene& scene, const Parameters& parameters, float lead_s,
+                         const PathHypotheses& hypotheses, NetworkInput& input) {
   new (&input) NetworkInput;  // assigned, it would be made on the stack first
   input.hdvs = scene.watched;
   const float centre_m = centre_ahead_m(parameters);
@@ -240,17 +242,18 @@ void build_network_input(const Scene& scene, const Parameters& parameters, float
                input.place[1 + i]);
     for (int k = 0; k < agent.paths.size(); ++k) {
       input.lane_points[i][k] = static_cast<std::uint8_t>(
-          fill_lane(*scene.map, agent.paths[k], ways[i][k], input.anchor[i], input.lane[i][k]));
+          fill_lane(*scene.map, agent.paths[k], hypotheses[i][k], input.anchor[i], input.lane[i][k]));
     }
-    fill_pair(scene, parameters, agent, ways[i], lead_s, input.anchor[i], input.ego_anchor, input.pair[i]);
+    fill_pair(scene, parameters, agent, hypotheses[i], lead_s, input.anchor[i], input.ego_anchor,
+              input.pair[i]);
   }
 }
 
 void build_network_input(const Scene& scene, const Parameters& parameters, float lead_s,
                          NetworkInput& input) {
-  Ways ways;
-  read_ways(scene, lead_s, ways);
-  build_network_input(scene, parameters, lead_s, ways, input);
+  PathHypotheses hypotheses;
+  read_path_hypotheses(scene, lead_s, hypotheses);
+  build_network_input(scene, parameters, lead_s, hypotheses, input);
 }
 
 void build_plan_input(const Trajectory& plan, const Parameters& parameters, const NetworkInput& input,

@@ -5,24 +5,24 @@
 #include "algo/core/parameters.hpp"
 #include "algo/core/trajectory.hpp"
 #include "algo/satp/network_input.hpp"
-#include "algo/satp/way.hpp"
+#include "algo/satp/path_hypothesis.hpp"
 #include "algo/scene/scene.hpp"
 
 namespace s4tp::satp {
 
-/// The ways of the watched vehicles, as read_way gives them.
-using Ways = Way[kMaxAgents][kPathsPerAgent];
+/// The ways of the watched vehicles, as read_path_hypothesis gives them.
+using PathHypotheses = PathHypothesis[kMaxAgents][kPathsPerAgent];
 
 /// Reads every way of the watched vehicles. \param lead_s  plan start minus scene time, >= 0
-void read_ways(const Scene& scene, float lead_s, Ways& ways);
+void read_path_hypotheses(const Scene& scene, float lead_s, PathHypotheses& hypotheses);
 
 /// SATP-001 Every value is finite and what is missing is 0 and masked; the same scene gives the same bits.
 /// SATP-002 Moving and turning scene and map as a whole changes no value but the anchors (up to rounding).
-/// \param ways  of this scene and lead
-void build_network_input(const Scene& scene, const Parameters& parameters, float lead_s, const Ways& ways,
-                         NetworkInput& input);
+/// \param hypotheses  of this scene and lead
+void build_network_input(const Scene& scene, const Parameters& parameters, float lead_s,
+                         const PathHypotheses& hypotheses, NetworkInput& input);
 
-/// The same, for who has not read the ways.
+/// The same, for who has not read the hypotheses.
 void build_network_input(const Scene& scene, const Parameters& parameters, float lead_s, NetworkInput& input);
 
 /// \param plan  our motion from plan start \param input  of the same scene

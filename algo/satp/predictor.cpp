@@ -1,7 +1,7 @@
 #include "algo/satp/predictor.hpp"
 
 #include "algo/core/inline.hpp"
-#include "algo/satp/way_motion.hpp"
+#include "algo/satp/path_motion.hpp"
 
 namespace s4tp {
 namespace {
@@ -30,7 +30,7 @@ void place_on_arc(const Track& track, float lead_s, Mode& mode) {
   measure_steps(mode);
 }
 
-// Chance that the driver brakes for us at a crossing, by the braking it takes: 1 up to `easy`, 0 from `hard`.
+// Chance that the driver brakes for us at a conflict, by the braking it takes: 1 up to `easy`, 0 from `hard`.
 float willingness(float braking_mps2, float easy, float hard) {
   return clamp((hard - braking_mps2) / (hard - easy), 0.0F, 1.0F);
 }
@@ -40,32 +40,33 @@ float seen_first(float lead_s) {
   return clamp(0.4F + 0.3F * lead_s, 0.0F, 0.97F);
 }
 
-// Prior chance that the driver lets us pass somewhere along its way, and where it then waits; < 0: we do not
+// Prior chance that the driver lets us pass somewhere along its hypothesis, and where it then waits; < 0: we do not
 // meet. The right of way and the braking it takes decide.
-float yielding(const EgoMotion& ego, const Way& way, const WayMotion& undisturbed, Hold& hold) {
+float yielding(const EgoMotion& ego, const PathHypothesis& hypothesis, const PathMotion& undisturbed,
+               Hold& hold) {
   float chance = -1.0F;
-  for (const Crossing& crossing : way.crossings) {
-    const Passage ours = ego.passage(crossing);
+  for (const PathConflict& conflict : hypothesis.conflicts) {
+    const EgoPassage ours = ego.passage(conflict);
     if (ours.entry_s > ours.exit_s) continue;
-    const float their_entry_s = time_at(way, undisturbed, crossing.entry_s_m);
-    const float their_exit_s = time_at(way, undisturbed, crossing.exit_s_m);
+    const float their_entry_s = time_at(hypothesis, undisturbed, conflict.entry_s_m);
+    const float their_exit_s = time_at(hypothesis, undisturbed, conflict.exit_s_m);
     const bool meet =
         ours.entry_s < their_exit_s + kZoneMarginS && their_entry_s < ours.exit_s + kZoneMarginS;
-    const float room_m = crossing.entry_s_m - kZoneMarginM - way.start_s_m;
+    const float room_m = conflict.entry_s_m - kZoneMarginM - hypothesis.start_s_m;
     if (!meet || room_m <= 0.0F) continue;
-    const float braking_mps2 = 0.5F * square(way.speed_mps) / max(room_m, 0.3F);
+    const float braking_mps2 = 0.5F * square(hypothesis.speed_mps) / max(room_m, 0.3F);
     const bool we_first = ours.entry_s < their_entry_s;
     float here = 0.0F;
-    if (ego.inside(crossing) || crossing.priority == Priority::kFirstYields) {
+    if (ego.inside(conflict) || conflict.priority == Priority::kFirstYields) {
       here = willingness(braking_mps2, 3.0F, 7.0F);
     } else if (ego.conditioned() && we_first) {
-      const bool has_priority = crossing.priority == Priority::kFirstHasPriority;
+      const bool has_priority = conflict.priority == Priority::kFirstHasPriority;
       here = has_priority ? seen_first(their_entry_s - ours.entry_s) * willingness(braking_mps2, 1.5F, 4.0F)
                           : willingness(braking_mps2, 2.0F, 5.0F);
     }
     if (here <= chance) continue;
     chance = here;
-    hold = {way.start_s_m + room_m, ours.exit_s};
+    hold = {hypothesis.start_s_m + room_m, ours.exit_s};
   }
   return chance;
 }
@@ -81,7 +82,8 @@ void Predictor::encode(const Scene& scene, const Parameters& parameters, std::ui
   lead_s_ = clamp(1e-3F * static_cast<float>(lead_ms), 0.0F, 1.0F);
   work_ = 0;
   for (int i = 0; i < scene.watched; ++i) {
-    for (int k = 0; k < scene.agents[i].paths.size(); ++k) ways_[i][k] = read_way(scene, i, k, lead_s_);
+    for (int k = 0; k < scene.agents[i].paths.size(); ++k)
+      hypotheses_[i][k] = read_path_hypothesis(scene, i, k, lead_s_);
   }
 }
 
@@ -113,16 +115,16 @@ void Predictor::decode_one(const EgoMotion& ego, int index, AgentPrediction& fut
     work_ += kHorizonSteps;
   }
   for (int k = 0; k < paths; ++k) {
-    const Way& way = ways_[index][k];
-    const EgoOnPath on_path = ego.on_path(agent.paths[k], way.start_s_m, agent.track);
-    WayMotion motion;
-    drive(way, agent.track, on_path, Hold{}, motion);
+    const PathHypothesis& hypothesis = hypotheses_[index][k];
+    const EgoOnPath on_path = ego.on_path(agent.paths[k], hypothesis.start_s_m, agent.track);
+    PathMotion motion;
+    drive(hypothesis, agent.track, on_path, Hold{}, motion);
     work_ += kHorizonSteps;
     Hold hold;
-    float prior = yielding(ego, way, motion, hold);
+    float prior = yielding(ego, hypothesis, motion, hold);
     if (prior < 0.0F && agent.track.speed_mps < kStandingMps) {
       prior = kGoesOnStanding;
-      hold = {way.start_s_m, kNeverS};
+      hold = {hypothesis.start_s_m, kNeverS};
     }
     float yields =
         prior < 0.0F ? 0.0F
@@ -136,7 +138,7 @@ void Predictor::decode_one(const EgoMotion& ego, int index, AgentPrediction& fut
       (void)futures.modes.push(mode);
     }
     if (yields > 0.0F) {
-      drive(way, agent.track, on_path, hold, motion);
+      drive(hypothesis, agent.track, on_path, hold, motion);
       work_ += kHorizonSteps;
       mode.probability = agent.path_probability[k] * yields;
       mode.yields = true;
@@ -154,23 +156,23 @@ void Predictor::hypotheses(YieldHypotheses (&result)[kMaxAgents]) const {
     const Agent& agent = scene_->agents[i];
     result[i] = YieldHypotheses{};
     for (int k = 0; k < agent.paths.size() && !result[i].differ; ++k) {  // the likeliest first
-      const Way& way = ways_[i][k];
-      for (const Crossing& crossing : way.crossings) {
-        const float room_m = crossing.entry_s_m - kZoneMarginM - way.start_s_m;
+      const PathHypothesis& hypothesis = hypotheses_[i][k];
+      for (const PathConflict& conflict : hypothesis.conflicts) {
+        const float room_m = conflict.entry_s_m - kZoneMarginM - hypothesis.start_s_m;
         if (room_m <= 0.0F) continue;
-        const float goes_mps2 = undisturbed_acceleration(way, agent.track);
-        const float stops_mps2 = -0.5F * square(way.speed_mps) / room_m;
+        const float goes_mps2 = undisturbed_acceleration(hypothesis, agent.track);
+        const float stops_mps2 = -0.5F * square(hypothesis.speed_mps) / room_m;
         result[i] = {true, goes_mps2, min(goes_mps2, stops_mps2)};
         break;
       }
     }
     // Whoever stands in the junction may go on standing.
     if (!result[i].differ && !agent.paths.empty() && agent.track.speed_mps < kStandingMps)
-      result[i] = {true, undisturbed_acceleration(ways_[i][0], agent.track), 0.0F};
+      result[i] = {true, undisturbed_acceleration(hypotheses_[i][0], agent.track), 0.0F};
   }
 }
 
-void Predictor::keep_going(KinematicSet& prediction) const {
+void Predictor::constant_velocity(KinematicSet& prediction) const {
   S4TP_ASSERT(scene_ != nullptr);
   prediction.agents.clear();
   for (const Agent& agent : scene_->agents) {
@@ -179,7 +181,7 @@ void Predictor::keep_going(KinematicSet& prediction) const {
     if (agent.paths.empty()) {
       place_on_arc(agent.track, lead_s_, mode);
     } else {
-      WayMotion motion;
+      PathMotion motion;
       for (int i = 0; i < kHorizonSteps; ++i) {
         const float time_s = lead_s_ + kStepS * static_cast<float>(i + 1);
         motion.s_m[i] = agent.frenet[0].s_m + agent.track.speed_mps * time_s;

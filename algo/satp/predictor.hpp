@@ -6,8 +6,8 @@
 #include "algo/core/parameters.hpp"
 #include "algo/core/trajectory.hpp"
 #include "algo/satp/ego_motion.hpp"
+#include "algo/satp/path_hypothesis.hpp"
 #include "algo/satp/prediction.hpp"
-#include "algo/satp/way.hpp"
 #include "algo/satp/yield_belief.hpp"
 #include "algo/scene/scene.hpp"
 
@@ -47,21 +47,21 @@ class Predictor {
 
   /// CORE-043 "Keeps doing what it does": every agent along its likeliest path at constant speed; one without
   /// a path at constant yaw rate.
-  void keep_going(KinematicSet& prediction) const;
+  void constant_velocity(KinematicSet& prediction) const;
 
   /// Work done since encode(), in agent-mode-steps (the unit of the stage's allowance). At most
   /// kMaxPredictionWork a decode.
   [[nodiscard]] int work() const { return work_; }
 
   /// The ways of the watched vehicles, as read in encode().
-  [[nodiscard]] const Way (&ways() const)[kMaxAgents][kPathsPerAgent] { return ways_; }
+  [[nodiscard]] const PathHypothesis (&hypotheses() const)[kMaxAgents][kPathsPerAgent] { return hypotheses_; }
 
  private:
   const Scene* scene_ = nullptr;
   const Parameters* parameters_ = nullptr;
   const YieldBeliefs* beliefs_ = nullptr;
   float lead_s_ = 0.0F;  ///< plan start minus scene time
-  Way ways_[kMaxAgents][kPathsPerAgent];
+  PathHypothesis hypotheses_[kMaxAgents][kPathsPerAgent];
   mutable int work_ = 0;
 };
 

@@ -47,7 +47,7 @@ void SatpPredictor::encode(const satp::Weights& weights, const Scene& scene, con
   const auto lead_ms = static_cast<std::int32_t>(start_ms - scene.time_ms);
   lead_s_ = clamp(1e-3F * static_cast<float>(lead_ms), 0.0F, 1.0F);
   new (&room_.input) satp::NetworkInput;
-  build_network_input(scene, parameters, lead_s_, kinematic_.ways(), room_.input);
+  build_network_input(scene, parameters, lead_s_, kinematic_.hypotheses(), room_.input);
   satp::encode(weights_, room_.input, scratch, encoded_);
 }
 

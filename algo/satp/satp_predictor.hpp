@@ -28,7 +28,7 @@ class SatpPredictor {
   /// its futures stand alone.
   void decode(const Trajectory* plan, int allowance, PredictionSet& prediction) const;
 
-  void keep_going(KinematicSet& prediction) const { kinematic_.keep_going(prediction); }
+  void constant_velocity(KinematicSet& prediction) const { kinematic_.constant_velocity(prediction); }
 
   [[nodiscard]] int work() const { return work_ + kinematic_.work(); }
   /// Whether the network speaks.

@@ -8,7 +8,7 @@
 #include <cstdint>
 
 #include "algo/core/bounded.hpp"
-#include "algo/satp/way.hpp"
+#include "algo/satp/path_hypothesis.hpp"
 #include "algo/scene/scene.hpp"
 
 namespace s4tp {

@@ -23,17 +23,17 @@ constexpr float kAmbiguousM = 1.0F;     // lanes this close may both be the one
 constexpr float kAmbiguousRad = 0.5F;
 constexpr float kChangeLateralMps = 0.4F;  // a clear lateral speed
 constexpr float kChangeOffsetM = 0.8F;     // where it leads within a second
-constexpr int kSteps = 3 * kMaxPathLanes;  // each step closes a way or makes one longer
+constexpr int kSteps = 3 * kMaxPathLanes;  // each step closes a chain or makes one longer
 
-// A way under construction; its likelihood is relative to the others'.
-struct Way {
+// A chain under construction; its likelihood is relative to the others'.
+struct LaneChain {
   LanePath path;
   float start_s_m = 0.0F;  // of the vehicle on the path's first lane
   float weight = 1.0F;
   bool open = true;
 };
 
-using Ways = BoundedVector<Way, kPathsPerAgent>;
+using LaneChains = BoundedVector<LaneChain, kPathsPerAgent>;
 
 float mean_curvature(float turn_rad, float length_m) {
   return turn_rad / max(length_m, 1.0F);
@@ -103,11 +103,11 @@ bool same_way(const LaneTable& table, LaneIndex a, LaneIndex b) {
   return false;
 }
 
-void start_way(const LaneTable& table, LaneIndex lane, float start_s_m, float weight, Ways& ways) {
-  Way way;
-  way.start_s_m = start_s_m;
-  way.weight = weight;
-  if (table.append(way.path, lane)) (void)ways.push(way);
+void start_chain(const LaneTable& table, LaneIndex lane, float start_s_m, float weight, LaneChains& chains) {
+  LaneChain chain;
+  chain.start_s_m = start_s_m;
+  chain.weight = weight;
+  if (table.append(chain.path, lane)) (void)chains.push(chain);
 }
 
 // The neighbour lane a change under way leads to, or kNoLaneIndex.
@@ -121,19 +121,19 @@ LaneIndex change_target(const LaneTable& table, LaneIndex lane, const Situation&
   return table.valid(target) && target != lane ? target : kNoLaneIndex;
 }
 
-// Makes the shortest open way longer, in as many ways as there is room for.
-void extend(const LaneTable& table, const Situation& situation, Ways& ways) {
+// Makes the shortest open chain longer, in as many chains as there is room for.
+void extend(const LaneTable& table, const Situation& situation, LaneChains& chains) {
   int shortest = -1;
-  for (int i = 0; i < ways.size(); ++i) {
-    if (!ways[i].open) continue;
-    if (shortest < 0 ||
-        ways[i].path.length_m - ways[i].start_s_m < ways[shortest].path.length_m - ways[shortest].start_s_m) {
+  for (int i = 0; i < chains.size(); ++i) {
+    if (!chains[i].open) continue;
+    if (shortest < 0 || chains[i].path.length_m - chains[i].start_s_m <
+                            chains[shortest].path.length_m - chains[shortest].start_s_m) {
       shortest = i;
     }
   }
   if (shortest < 0) return;
-  const Way trunk = ways[shortest];
-  ways[shortest].open = false;
+  const LaneChain trunk = chains[shortest];
+  chains[shortest].open = false;
   const float distance_m = trunk.path.length_m - trunk.start_s_m;
   if (distance_m >= kAheadM) return;
 
@@ -157,13 +157,13 @@ void extend(const LaneTable& table, const Situation& situation, Ways& ways) {
   }
   bool first = true;
   for (const Branch& branch : branches) {
-    Way way = trunk;
-    way.weight = trunk.weight * (branch.weight / sum);
-    if (!table.append(way.path, branch.lane)) continue;
+    LaneChain chain = trunk;
+    chain.weight = trunk.weight * (branch.weight / sum);
+    if (!table.append(chain.path, branch.lane)) continue;
     if (first) {
-      ways[shortest] = way;
+      chains[shortest] = chain;
     } else {
-      (void)ways.push(way);  // no room: the unlikely ones are left out
+      (void)chains.push(chain);  // no room: the unlikely ones are left out
     }
     first = false;
   }
@@ -179,9 +179,9 @@ void build_agent_paths(const LaneTable& table, bool hindered, Agent& agent) {
   agent.lane = fits.empty() ? kNoLaneIndex : fits[0].lane;
   if (fits.empty()) return;
 
-  Ways ways;
-  start_way(table, agent.lane, fits[0].fix.s_m, 1.0F, ways);
-  const Frenet here = project(table.map(), ways[0].path, position(track.centre), fits[0].fix.s_m, 5.0F);
+  LaneChains chains;
+  start_chain(table, agent.lane, fits[0].fix.s_m, 1.0F, chains);
+  const Frenet here = project(table.map(), chains[0].path, position(track.centre), fits[0].fix.s_m, 5.0F);
   // Others in front explain all, a stop line part: it may be there for who turns.
   const float candour = hindered ? 0.0F : (table.lane(agent.lane).stop_line_m >= 0.0F ? 0.5F : 1.0F);
   const Situation situation{track, wrap_angle(track.centre.heading_rad - here.heading_rad), here.d_m,
@@ -189,33 +189,34 @@ void build_agent_paths(const LaneTable& table, bool hindered, Agent& agent) {
   const LaneIndex target = change_target(table, agent.lane, situation);
   if (target != kNoLaneIndex) {
     const LaneFix fix = nearest_on_lane(table.lane(target), position(track.centre));
-    start_way(table, target, fix.s_m, 2.0F, ways);
+    start_chain(table, target, fix.s_m, 2.0F, chains);
   }
   // Where lanes branch it may be on any of those that lie together here.
-  ways[0].weight = fit_weight(table, fits[0], track);
+  chains[0].weight = fit_weight(table, fits[0], track);
   for (int i = 1; i < fits.size(); ++i) {
     const LaneFit& fit = fits[i];
     const bool together = fit.fix.distance_m < kAmbiguousM && abs(fit.turn_rad) < kAmbiguousRad;
     if (!together || fit.lane == target || same_way(table, agent.lane, fit.lane)) continue;
-    start_way(table, fit.lane, fit.fix.s_m, fit_weight(table, fit, track), ways);
+    start_chain(table, fit.lane, fit.fix.s_m, fit_weight(table, fit, track), chains);
   }
-  if (target != kNoLaneIndex) ways[1].weight *= ways[0].weight;
-  for (int step = 0; step < kSteps; ++step) extend(table, situation, ways);
+  if (target != kNoLaneIndex) chains[1].weight *= chains[0].weight;
+  for (int step = 0; step < kSteps; ++step) extend(table, situation, chains);
 
   // Likeliest first; in one order for equals.
   float sum = 0.0F;
-  for (const Way& way : ways) sum += way.weight;
-  for (int i = 1; i < ways.size(); ++i) {
-    const Way moving = ways[i];
+  for (const LaneChain& chain : chains) sum += chain.weight;
+  for (int i = 1; i < chains.size(); ++i) {
+    const LaneChain moving = chains[i];
     int j = i;
-    for (; j > 0 && moving.weight > ways[j - 1].weight; --j) ways[j] = ways[j - 1];
-    ways[j] = moving;
+    for (; j > 0 && moving.weight > chains[j - 1].weight; --j) chains[j] = chains[j - 1];
+    chains[j] = moving;
   }
-  for (int i = 0; i < ways.size(); ++i) {
-    (void)agent.paths.push(ways[i].path);
-    agent.path_probability[i] = ways[i].weight / sum;
+  for (int i = 0; i < chains.size(); ++i) {
+    (void)agent.paths.push(chains[i].path);
+    agent.path_probability[i] = chains[i].weight / sum;
     constexpr float kReachM = 15.0F;
-    agent.frenet[i] = project(table.map(), ways[i].path, position(track.centre), ways[i].start_s_m, kReachM);
+    agent.frenet[i] =
+        project(table.map(), chains[i].path, position(track.centre), chains[i].start_s_m, kReachM);
   }
 }
 
@@ -257,7 +258,7 @@ bool arc_length_on(const LanePath& path, const Agent& agent, float& s_m) {
   for (int i = 0; i < agent.paths.size(); ++i) {
     const LanePath& own = agent.paths[i];
     for (int k = 0; k < own.lanes.size(); ++k) {
-      // The lane it is on, or the one it is changing to: there its way begins.
+      // The lane it is on, or the one it is changing to: there its chain begins.
       if (own.lanes[k].lane != agent.lane && k > 0) continue;
       for (const PathLane& part : path.lanes) {
         if (part.lane != own.lanes[k].lane) continue;

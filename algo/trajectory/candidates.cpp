@@ -137,7 +137,7 @@ bool has_twin(const Reach* reaches, int count, const Reach& reach) {
 }
 
 /// The gap's place; in our own lane one behind our leader where that is nearer, now or at the horizon's end.
-bool aim_at_gap(const Scene& scene, const Course& course, float lead_s, const GapAim& aim,
+bool aim_at_gap(const Scene& scene, const Course& course, float lead_s, const MergeTarget& aim,
                 const Parameters& parameters, Candidate& candidate) {
   if (aim.path == 0 || (candidate.path != 0 && candidate.path != aim.path)) return false;
   candidate.in_gap = true;
@@ -157,8 +157,8 @@ bool aim_at_gap(const Scene& scene, const Course& course, float lead_s, const Ga
 /// The longitudinal half of a recipe. \return false when this path has no such thing
 bool shape_longitudinal(const Scene& scene, const Trial& trial, const ReferenceLine& line,
                         const Course& course, const TrajectoryPoint& start, const Plan& running,
-                        std::uint32_t start_ms, float lead_s, const GapAim& aim, const Parameters& parameters,
-                        Candidate& candidate) {
+                        std::uint32_t start_ms, float lead_s, const MergeTarget& aim,
+                        const Parameters& parameters, Candidate& candidate) {
   candidate.intent = trial.intent;
   candidate.acceleration_mps2 = parameters.comfort.acceleration_mps2;
   switch (trial.intent) {
@@ -189,7 +189,7 @@ bool make_feasible(const ReferenceLine& line, const TrajectoryPoint& start, cons
                    Trajectory& trajectory) {
   for (int i = 0; i < course.attempts; ++i) {
     shape_lateral(line, start, course.where, course.lateral_length_m, candidate);
-    if (candidate.intent != Intent::kPrevious && swings_wide(candidate)) break;  // longer swings wider
+    if (candidate.intent != Intent::kPrevious && overshoots(candidate)) break;  // longer goes further out
     roll_out(line, candidate, start, running, start_ms, parameters, trajectory);
     if (feasible(trajectory, parameters)) return true;
     if (candidate.intent == Intent::kPrevious) break;
@@ -211,7 +211,8 @@ class NobodyLooks final : public CandidateVisitor {
 
 void generate_candidates(const Scene& scene, const TrajectoryPoint& start, const Plan& running,
                          std::uint32_t start_ms, const Parameters& parameters, int most,
-                         ReferenceLines& lines, CandidateList& candidates, int& left_out, const GapAim& aim) {
+                         ReferenceLines& lines, CandidateList& candidates, int& left_out,
+                         const MergeTarget& aim) {
   Trajectory trajectory;
   NobodyLooks nobody(trajectory);
   generate_candidates(scene, start, running, start_ms, parameters, most, lines, candidates, left_out, nobody,
@@ -221,7 +222,7 @@ void generate_candidates(const Scene& scene, const TrajectoryPoint& start, const
 void generate_candidates(const Scene& scene, const TrajectoryPoint& start, const Plan& running,
                          std::uint32_t start_ms, const Parameters& parameters, int most,
                          ReferenceLines& lines, CandidateList& candidates, int& left_out,
-                         CandidateVisitor& visitor, const GapAim& aim) {
+                         CandidateVisitor& visitor, const MergeTarget& aim) {
   candidates.clear();
   left_out = 0;
   if (scene.map == nullptr) return;

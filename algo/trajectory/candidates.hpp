@@ -22,7 +22,7 @@ enum class Intent : std::uint8_t {
 };
 
 /// A gap of a lane beside (lane_gap.hpp), as a place that moves on.
-struct GapAim {
+struct MergeTarget {
   std::uint8_t path = 0;  ///< of that lane; 0, the keep path: there is none
   float s_m = 0.0F;       ///< of the rear axle along the keep path, at plan start
   float speed_mps = 0.0F;
@@ -88,12 +88,12 @@ class CandidateVisitor {
 void generate_candidates(const Scene& scene, const TrajectoryPoint& start, const Plan& running,
                          std::uint32_t start_ms, const Parameters& parameters, int most,
                          ReferenceLines& lines, CandidateList& candidates, int& left_out,
-                         CandidateVisitor& visitor, const GapAim& aim = {});
+                         CandidateVisitor& visitor, const MergeTarget& aim = {});
 /// The same without a visitor.
 void generate_candidates(const Scene& scene, const TrajectoryPoint& start, const Plan& running,
                          std::uint32_t start_ms, const Parameters& parameters, int most,
                          ReferenceLines& lines, CandidateList& candidates, int& left_out,
-                         const GapAim& aim = {});
+                         const MergeTarget& aim = {});
 
 /// Rolls a candidate out on the line of its path. points[0] is `start` itself; speeds >= 0; each point lies
 /// where its speed leads (CAND-010). For kPrevious `running` is shifted and continued along the path at its

@@ -6,8 +6,8 @@
 namespace s4tp {
 namespace {
 
-constexpr int kKeepGoingSteps = 15;    // as the check: longer nobody just keeps going
-constexpr float kOverMarginM = 0.02F;  // kept beyond the check's margin: rounding
+constexpr int kConstantVelocitySteps = 15;  // as the check: longer nobody just keeps going
+constexpr float kOverMarginM = 0.02F;       // kept beyond the check's margin: rounding
 
 /// A box with what its supports need.
 struct Shape {
@@ -100,10 +100,10 @@ void find_half_planes(const Surroundings& surroundings, const Trajectory& trajec
     for (int agent = 0; agent < scene.agents.size(); ++agent) {
       const Track& track = scene.agents[agent].track;
       Nearest nearest{reach_m, {}};
-      look_at(own, surroundings.unconditioned, agent, i, track, nearest);
+      look_at(own, surroundings.marginal, agent, i, track, nearest);
       look_at(own, surroundings.conditioned, agent, i, track, nearest);
-      if (i < kKeepGoingSteps && agent < surroundings.keep_going.agents.size()) {
-        look_at(own, surroundings.keep_going.agents[agent].steps[i], track, nearest);
+      if (i < kConstantVelocitySteps && agent < surroundings.constant_velocity.agents.size()) {
+        look_at(own, surroundings.constant_velocity.agents[agent].steps[i], track, nearest);
       }
       if (nearest.gap_m >= reach_m) continue;
       nearest.plane.offset_m -= nearest.plane.normal_x * origin.x_m + nearest.plane.normal_y * origin.y_m;

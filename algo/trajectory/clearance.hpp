@@ -11,9 +11,9 @@ namespace s4tp {
 /// Everybody's futures, as the check reads them.
 struct Surroundings {
   const Scene& scene;
-  const PredictionSet& unconditioned;
+  const PredictionSet& marginal;
   const PredictionSet& conditioned;
-  const KinematicSet& keep_going;
+  const KinematicSet& constant_velocity;
 };
 
 /// Writes half_planes of every step: of each vehicle the future nearest to our box on `trajectory`, of these

@@ -123,7 +123,7 @@ struct Range {
 };
 
 /// What both bounds leave.
-Range trusted(float centre, float trust, float low, float high) {
+Range trust_region(float centre, float trust, float low, float high) {
   return {max(centre - trust, low), min(centre + trust, high)};
 }
 
@@ -133,12 +133,12 @@ Bound bound_of(const RefinementProblem& problem, const RefinementStep& step,
   switch (kind) {
     case kAlong: {
       const Range range =
-          trusted(step.trusted_along_m, problem.trust_m, -step.along_bound_m, step.along_bound_m);
+          trust_region(step.trusted_along_m, problem.trust_m, -step.along_bound_m, step.along_bound_m);
       return {range.low, range.high, multipliers.along, penalty * per_square(units::kAlongM)};
     }
     case kAcross: {
       const Range range =
-          trusted(step.trusted_across_m, problem.trust_m, step.across_low_m, step.across_high_m);
+          trust_region(step.trusted_across_m, problem.trust_m, step.across_low_m, step.across_high_m);
       return {range.low, range.high, multipliers.across, penalty * per_square(units::kAcrossM)};
     }
     case kAcceleration:
@@ -230,8 +230,10 @@ float outside(float value, float low, float high, float unit) {
 float worst_violation(const RefinementProblem& problem, const RefinementStep& step,
                       const Residuals& residuals, const MotionState& state) {
   namespace units = bound_units;
-  const Range along = trusted(step.trusted_along_m, problem.trust_m, -step.along_bound_m, step.along_bound_m);
-  const Range across = trusted(step.trusted_across_m, problem.trust_m, step.across_low_m, step.across_high_m);
+  const Range along =
+      trust_region(step.trusted_along_m, problem.trust_m, -step.along_bound_m, step.along_bound_m);
+  const Range across =
+      trust_region(step.trusted_across_m, problem.trust_m, step.across_low_m, step.across_high_m);
   float worst = outside(residuals.along_m, along.low, along.high, units::kAlongM);
   worst = max(worst, outside(residuals.across_m, across.low, across.high, units::kAcrossM));
   worst = max(worst, outside(state.acceleration_mps2, problem.acceleration_low_mps2,

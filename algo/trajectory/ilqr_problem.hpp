@@ -27,7 +27,7 @@ struct HalfPlane {
   float least_gap_m = 0.0F;  ///< that our box has to keep from it
 };
 
-/// Root of what the risk field costs at a step, linear about the motion along which it was last felt:
+/// Root of what the risk field costs at a step, linear about the motion along which it was last evaluated:
 /// r = offset + slope . state, and r^2 / 2 is w_r (R + R_0). Weighted already.
 struct FieldResidual {
   float offset = 0.0F;
@@ -74,7 +74,8 @@ struct RefinementStep {
   int half_plane_count = 0;
   HalfPlane half_planes[kMaxHalfPlanes];
   FieldResidual field;
-  float trusted_along_m = 0.0F;  ///< where the field was felt: of the state there, as along and across are
+  float trusted_along_m =
+      0.0F;  ///< where the field was evaluated: of the state there, as along and across are
   float trusted_across_m = 0.0F;
 };
 
@@ -101,7 +102,7 @@ struct RefinementProblem {
   float centre_m = 0.0F;  ///< rear axle to the centre of our box
   float half_length_m = 0.0F;
   float half_width_m = 0.0F;
-  float trust_m = kTrustAll;    ///< nor further along or across from where the field was felt
+  float trust_m = kTrustAll;    ///< nor further along or across from where the field was evaluated
   float field_constant = 0.0F;  ///< what R_0 adds to the sum of field residuals
   MotionState start;
   RefinementStep steps[kHorizonSteps];  ///< steps[i] is of states[i + 1]

@@ -13,9 +13,9 @@ constexpr float kInLaneM = 1.0F;            // further from its centre we are on
 constexpr float kShiftSlackM = 0.02F;       // so that a candidate further out is not at its bound
 constexpr float kComfortGapM = 1.0F;        // nearer than this somebody costs something
 constexpr float kStandingM = 0.02F;         // a stop may move this far
-constexpr float kTrustM = 0.5F;             // of where the field was felt
+constexpr float kTrustM = 0.5F;             // of where the field was evaluated
 constexpr float kTrustShare = 0.3F;         // of it, after it led astray
-constexpr float kLittleGain = 2e-3F;        // of the cost: not worth feeling the field again
+constexpr float kLittleGain = 2e-3F;        // of the cost: not worth evaluating the field again
 constexpr float kAtRestMps = 0.01F;         // the smooth clamp's last creep is standstill
 constexpr float kRollsOnMps = 0.1F;         // a stop may have so much left at its end
 
@@ -167,11 +167,11 @@ void Optimizer::improve_in_field(const Surroundings& surroundings, const Paramet
     put_field(field_, best_, trust_m, parameters, problem);
     if (!solve(problem, allowance, motion, result)) break;
     const Judgement judgement = judge_motion(problem, motion);
-    const bool last = result.feelings >= allowance.feelings;
+    const bool last = result.evaluations >= allowance.evaluations;
     float field = judgement.field;
     if (!last) {
-      field = feel_field(surroundings, problem, origin, motion, parameters, scratch_, felt_);
-      ++result.feelings;
+      field = evaluate_field(surroundings, problem, origin, motion, parameters, scratch_, along_);
+      ++result.evaluations;
     }
     const float gain = cost - (judgement.own + field);
     if (gain <= 0.0F) {
@@ -181,7 +181,7 @@ void Optimizer::improve_in_field(const Surroundings& surroundings, const Paramet
       continue;
     }
     best_ = motion;
-    field_ = felt_;
+    field_ = along_;
     trust_m = kTrustM;
     cost -= gain;
     result.own_after = judgement.own;
@@ -198,12 +198,12 @@ RefinementResult Optimizer::improve(const Surroundings& surroundings, const Para
   if (allowance.passes <= 0) return result;
   result.own_before = judge_motion(problem, motion).own;
   result.own_after = result.own_before;
-  if (allowance.feelings > 0) {
-    result.field_before = feel_field(surroundings, problem, origin, motion, parameters, scratch_, field_);
+  if (allowance.evaluations > 0) {
+    result.field_before = evaluate_field(surroundings, problem, origin, motion, parameters, scratch_, field_);
     result.field_after = result.field_before;
   }
   if (result.field_before > 0.0F) {
-    result.feelings = 1;
+    result.evaluations = 1;
     improve_in_field(surroundings, parameters, origin, allowance, problem, motion, result);
   } else if (solve(problem, allowance, motion, result)) {
     result.improved = true;

@@ -1,5 +1,5 @@
 #pragma once
-/// Refinement of the chosen candidate in the risk field (method.md 4.8): less felt and feared, calmer, within
+/// Refinement of the chosen candidate in the risk field (method.md 4.8): less risk, calmer, within
 /// the vehicle's limits, clear of the predicted boxes, and near enough to the candidate for its prediction to
 /// hold.
 
@@ -23,13 +23,13 @@ void build_refinement(const ReferenceLine& line, float start_s_m, const Surround
 /// Units of work of a refinement.
 struct RefinementAllowance {
   int passes = 0;
-  int feelings = 0;  ///< times the field is felt along a motion; 0: it is left out
+  int evaluations = 0;  ///< times the field is evaluated along a motion; 0: it is left out
 };
 
 struct RefinementResult {
   int passes = 0;
   int failed_trials = 0;
-  int feelings = 0;           ///< 0: there was no field, or nothing in it
+  int evaluations = 0;        ///< 0: there was no field, or nothing in it
   bool improved = false;      ///< false: the trajectory is as it was, to the bit
   float own_before = 0.0F;    ///< cost without the field
   float own_after = 0.0F;     ///< of the best motion found, of one that could not be driven too
@@ -41,7 +41,7 @@ class Optimizer {
  public:
   /// CAND-011 Never worse than its start: by the model that it works with the result costs no more than
   /// `candidate` did, or is `candidate` itself, to the bit; in the field, who asks compares the exact risk.
-  /// CAND-020 It feels the field at most allowance.feelings times, and keeps within 0.5 m of where it did.
+  /// CAND-020 It evaluates the field at most allowance.evaluations times, and keeps within 0.5 m of where it did.
   /// CAND-013 Standing still stays standing still, to the bit.
   /// CAND-014 Within kRefinedAlongM and kRefinedWithinS of it, across within kRefinedInLaneM of the lane's
   /// centre or no further out than it, on its way to a lane within kOnTheWayM of it; and where it kept
@@ -76,7 +76,7 @@ class Optimizer {
   Motion best_;
   FieldAlong field_;
   FieldScratch scratch_;
-  FieldAlong felt_;  ///< along the motion just found
+  FieldAlong along_;  ///< along the motion just found
   Ilqr ilqr_;
 };
 

@@ -29,9 +29,9 @@ float step_weight(const Parameters& parameters) {
 
 }  // namespace
 
-float feel_field(const Surroundings& surroundings, const RefinementProblem& problem, Point origin,
-                 const Motion& motion, const Parameters& parameters, FieldScratch& scratch,
-                 FieldAlong& field) {
+float evaluate_field(const Surroundings& surroundings, const RefinementProblem& problem, Point origin,
+                     const Motion& motion, const Parameters& parameters, FieldScratch& scratch,
+                     FieldAlong& field) {
   Trajectory& trajectory = scratch.trajectory;
   for (int i = kFieldStride - 1; i < kHorizonSteps; i += kFieldStride) {
     const MotionState& state = motion.states[i + 1];
@@ -41,8 +41,8 @@ float feel_field(const Surroundings& surroundings, const RefinementProblem& prob
     point.curvature_1pm = state.curvature_1pm;
   }
   SmoothRisk(&risks)[kHorizonSteps] = scratch.risks;
-  smooth_risk(surroundings.scene, surroundings.conditioned, surroundings.keep_going, trajectory, parameters,
-              kFieldStride - 1, kFieldStride, risks);
+  smooth_risk(surroundings.scene, surroundings.conditioned, surroundings.constant_velocity, trajectory,
+              parameters, kFieldStride - 1, kFieldStride, risks);
   const float wheelbase_m = parameters.vehicle.wheelbase_m;
   for (int k = 0; k < kFieldKnots; ++k) {
     const int i = k * kFieldStride + kFieldStride - 1;

@@ -1,10 +1,10 @@
 #pragma once
-/// The risk field in the optimizer (method.md 4.8): felt on a motion at every third step, linear between, as
-/// one residual a step. Covering (a place never costs twice) counts as fixed where it is felt.
+/// The risk field in the optimizer (method.md 4.8): evaluated on a motion at every third step, linear between, as
+/// one residual a step. Covering (a place never costs twice) counts as fixed where it is evaluated.
 ///
 /// \code
 ///   w R(t)     o           w = w_r dt, R with both sides and the excess over C_t, made smooth
-///            /   '-o       o: felt, with its slope by the state (pose, speed, curvature)
+///            /   '-o       o: evaluated, with its slope by the state (pose, speed, curvature)
 ///          o        '-o    r = sqrt(2 w (R + R_0)), linear about the motion: r^2 / 2 is w (R + R_0)
 ///   -------------------------> t
 /// \endcode
@@ -17,7 +17,7 @@
 
 namespace s4tp {
 
-inline constexpr int kFieldStride = 3;                            ///< steps from one place felt to the next
+inline constexpr int kFieldStride = 3;  ///< steps from one place evaluated to the next
 inline constexpr int kFieldKnots = kHorizonSteps / kFieldStride;  ///< the last one is the last step
 static_assert(kHorizonSteps % kFieldStride == 0);
 
@@ -35,24 +35,24 @@ struct FieldAlong {
   FieldKnot knots[kFieldKnots];  ///< of steps[kFieldStride - 1], ...
 };
 
-/// Working memory of feel_field; nothing in it outlives the call.
+/// Working memory of evaluate_field; nothing in it outlives the call.
 struct FieldScratch {
   Trajectory trajectory;
   SmoothRisk risks[kHorizonSteps];
 };
 
-/// CAND-019 Feels the field along a motion, with its slopes by pose, speed and curvature. \param origin  what
+/// CAND-019 Evaluates the field along a motion, with its slopes by pose, speed and curvature. \param origin  what
 /// the problem's positions are relative to \return w_r times the integral of R, linear between the knots; 0:
 /// there is no risk Work: at most kFieldKnots * (kMaxAgents * kMaxModes + kMaxTracks) boxes, on each side.
-[[nodiscard]] float feel_field(const Surroundings& surroundings, const RefinementProblem& problem,
-                               Point origin, const Motion& motion, const Parameters& parameters,
-                               FieldScratch& scratch, FieldAlong& field);
+[[nodiscard]] float evaluate_field(const Surroundings& surroundings, const RefinementProblem& problem,
+                                   Point origin, const Motion& motion, const Parameters& parameters,
+                                   FieldScratch& scratch, FieldAlong& field);
 
 /// Takes the field out of a problem again.
 void without_field(RefinementProblem& problem);
 
 /// On the way to or from another lane the field has no say across: the decision stands.
-/// Makes `field`, felt along `motion`, the problem's residuals, trusted within `trust_m` of it.
+/// Makes `field`, evaluated along `motion`, the problem's residuals, trusted within `trust_m` of it.
 void put_field(const FieldAlong& field, const Motion& motion, float trust_m, const Parameters& parameters,
                RefinementProblem& problem);
 

@@ -189,7 +189,7 @@ void shape_lateral(const ReferenceLine& line, const TrajectoryPoint& start, Refe
   candidate.start_s_m = where.s_m;
 }
 
-bool swings_wide(const Candidate& candidate) {
+bool overshoots(const Candidate& candidate) {
   const float start_m = candidate.lateral[0];
   const float end_m = lateral_at(candidate, candidate.start_s_m + candidate.lateral_length_m).d_m;
   const float right_m = min(start_m, end_m) - kSwingM;

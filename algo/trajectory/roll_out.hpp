@@ -18,6 +18,6 @@ void shape_lateral(const ReferenceLine& line, const TrajectoryPoint& start, Refe
 
 /// Whether that quintic swings more than 0.3 m wider than it starts, or than it ends: wheels turned the
 /// other way at the start would be turned back over its whole length. It is steered instead (CAND-017).
-[[nodiscard]] bool swings_wide(const Candidate& candidate);
+[[nodiscard]] bool overshoots(const Candidate& candidate);
 
 }  // namespace s4tp

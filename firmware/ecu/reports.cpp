@@ -82,7 +82,7 @@ void Reporter::plan(hal::Can& can, std::uint32_t sequence, std::uint32_t digest,
   reason.candidates = at_most<std::uint8_t>(explanation.candidate_count, 31);
   reason.rejected = at_most<std::uint8_t>(rejected, 31);
   reason.left_out = at_most<std::uint8_t>(explanation.left_out, 31);
-  reason.check = at_most<std::uint8_t>(static_cast<std::uint32_t>(explanation.held_up.verdict.cause), 7);
+  reason.check = at_most<std::uint8_t>(static_cast<std::uint32_t>(explanation.blocking.verdict.cause), 7);
   reason.dominating_track = explanation.dominating_track;
   reason.dominating_step = at_most<std::uint8_t>(explanation.dominating_step, 31);
   reason.id_clashes = at_most<std::uint8_t>(explanation.id_clashes, 31);

@@ -48,9 +48,9 @@ Status Guard::apply(const PlannerInput& input, Status status, Plan& plan, Explan
       plan.fail_safe = verdict.fail_safe;
     } else {
       status = Status::kNoSafePlan;
-      explanation.held_up.verdict = verdict;
+      explanation.blocking.verdict = verdict;
       if (verdict.agent < scene_.agents.size())
-        explanation.held_up.track = scene_.agents[verdict.agent].track.id;
+        explanation.blocking.track = scene_.agents[verdict.agent].track.id;
     }
   }
   explanation.status = status;

@@ -272,16 +272,16 @@ float IdmLanePlanner::stop_for_zones(const EgoPath& path, Explanation& explanati
 
 bool IdmLanePlanner::refuses(const ConflictZone& zone, float in_s, float out_s, float margin_s,
                              Explanation& explanation) const {
-  explanation.held_up.verdict.cause = safety::Cause::kNoRoom;
-  explanation.held_up.verdict.agent = kNobody;
-  explanation.held_up.way_m = kFarM;
-  explanation.held_up.track = kNobody;
+  explanation.blocking.verdict.cause = safety::Cause::kNoRoom;
+  explanation.blocking.verdict.agent = kNobody;
+  explanation.blocking.way_m = kFarM;
+  explanation.blocking.track = kNobody;
   if (out_s >= kNeverS) return true;  // no room behind it: the junction is kept clear
-  explanation.held_up.verdict.cause = safety::Cause::kZone;
+  explanation.blocking.verdict.cause = safety::Cause::kZone;
   for (int i = 0; i < scene_.agents.size(); ++i) {
     const Agent& agent = scene_.agents[i];
-    explanation.held_up.verdict.agent = static_cast<std::uint8_t>(i);
-    explanation.held_up.track = agent.track.id;
+    explanation.blocking.verdict.agent = static_cast<std::uint8_t>(i);
+    explanation.blocking.track = agent.track.id;
     const float speed_mps = agent.track.speed_mps;
     const float longer_m = 0.5F * agent.track.length_m - kUsualHalfLengthM;
     for (int k = 0; k < agent.paths.size(); ++k) {
@@ -303,7 +303,7 @@ bool IdmLanePlanner::refuses(const ConflictZone& zone, float in_s, float out_s, 
       }
     }
   }
-  explanation.held_up = HeldUp{};
+  explanation.blocking = BlockingReason{};
   return false;
 }
 

@@ -152,8 +152,8 @@ Status PredictiveDecision::plan(const PlannerInput& input, Plan& plan, Explanati
   PredictionSet chosen;
   if (status == Status::kOk) {
     predictor_.encode(scene_, parameters_, input.start_ms);
-    predictor_.decode(nullptr, kMaxPredictionWork, unconditioned_);
-    predictor_.keep_going(keep_going_);
+    predictor_.decode(nullptr, kMaxPredictionWork, marginal_);
+    predictor_.constant_velocity(constant_velocity_);
     guard_.look(scene_, start, 1e-3F * static_cast<float>(input.start_ms - scene_.time_ms), parameters_);
     int left_out = 0;
     generate_candidates(scene_, start, running, input.start_ms, parameters_, kMaxCandidates, lines_,
@@ -167,7 +167,7 @@ Status PredictiveDecision::plan(const PlannerInput& input, Plan& plan, Explanati
       predictor_.decode(&trajectory, kMaxPredictionWork, conditioned);
       if (guarded_ && !guard_.judge(candidate.path, trajectory).safe()) continue;
       const float cost = weighted(pd_features(scene_, candidate.path, lines_[candidate.path], trajectory,
-                                              conditioned, keep_going_, parameters_),
+                                              conditioned, constant_velocity_, parameters_),
                                   kPdWeights);
       if (cost >= least) continue;
       least = cost;

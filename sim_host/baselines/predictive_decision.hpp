@@ -57,8 +57,8 @@ class PredictiveDecision {
   SceneBuilder scene_builder_;
   Scene scene_;
   Predictor predictor_;
-  PredictionSet unconditioned_;
-  KinematicSet keep_going_;
+  PredictionSet marginal_;
+  KinematicSet constant_velocity_;
   ReferenceLines lines_;
   CandidateList candidates_;
 };

@@ -153,7 +153,7 @@ int run_one(RunOptions run) {
   std::ofstream explanations(reasons);
   const double pre_roll_s = -result.recording.snapshots.front().time_s;
   view::print_explanations(explanations, *result.trace, pre_roll_s);
-  if (run.explain) view::print_passages(std::cout, *result.trace, pre_roll_s);
+  if (run.explain) view::print_reason_spans(std::cout, *result.trace, pre_roll_s);
   std::cout << "picture: " << picture.string() << "\nreplay: " << replay.string()
             << "\nreasons: " << reasons.string() << '\n';
   if (!run.log.empty()) std::cout << "bus log: " << run.log.string() << '\n';

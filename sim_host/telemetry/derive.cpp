@@ -28,11 +28,12 @@ bool same(const Candidate& a, const Candidate& b) {
          a.target_s_m == b.target_s_m && a.lateral_length_m == b.lateral_length_m && a.in_gap == b.in_gap;
 }
 
-KinematicSet keep_going(const Scene& scene, const ecu::PlanRecord& plan, const Parameters& parameters) {
+KinematicSet constant_velocity(const Scene& scene, const ecu::PlanRecord& plan,
+                               const Parameters& parameters) {
   const auto predictor = std::make_unique<Predictor>();
   KinematicSet others;
   predictor->encode(scene, parameters, plan.plan.start_ms);
-  predictor->keep_going(others);
+  predictor->constant_velocity(others);
   return others;
 }
 
@@ -90,7 +91,7 @@ HeatMap heat_map_of(const ecu::PlanRecord& plan, const CycleRecord& cycle, const
   const Scene scene = scene_of(cycle);
   DrivableArea area;
   build_drivable(scene.map, area);
-  const KinematicSet others = keep_going(scene, plan, parameters);
+  const KinematicSet others = constant_velocity(scene, plan, parameters);
   HeatMap map;
   for (int row = 0; row < kHeatRows; ++row)
     heat_row(scene, area, cycle.prediction, others, parameters, row, map);
@@ -142,7 +143,7 @@ std::vector<float> risk_shares(const ecu::PlanRecord& plan, const CycleRecord& c
   const Scene scene = scene_of(cycle);
   DrivableArea area;
   build_drivable(scene.map, area);
-  const KinematicSet others = keep_going(scene, plan, parameters);
+  const KinematicSet others = constant_velocity(scene, plan, parameters);
   std::vector<float> shares;
   float sum = 0.0F;
   for (int i = 0; i < scene.agents.size(); ++i) {

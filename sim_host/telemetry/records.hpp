@@ -88,7 +88,7 @@ constexpr std::uint32_t fingerprint() {
                                  sizeof(ReferenceLine),
                                  sizeof(CostBreakdown),
                                  sizeof(Explanation),
-                                 sizeof(HeldUp),
+                                 sizeof(BlockingReason),
                                  sizeof(RiskProfile),
                                  sizeof(Plan),
                                  sizeof(Parameters),

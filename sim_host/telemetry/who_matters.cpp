@@ -83,7 +83,7 @@ WhoMatters who_matters(const ecu::PlanRecord& plan, const CycleRecord& cycle,
   GroundClaim claim = claims[static_cast<std::size_t>(agent)];
   who.track = cycle.scene.agents[agent].track.id;
   who.name = view::vehicle_name(trace, who.track);
-  const safety::Verdict& verdict = plan.explanation.held_up.verdict;
+  const safety::Verdict& verdict = plan.explanation.blocking.verdict;
   const bool waits_for_it = who.holds_up && reason.because == view::Because::kGivingWay &&
                             verdict.needed_s > 0.0F && claim.its.claim == safety::Claim::kMayCome;
   // Of the motion that was wanted most, as the words have it.

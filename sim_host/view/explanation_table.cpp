@@ -21,7 +21,7 @@ const char* intent_name(Intent intent) {
 }
 
 /// What kept the plan from going further, as one word.
-const char* held_up_name(safety::Cause cause) {
+const char* cause_name(safety::Cause cause) {
   static constexpr const char* kCauses[] = {"",         "no path", "road end",     "leader",
                                             "follower", "zone",    "stops in zone"};
   return kCauses[static_cast<int>(cause)];
@@ -57,7 +57,7 @@ void print_explanations(std::ostream& out, const campaign::Trace& trace, double 
                   static_cast<double>(c.speed), static_cast<double>(c.jerk), static_cast<double>(c.lateral),
                   static_cast<double>(c.lane), static_cast<double>(c.risk), static_cast<double>(c.total()),
                   static_cast<double>(e.runner_up_cost.total()), e.dominating_track,
-                  held_up_name(e.held_up.verdict.cause), e.held_up.track);
+                  cause_name(e.blocking.verdict.cause), e.blocking.track);
     out << line;
   }
 }

@@ -32,7 +32,7 @@
     return {
       road: lines(cycle.road), ego: cycle.ego, others: cycle.vehicles, way, plan: pairs(cycle.plan),
       failSafe: pairs(cycle.fail_safe), futures: lines(cycle.futures), candidates: lines(cycle.candidates), haze: cycle.haze,
-      riskiest: cycle.riskiest, heldUpBy: cycle.who.holds_up ? cycle.who.id : -1, picked,
+      riskiest: cycle.riskiest, blockedBy: cycle.who.holds_up ? cycle.who.id : -1, picked,
     };
   };
 

@@ -16,7 +16,7 @@ constexpr float kNoticeableM = 2.0F;    // as much further the rejected motion m
 constexpr float kFollowingS = 2.5F;     // farther ahead nobody is followed
 constexpr float kBendMps2 = 1.5F;
 constexpr float kSoonS = 60.0F;          // later arrivals have no number
-constexpr std::size_t kBriefCycles = 3;  // shorter passages are passed over
+constexpr std::size_t kBriefCycles = 3;  // shorter reason_spans are passed over
 
 const TrajectoryPoint& start_of(const campaign::CycleTrace& cycle) {
   return cycle.record.plan.trajectory.points[0];
@@ -120,11 +120,11 @@ Reason driving_reason(const campaign::CycleTrace& cycle, Doing doing) {
                     doing == Doing::kDriving;
   if (!slow) return about(doing, Because::kNothing);
   const bool held =
-      !e.held_up.verdict.safe() && e.held_up.way_m > way_m(cycle.record.plan.trajectory) + kNoticeableM;
+      !e.blocking.verdict.safe() && e.blocking.way_m > way_m(cycle.record.plan.trajectory) + kNoticeableM;
   const bool near =
       e.leader_track != kNobody && e.leader_gap_m < 8.0F + kFollowingS * start_of(cycle).speed_mps;
   if (held) {
-    return about(doing, because_of(e.held_up.verdict), e.held_up.track);
+    return about(doing, because_of(e.blocking.verdict), e.blocking.track);
   }
   if (near && (doing != Doing::kDriving || e.chosen.intent == Intent::kFollow))
     return about(doing, Because::kLeader, e.leader_track);
@@ -218,15 +218,16 @@ std::string cost_text(const CostBreakdown& cost) {
                 cost.total(), cost.progress, cost.speed, cost.jerk, cost.lateral, cost.lane, cost.risk);
 }
 
-std::string held_up_text(const campaign::CycleTrace& cycle, const HeldUp& held_up, const char* where) {
+std::string blocking_text(const campaign::CycleTrace& cycle, const BlockingReason& blocking,
+                          const char* where) {
   static constexpr const char* kCauses[] = {
       "", "no path", "road's end", "leader", "follower", "zone", "would stand in the zone"};
-  const safety::Verdict& verdict = held_up.verdict;
+  const safety::Verdict& verdict = blocking.verdict;
   if (verdict.safe()) return "";
   std::string line = format("\n  held up %s: %s, %.1f m wanted", where,
-                            kCauses[static_cast<int>(verdict.cause)], held_up.way_m);
-  if (held_up.track != kNobody)
-    line += format(", track %d (%s)", held_up.track, name_of(cycle, held_up.track).c_str());
+                            kCauses[static_cast<int>(verdict.cause)], blocking.way_m);
+  if (blocking.track != kNobody)
+    line += format(", track %d (%s)", blocking.track, name_of(cycle, blocking.track).c_str());
   if (verdict.cause == safety::Cause::kZone)
     line += format(", there in %.1f s, we leave in %.1f s", verdict.from_s, verdict.needed_s);
   return line;
@@ -251,7 +252,7 @@ Reason reason_of(const campaign::CycleTrace& cycle) {
     case Status::kNoLane:
       return about(doing, Because::kNoLane);
     case Status::kNoSafePlan:
-      return about(doing, Because::kNoSafeWay, cycle.record.explanation.held_up.track);
+      return about(doing, Because::kNoSafeWay, cycle.record.explanation.blocking.track);
     case Status::kStaleTracks:
       return about(doing, Because::kNobodySeen);
     default:
@@ -263,13 +264,13 @@ std::string in_words(const campaign::CycleTrace& cycle) {
   const Explanation& e = cycle.record.explanation;
   const Reason reason = reason_of(cycle);
   std::string words = doing_words(reason.doing);
-  const std::string because = because_words(cycle, reason, e.held_up.verdict);
+  const std::string because = because_words(cycle, reason, e.blocking.verdict);
   if (!because.empty()) words += ": " + because;
   // The check's word on the way that was wanted most.
-  if (reason.because == Because::kNoSafeWay && !e.held_up.verdict.safe()) {
+  if (reason.because == Because::kNoSafeWay && !e.blocking.verdict.safe()) {
     Reason wanted = reason;
-    wanted.because = because_of(e.held_up.verdict);
-    words += "; " + because_words(cycle, wanted, e.held_up.verdict);
+    wanted.because = because_of(e.blocking.verdict);
+    words += "; " + because_words(cycle, wanted, e.blocking.verdict);
   }
   words += ".";
   // Behind somebody slower a passenger wonders why he is not passed.
@@ -300,7 +301,7 @@ std::string in_numbers(const campaign::CycleTrace& cycle) {
   lines += format("\n  rejected of %d: %d infeasible, %d refused by the guard, %d left out (and %d not made)",
                   e.candidate_count, rejected(e, Rejection::kInfeasible), rejected(e, Rejection::kRefused),
                   rejected(e, Rejection::kLeftOut), e.left_out);
-  lines += held_up_text(cycle, e.held_up, "in our lane") + held_up_text(cycle, e.beside, "beside");
+  lines += blocking_text(cycle, e.blocking, "in our lane") + blocking_text(cycle, e.beside, "beside");
   if (e.dominating_track != kNobody)
     lines += format("\n  risk:      track %d (%s) at +%.1f s", e.dominating_track,
                     name_of(cycle, e.dominating_track).c_str(), 0.1 * (e.dominating_step + 1));
@@ -315,7 +316,7 @@ std::string in_numbers(const campaign::CycleTrace& cycle) {
   return lines;
 }
 
-std::vector<Passage> passages(const campaign::Trace& trace, double pre_roll_s) {
+std::vector<ReasonSpan> reason_spans(const campaign::Trace& trace, double pre_roll_s) {
   struct Run {
     Reason reason;
     std::size_t first;
@@ -337,7 +338,7 @@ std::vector<Passage> passages(const campaign::Trace& trace, double pre_roll_s) {
       joined.push_back(run);
     }
   }
-  std::vector<Passage> result;
+  std::vector<ReasonSpan> result;
   for (const Run& run : joined) {
     const campaign::CycleTrace& cycle = trace.cycles[run.first];
     const double from_s = since_entry_s(cycle, pre_roll_s);
@@ -347,8 +348,8 @@ std::vector<Passage> passages(const campaign::Trace& trace, double pre_roll_s) {
   return result;
 }
 
-void print_passages(std::ostream& out, const campaign::Trace& trace, double pre_roll_s) {
-  for (const Passage& passage : passages(trace, pre_roll_s)) {
+void print_reason_spans(std::ostream& out, const campaign::Trace& trace, double pre_roll_s) {
+  for (const ReasonSpan& passage : reason_spans(trace, pre_roll_s)) {
     out << format("%6.1f .. %5.1f s  ", passage.from_s, passage.to_s) << passage.words << '\n'
         << passage.numbers << "\n\n";
   }

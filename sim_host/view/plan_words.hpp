@@ -54,15 +54,15 @@ struct Reason {
 
 /// Plans in a row that have the same reason; words and numbers of the first of them. A reason that lasts for
 /// less than 0.3 s is passed over, unless the car stops for it.
-struct Passage {
+struct ReasonSpan {
   double from_s = 0.0;  ///< since the episode's start
   double to_s = 0.0;
   std::string words;
   std::string numbers;
 };
-[[nodiscard]] std::vector<Passage> passages(const campaign::Trace& trace, double pre_roll_s);
+[[nodiscard]] std::vector<ReasonSpan> reason_spans(const campaign::Trace& trace, double pre_roll_s);
 
-/// All passages, one after the other.
-void print_passages(std::ostream& out, const campaign::Trace& trace, double pre_roll_s);
+/// All reason_spans, one after the other.
+void print_reason_spans(std::ostream& out, const campaign::Trace& trace, double pre_roll_s);
 
 }  // namespace s4tp::view

@@ -199,7 +199,7 @@ ordered_json cycle_json(const CycleTrace& cycle, const Snapshot& now, Vec2 origi
   json["runner_up"] = costs(e.runner_up_cost);
   json["riskiest"] = named(e.dominating_track);
   json["numbers"] = in_numbers(cycle);
-  json["held_up_by"] = named(e.held_up.track);
+  json["blocked_by"] = named(e.blocking.track);
   return json;
 }
 
@@ -254,8 +254,8 @@ ordered_json replay_data(const Replayed& episode) {
   if (episode.result.trace) {
     const std::vector<CycleTrace>& traced = episode.result.trace->cycles;
     const bool explained = std::any_of(traced.begin(), traced.end(), explains);
-    const std::vector<Passage> story =
-        explained ? passages(*episode.result.trace, pre_roll_s) : std::vector<Passage>{};
+    const std::vector<ReasonSpan> story =
+        explained ? reason_spans(*episode.result.trace, pre_roll_s) : std::vector<ReasonSpan>{};
     std::size_t told = 0;
     for (const CycleTrace& cycle : traced) {
       const double start_s = static_cast<double>(cycle.record.plan.start_ms) / 1000.0 - pre_roll_s;

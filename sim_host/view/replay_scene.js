@@ -58,7 +58,7 @@ function makeReplay(data) {
     const touched = contact && (others.find((one) => one.id === contact.car) || ego);
     const moment = {
       road, goal, ego, others, haze: now.haze, way: frames.slice(0, index + 1).map((frame) => [frame.ego.x, frame.ego.y]),
-      plan: cycle.planLine, futures: cycle.futures, riskiest: cycle.riskiest, heldUpBy: cycle.held_up_by, seen: cycle.boxes,
+      plan: cycle.planLine, futures: cycle.futures, riskiest: cycle.riskiest, blockedBy: cycle.blocked_by, seen: cycle.boxes,
       touch: touched && [(touched.x + ego.x) / 2, (touched.y + ego.y) / 2],
     };
     return { moment, index, cycle: number };

@@ -1,7 +1,7 @@
 // The bird's-eye view of a moment, for replay and live view. Lengths in m, y up, around our car:
 //   road [{width, junction, line}], goal [x, y], ego, others [{id, x, y, heading, speed, length, width}], way, plan, failSafe,
 //   futures [{car, percent, yields, line}], candidates [{part 0 cheapest .. 1 dearest or null, chosen, line}],
-//   haze {grid, columns, cell, x, y, heading: of its lowest left corner}, riskiest, heldUpBy, picked: ids,
+//   haze {grid, columns, cell, x, y, heading: of its lowest left corner}, riskiest, blockedBy, picked: ids,
 //   seen [[x, y, heading, length, width]], touch [x, y]. All but road, ego and others may be missing.
 'use strict';
 
@@ -105,7 +105,7 @@ function makeScene(canvas) {
     for (const one of moment.others) {
       const frames = [];
       if (one.id === moment.riskiest) frames.push({ colour: `rgb(${style('--haze')})`, dash: [], by: 0.7 });
-      if (one.id === moment.heldUpBy) frames.push({ colour: style('--plan'), dash: [1, 0.6], by: 0.7 });
+      if (one.id === moment.blockedBy) frames.push({ colour: style('--plan'), dash: [1, 0.6], by: 0.7 });
       if (one.id === moment.picked) frames.push({ colour: style('--ink'), dash: [], by: 1.3 });
       box(one, style('--other'), frames);
     }
@@ -150,7 +150,7 @@ function makeScene(canvas) {
     // Who matters and is out of sight: where, and how far.
     draw.font = '600 12px system-ui, sans-serif';
     draw.textAlign = 'center';
-    for (const one of moment.others.filter(({ id }) => [moment.riskiest, moment.heldUpBy, moment.picked].includes(id))) {
+    for (const one of moment.others.filter(({ id }) => [moment.riskiest, moment.blockedBy, moment.picked].includes(id))) {
       const [x, y] = toPixels(one);
       if (x > 0 && x < width && y > 0 && y < height) continue;
       const dx = x - width / 2, dy = y - height / 2;

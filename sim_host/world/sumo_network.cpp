@@ -31,10 +31,10 @@ class Reader {
       read_connection(connection);
     }
     bridge_junctions(net);
-    for (const auto& [lane, ways] : ways_) {
-      for (const Way& way : ways) {
-        if (way.open) {
-          link_lanes(lane, first_usable(way));
+    for (const auto& [lane, connections] : connections_) {
+      for (const Connection& connection : connections) {
+        if (connection.open) {
+          link_lanes(lane, first_usable(connection));
         }
       }
     }
@@ -51,7 +51,7 @@ class Reader {
 
  private:
   /// A <connection>: lane names, `via` empty where it goes straight on to `to`.
-  struct Way {
+  struct Connection {
     std::string via;
     std::string to;
     bool open = true;  ///< to cars
@@ -128,29 +128,29 @@ class Reader {
     }
     const bool open = lane_of_.count(from_lane) != 0 && lane_of_.count(to_lane) != 0 && open_to_cars(node);
     if (open || from_lane.front() != ':') {
-      ways_[from_lane].push_back({via, to_lane, open});
+      connections_[from_lane].push_back({via, to_lane, open});
     } else {
       passed_over_[from_lane] = {via, to_lane};
     }
   }
 
-  /// Built without lanes inside junctions: they are put in, in the order in which requests count the ways.
+  /// Built without lanes inside junctions: they are put in, in the order in which requests count the connections.
   void bridge_junctions(const pugi::xml_node& net) {
     for (const pugi::xml_node node : net.children("junction")) {
       const std::string id = node.attribute("id").value();
       int number = 0;
       for (const std::string& from : words_in(node.attribute("incLanes").value())) {
-        const auto ways = ways_.find(from);
-        for (std::size_t i = 0; ways != ways_.end() && i < ways->second.size(); ++i) {
-          Way& way = ways->second[i];
+        const auto connections = connections_.find(from);
+        for (std::size_t i = 0; connections != connections_.end() && i < connections->second.size(); ++i) {
+          Connection& connection = connections->second[i];
           const std::string name = ":" + id + "_" + std::to_string(number++);
-          if (!way.via.empty() || from.front() == ':') {
+          if (!connection.via.empty() || from.front() == ':') {
             continue;
           }
           std::string inside;
-          if (way.open) {
+          if (connection.open) {
             const LaneId before = lane_of_.at(from);
-            const LaneId after = lane_of_.at(way.to);
+            const LaneId after = lane_of_.at(connection.to);
             if (std::optional<NetworkLane> bridge = bridge_between(lane(before), lane(after))) {
               inside = name + "_0";
               bridge->name = inside;
@@ -160,8 +160,8 @@ class Reader {
               }
               lane_of_[inside] = static_cast<LaneId>(network_.lanes.size());
               network_.lanes.push_back(*std::move(bridge));
-              ways_[inside].push_back({"", way.to, true});
-              way.via = inside;
+              connections_[inside].push_back({"", connection.to, true});
+              connection.via = inside;
             }
           }
           bridges_[id].push_back(inside);
@@ -171,8 +171,8 @@ class Reader {
   }
 
   /// Where a way leads first: its junction lane, or what comes after it if that was passed over.
-  std::string first_usable(const Way& way) const {
-    Way at = way;
+  std::string first_usable(const Connection& connection) const {
+    Connection at = connection;
     for (std::size_t hops = 0; !at.via.empty() && hops <= known_.size(); ++hops) {
       if (lane_of_.count(at.via) != 0) {
         return at.via;
@@ -291,10 +291,10 @@ class Reader {
   Network network_;
   std::set<std::string> known_;  ///< every lane's name, those cars may not use too
   std::map<std::string, LaneId> lane_of_;
-  std::map<std::string, std::vector<Way>> ways_;
+  std::map<std::string, std::vector<Connection>> connections_;
   std::map<std::string, int> priority_;                      ///< of an edge; SUMO's -1: not said
   std::map<std::string, std::vector<std::string>> bridges_;  ///< lanes put into a junction
-  std::map<std::string, Way> passed_over_;
+  std::map<std::string, Connection> passed_over_;
 };
 
 }  // namespace

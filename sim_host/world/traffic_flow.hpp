@@ -14,7 +14,7 @@
 namespace s4tp::world {
 
 /// A route that flows in this episode.
-struct Way {
+struct FlowRoute {
   RouteGuide guide;
   std::string last_edge;
   TrafficRoute route;
@@ -32,7 +32,7 @@ struct Departure {
 };
 
 struct FlowPlan {
-  std::vector<Way> ways;
+  std::vector<FlowRoute> ways;
   std::vector<Departure> departures;  ///< by time
 };
 

@@ -75,25 +75,25 @@ struct Driven {
   std::unique_ptr<test::RefinementScene> scene;
   Motion motion;  ///< an exact one of the model
   FieldAlong field;
-  double felt = 0.0;  ///< what the field costs along it
+  double field_cost = 0.0;  ///< what the field costs along it
 };
 
-/// \return null where nobody is felt
+/// \return null where nobody is in the field
 std::unique_ptr<Driven> in_a_field(unsigned seed) {
   auto made = std::make_unique<Driven>();
   made->scene = test::random_refinement(seed);
   if (made->scene == nullptr) return nullptr;
   made->motion = driven(made->scene->start, {}, 0.0F);
   FieldScratch scratch;
-  made->felt = static_cast<double>(feel_field(made->scene->surroundings(), made->scene->problem,
-                                              origin_of(*made->scene), made->motion, made->scene->parameters,
-                                              scratch, made->field));
-  return made->felt > 0.1 ? std::move(made) : nullptr;
+  made->field_cost = static_cast<double>(evaluate_field(made->scene->surroundings(), made->scene->problem,
+                                                        origin_of(*made->scene), made->motion,
+                                                        made->scene->parameters, scratch, made->field));
+  return made->field_cost > 0.1 ? std::move(made) : nullptr;
 }
 
 }  // namespace
 
-// CAND-019: what is felt at every third step, against differences of it by each number of the state there.
+// CAND-019: the field at every third step, against differences of it by each number of the state there.
 TEST(RefinementField, KnotSlopesAgreeWithDifferences) {
   const unsigned first = first_seed();
   std::vector<double> errors;
@@ -119,11 +119,11 @@ TEST(RefinementField, KnotSlopesAgreeWithDifferences) {
         if (n == 2) state.heading_rad += by;
         if (n == 3) state.speed_mps = max(state.speed_mps + by, 0.0F);
         if (n == 4) state.curvature_1pm += by;
-        FieldAlong felt;
+        FieldAlong along;
         FieldScratch scratch;
-        (void)feel_field(scene.surroundings(), scene.problem, origin_of(scene), moved, scene.parameters,
-                         scratch, felt);
-        return felt.knots[k].risk;
+        (void)evaluate_field(scene.surroundings(), scene.problem, origin_of(scene), moved, scene.parameters,
+                             scratch, along);
+        return along.knots[k].risk;
       };
       const float difference = (risk_at(steps[n]) - risk_at(-steps[n])) / (2.0F * steps[n]);
       errors.push_back(static_cast<double>(std::abs(slopes[n] - difference) /
@@ -149,7 +149,7 @@ TEST(RefinementField, SlopesAgreeWithDifferencesThroughTheWholeStage) {
     test::RefinementScene& scene = *made->scene;
     scene.problem.weights.behind = 0.0F;
     for (RefinementStep& step : scene.problem.steps)
-      step.across_high_m = 0.5F;  // in the lane: felt across, too
+      step.across_high_m = 0.5F;  // in the lane: evaluated across, too
     std::mt19937 random(seed);
     MotionInput direction[kHorizonSteps];
     const float phase = static_cast<float>(random() % 628U) * 0.01F;
@@ -159,11 +159,11 @@ TEST(RefinementField, SlopesAgreeWithDifferencesThroughTheWholeStage) {
     }
     const auto cost_at = [&](float share) {
       const Motion moved = driven(made->motion, direction, share);
-      FieldAlong felt;
+      FieldAlong along;
       FieldScratch scratch;
       return static_cast<double>(judge_motion(scene.problem, moved).own) +
-             static_cast<double>(feel_field(scene.surroundings(), scene.problem, origin_of(scene), moved,
-                                            scene.parameters, scratch, felt));
+             static_cast<double>(evaluate_field(scene.surroundings(), scene.problem, origin_of(scene), moved,
+                                                scene.parameters, scratch, along));
     };
     constexpr float kShare = 0.01F;
     const double difference = (cost_at(kShare) - cost_at(-kShare)) / (2.0 * static_cast<double>(kShare));
@@ -171,7 +171,7 @@ TEST(RefinementField, SlopesAgreeWithDifferencesThroughTheWholeStage) {
     put_field(made->field, made->motion, 0.5F, scene.parameters, scene.problem);
     const double slope = slope_along(scene.problem, made->motion, direction);
     errors.push_back(std::abs(slope - difference) /
-                     (std::abs(slope) + std::abs(without) + 0.05 * made->felt));
+                     (std::abs(slope) + std::abs(without) + 0.05 * made->field_cost));
     field_shares.push_back(std::abs(slope - without) / (std::abs(slope) + std::abs(without) + 1e-9));
   }
   std::cout << "error of slopes: median " << at(errors, 0.5) << ", p95 " << at(errors, 0.95)
@@ -181,7 +181,7 @@ TEST(RefinementField, SlopesAgreeWithDifferencesThroughTheWholeStage) {
   EXPECT_GT(at(field_shares, 0.5), 0.1);
 }
 
-// Where it was felt, the residuals cost what the field does, but for R_0.
+// Where it was evaluated, the residuals cost what the field does, but for R_0.
 TEST(RefinementField, ResidualsCostWhatIsFelt) {
   const unsigned first = first_seed();
   for (unsigned seed = first, seen = 0; seen < 100; ++seed) {
@@ -189,14 +189,14 @@ TEST(RefinementField, ResidualsCostWhatIsFelt) {
     if (made == nullptr) continue;
     ++seen;
     put_field(made->field, made->motion, 0.5F, made->scene->parameters, made->scene->problem);
-    EXPECT_NEAR(static_cast<double>(judge_motion(made->scene->problem, made->motion).field), made->felt,
-                1e-3 * (made->felt + 1.0))
+    EXPECT_NEAR(static_cast<double>(judge_motion(made->scene->problem, made->motion).field), made->field_cost,
+                1e-3 * (made->field_cost + 1.0))
         << seed;
   }
 }
 
-// What the optimizer feels is near the exact risk, also where somebody drives beside us and the ramp at our
-// own axle takes a tenth of him away; and what is felt at every third step is near what is felt at all.
+// The optimizer's field is near the exact risk, also where somebody drives beside us and the ramp at our
+// own axle takes a tenth of him away; and the field at every third step is near that at every step.
 TEST(RefinementField, SmoothIsNearExact) {
   const unsigned first = first_seed();
   std::vector<double> smooth_errors;
@@ -205,20 +205,21 @@ TEST(RefinementField, SmoothIsNearExact) {
     const auto made = in_a_field(seed);
     if (made == nullptr) continue;
     const test::RefinementScene& scene = *made->scene;
-    FieldAlong felt;
+    FieldAlong along;
     FieldScratch scratch;
-    const double by_knots = static_cast<double>(feel_field(
-        scene.surroundings(), scene.problem, origin_of(scene), scene.start, scene.parameters, scratch, felt));
+    const double by_knots =
+        static_cast<double>(evaluate_field(scene.surroundings(), scene.problem, origin_of(scene), scene.start,
+                                           scene.parameters, scratch, along));
     SmoothRisk risks[kHorizonSteps];
-    smooth_risk(scene.scene, scene.prediction, scene.keep_going, scene.trajectory, scene.parameters, 0, 1,
-                risks);
+    smooth_risk(scene.scene, scene.prediction, scene.constant_velocity, scene.trajectory, scene.parameters, 0,
+                1, risks);
     double smooth = 0.0;
     for (const SmoothRisk& risk : risks) smooth += static_cast<double>(kStepS * risk.value);
     smooth *= static_cast<double>(scene.parameters.scoring.risk);
     DrivableArea nowhere;
     RiskProfile profile;
-    exact_risk(scene.scene, nowhere, scene.prediction, scene.keep_going, scene.trajectory, scene.parameters,
-               profile);
+    exact_risk(scene.scene, nowhere, scene.prediction, scene.constant_velocity, scene.trajectory,
+               scene.parameters, profile);
     const double exact =
         static_cast<double>(scene.parameters.scoring.risk * risk_integral(profile, scene.parameters));
     smooth_errors.push_back(std::abs(smooth - exact) / (exact + 0.1));
@@ -232,8 +233,8 @@ TEST(RefinementField, SmoothIsNearExact) {
   EXPECT_LE(at(knot_errors, 0.5), 0.08);
 }
 
-// CAND-020: in a field that is felt at most three times, refining lowers cost and field together, by the
-// exact risk too: of those that found anything most are less felt.
+// CAND-020: in a field that is evaluated at most three times, refining lowers cost and field together, by the
+// exact risk too: of those that found anything most have less risk.
 TEST(RefinementField, LowersTheExactRisk) {
   const unsigned first = first_seed();
   int improved = 0;
@@ -249,26 +250,26 @@ TEST(RefinementField, LowersTheExactRisk) {
     const auto exact = [&](const Trajectory& trajectory) {
       DrivableArea nowhere;
       RiskProfile profile;
-      exact_risk(scene.scene, nowhere, scene.prediction, scene.keep_going, trajectory, scene.parameters,
-                 profile);
+      exact_risk(scene.scene, nowhere, scene.prediction, scene.constant_velocity, trajectory,
+                 scene.parameters, profile);
       return static_cast<double>(scene.parameters.scoring.risk * risk_integral(profile, scene.parameters));
     };
     Trajectory refined;
     const RefinementResult result =
         std::make_unique<Optimizer>()->refine(scene.line, scene.candidate.start_s_m, scene.surroundings(),
                                               scene.parameters, {16, 3}, scene.trajectory, refined);
-    EXPECT_LE(result.feelings, 3) << seed;
+    EXPECT_LE(result.evaluations, 3) << seed;
     EXPECT_LE(result.passes, 16) << seed;
     if (!result.improved) continue;
     ++improved;
-    const double felt_before = exact(scene.trajectory);
-    const double felt_after = exact(refined);
-    before += felt_before;
-    after += felt_after;
-    lower += felt_after < felt_before ? 1 : 0;
-    cheaper += felt_after - felt_before + static_cast<double>(result.own_after - result.own_before) < 0.0;
+    const double field_before = exact(scene.trajectory);
+    const double field_after = exact(refined);
+    before += field_before;
+    after += field_after;
+    lower += field_after < field_before ? 1 : 0;
+    cheaper += field_after - field_before + static_cast<double>(result.own_after - result.own_before) < 0.0;
   }
-  std::cout << improved << " of 200 improved, " << lower << " less felt, " << cheaper
+  std::cout << improved << " of 200 improved, " << lower << " less risk, " << cheaper
             << " cheaper by the exact risk; the field's cost " << before << " -> " << after << '\n';
   EXPECT_GT(improved, 150);
   EXPECT_GT(cheaper, 0.95 * improved);

@@ -13,7 +13,7 @@ namespace s4tp {
 namespace {
 
 constexpr int kPasses = 16;
-constexpr int kFeelings = 3;
+constexpr int kEvaluations = 3;
 
 std::unique_ptr<test::RefinementScene> arbitrary_scene() {
   const unsigned seed = *rc::gen::inRange(0U, 1000000000U);
@@ -42,20 +42,20 @@ bool same(const Trajectory& a, const Trajectory& b) {
 TEST(Refinement, IsNeverWorseThanItsStart) {
   EXPECT_TRUE(rc::check([] {
     const auto scene = arbitrary_scene();
-    for (const int feelings : {0, 1, kFeelings}) {
+    for (const int evaluations : {0, 1, kEvaluations}) {
       float before = INFINITY;
       for (const int passes : {0, 1, 2, 8, kPasses}) {
         RefinementResult result;
-        const Trajectory refined = refined_of(*scene, {passes, feelings}, result);
+        const Trajectory refined = refined_of(*scene, {passes, evaluations}, result);
         RC_ASSERT(result.passes <= passes);
-        RC_ASSERT(result.feelings <= feelings);
+        RC_ASSERT(result.evaluations <= evaluations);
         RC_ASSERT(6 * result.passes + result.failed_trials <= 6 * passes + 3);
         const float after = result.own_after + result.field_after;
         RC_ASSERT(after <= result.own_before + result.field_before);
         if (!result.improved) RC_ASSERT(same(refined, scene->trajectory));
         RC_ASSERT(std::memcmp(&refined.points[0], &scene->trajectory.points[0], sizeof(TrajectoryPoint)) ==
                   0);
-        if (feelings == 0 && passes > 0) RC_ASSERT(after <= before);
+        if (evaluations == 0 && passes > 0) RC_ASSERT(after <= before);
         before = passes > 0 ? after : before;
       }
     }
@@ -70,7 +70,7 @@ TEST(Refinement, KeepsItsBounds) {
   EXPECT_TRUE(rc::check([&] {
     const auto scene = arbitrary_scene();
     RefinementResult result;
-    const Trajectory refined = refined_of(*scene, {kPasses, kFeelings}, result);
+    const Trajectory refined = refined_of(*scene, {kPasses, kEvaluations}, result);
     improved += result.improved ? 1 : 0;
     RC_ASSERT(feasible(refined, scene->parameters));
     for (int i = 1; i < kTrajectoryPoints; ++i) {
@@ -106,7 +106,7 @@ TEST(Refinement, DropsWhatCannotBeDriven) {
     const auto scene = test::random_refinement(seed);
     ASSERT_NE(scene, nullptr) << seed;
     RefinementResult result;
-    const Trajectory refined = refined_of(*scene, {kPasses, kFeelings}, result);
+    const Trajectory refined = refined_of(*scene, {kPasses, kEvaluations}, result);
     EXPECT_FALSE(result.improved) << seed;
     EXPECT_TRUE(same(refined, scene->trajectory)) << seed;
   }
@@ -139,7 +139,7 @@ TEST(Refinement, AStopIsAFixedPoint) {
       point.acceleration_mps2 = 0.0F;
     }
     RefinementResult result;
-    const Trajectory refined = refined_of(*scene, {kPasses, kFeelings}, result);
+    const Trajectory refined = refined_of(*scene, {kPasses, kEvaluations}, result);
     RC_ASSERT(same(refined, scene->trajectory));
   }));
 }
@@ -152,7 +152,7 @@ TEST(Refinement, AStopStaysWhereItIs) {
     const TrajectoryPoint& end = scene->trajectory.points[kHorizonSteps];
     RC_PRE(end.speed_mps <= 0.0F);
     RefinementResult result;
-    const Trajectory refined = refined_of(*scene, {kPasses, kFeelings}, result);
+    const Trajectory refined = refined_of(*scene, {kPasses, kEvaluations}, result);
     const TrajectoryPoint& there = refined.points[kHorizonSteps];
     RC_ASSERT(there.speed_mps < 0.1F);
     RC_ASSERT(std::abs(to_local(end.rear_axle, position(there.rear_axle)).x_m) < 0.04F);

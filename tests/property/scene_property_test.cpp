@@ -143,7 +143,7 @@ void check_scene(const Scene& scene) {
   }
 }
 
-void check_predictions(const Scene& scene, const PredictionSet& set, const KinematicSet& keep_going) {
+void check_predictions(const Scene& scene, const PredictionSet& set, const KinematicSet& constant_velocity) {
   RC_ASSERT(set.agents.size() == scene.watched);
   for (const AgentPrediction& agent : set.agents) {
     float sum = 0.0F;
@@ -155,8 +155,8 @@ void check_predictions(const Scene& scene, const PredictionSet& set, const Kinem
     }
     RC_ASSERT(std::fabs(sum - 1.0F) < 1e-4F);
   }
-  RC_ASSERT(keep_going.agents.size() == scene.agents.size());
-  for (const Mode& mode : keep_going.agents) {
+  RC_ASSERT(constant_velocity.agents.size() == scene.agents.size());
+  for (const Mode& mode : constant_velocity.agents) {
     for (const Pose& pose : mode.steps) check_finite(pose);
   }
 }
@@ -165,7 +165,7 @@ void check_predictions(const Scene& scene, const PredictionSet& set, const Kinem
 struct Outcome {
   Scene scene;
   PredictionSet set;
-  KinematicSet keep_going;
+  KinematicSet constant_velocity;
 };
 
 void run_garbage(unsigned seed, Outcome& run) {
@@ -193,11 +193,11 @@ void run_garbage(unsigned seed, Outcome& run) {
     check_scene(run.scene);
     predictor.encode(run.scene, parameters, now_ms + 100);
     predictor.decode(nullptr, kMaxPredictionWork, run.set);
-    predictor.keep_going(run.keep_going);
-    check_predictions(run.scene, run.set, run.keep_going);
+    predictor.constant_velocity(run.constant_velocity);
+    check_predictions(run.scene, run.set, run.constant_velocity);
     const Trajectory plan = test::plan_of(ego, uniform(random, -4.0F, 2.0F), uniform(random, -4.0F, 4.0F));
     predictor.decode(&plan, kMaxPredictionWork, run.set);
-    check_predictions(run.scene, run.set, run.keep_going);
+    check_predictions(run.scene, run.set, run.constant_velocity);
     RC_ASSERT(predictor.work() <= (2 * kMaxAgents * 2 * kPathsPerAgent + kMaxTracks) * kHorizonSteps);
   }
 }

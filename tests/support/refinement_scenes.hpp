@@ -21,11 +21,13 @@ struct RefinementScene {
   Candidate candidate;
   Trajectory trajectory;
   PredictionSet prediction;
-  KinematicSet keep_going;
+  KinematicSet constant_velocity;
   RefinementProblem problem;
   Motion start;
 
-  [[nodiscard]] Surroundings surroundings() const { return {scene, prediction, prediction, keep_going}; }
+  [[nodiscard]] Surroundings surroundings() const {
+    return {scene, prediction, prediction, constant_velocity};
+  }
   void build() {
     build_refinement(line, candidate.start_s_m, surroundings(), parameters, trajectory, problem);
     reference_motion(problem, start);
@@ -75,7 +77,7 @@ inline std::unique_ptr<RefinementScene> random_refinement(unsigned seed) {
     const float left_m = draw(2.1F, 4.0F) * (random() % 2U == 0U ? 1.0F : -1.0F);
     const Agent& agent = add_vehicle(made->scene, made->map, path, start_s_m + ahead_m, draw(0.0F, 12.0F),
                                      random() % 4U == 0U ? 0.0F : left_m);
-    (void)made->keep_going.agents.push(steady_future(made->map, agent));
+    (void)made->constant_velocity.agents.push(steady_future(made->map, agent));
     AgentPrediction predicted;
     predicted.agent = static_cast<std::uint8_t>(i);
     (void)predicted.modes.push(steady_future(made->map, agent));

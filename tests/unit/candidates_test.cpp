@@ -367,7 +367,7 @@ TEST(Candidates, SettlesBesideAGap) {
     add_way(scene, map, path_of(map, {0}));
     add_way(scene, map, path_of(map, {1}), Manoeuvre::kLeft);
     TrajectoryPoint state = state_on(map, scene.ego_paths[0].path, 20.0F, 13.0F);
-    GapAim aim{1, 30.0F, 8.0F};
+    MergeTarget aim{1, 30.0F, 8.0F};
     float leader_s_m = 70.0F;
     float hardest_mps2 = 0.0F;
     for (int i = 0; i < 200; ++i) {
@@ -491,9 +491,9 @@ TEST(Candidates, ALongQuinticSwingsOut) {
   const ReferenceCoordinates where = locate_on(line, position(roads.start.rear_axle), 50.0F);
   Candidate candidate;
   shape_lateral(line, roads.start, where, 14.0F, candidate);
-  EXPECT_FALSE(swings_wide(candidate));
+  EXPECT_FALSE(overshoots(candidate));
   shape_lateral(line, roads.start, where, 40.0F, candidate);
-  EXPECT_TRUE(swings_wide(candidate));
+  EXPECT_TRUE(overshoots(candidate));
 }
 
 // CAND-017 However our wheels and we are turned when we set off: no candidate swings out, some are steered.
@@ -507,7 +507,7 @@ TEST(Candidates, NobodySwingsOutToTheOtherSide) {
         roads.start.rear_axle.heading_rad = heading_rad;
         put_ego(roads.scene, roads.start);
         for (const Candidate& candidate : generate(roads.scene, roads.start)) {
-          EXPECT_TRUE(candidate.steered || !swings_wide(candidate));
+          EXPECT_TRUE(candidate.steered || !overshoots(candidate));
           steered += candidate.steered ? 1 : 0;
         }
       }

@@ -91,7 +91,7 @@ TEST(Optimizer, MakesRoomForWhoIsNear) {
   const auto scene = braking(0.0F);
   const LanePath path = test::path_of(scene->map, {0});
   const Agent& agent = test::add_vehicle(scene->scene, scene->map, path, 53.0F, 13.0F, 2.25F);
-  (void)scene->keep_going.agents.push(test::steady_future(scene->map, agent));
+  (void)scene->constant_velocity.agents.push(test::steady_future(scene->map, agent));
   AgentPrediction predicted;
   (void)predicted.modes.push(test::steady_future(scene->map, agent));
   (void)scene->prediction.agents.push(predicted);
@@ -108,7 +108,7 @@ TEST(Optimizer, KeepsItsDistance) {
   const LanePath path = test::path_of(scene->map, {0});
   const float front_m = scene->trajectory.points[kHorizonSteps].rear_axle.x_m + 4.0F;
   const Agent& agent = test::add_vehicle(scene->scene, scene->map, path, front_m + 0.35F + 2.5F, 0.0F);
-  (void)scene->keep_going.agents.push(test::steady_future(scene->map, agent));
+  (void)scene->constant_velocity.agents.push(test::steady_future(scene->map, agent));
   AgentPrediction predicted;
   (void)predicted.modes.push(test::steady_future(scene->map, agent));
   (void)scene->prediction.agents.push(predicted);

@@ -34,10 +34,10 @@ void add_track(campaign::CycleTrace& cycle, std::uint8_t id, Pose centre, float 
 
 void hold_up(campaign::CycleTrace& cycle, safety::Cause cause, std::uint8_t track, float from_s = 0.0F,
              float needed_s = 0.0F) {
-  HeldUp& held_up = cycle.record.explanation.held_up;
-  held_up.verdict = {cause, 0, from_s, needed_s};
-  held_up.track = track;
-  held_up.way_m = 40.0F;
+  BlockingReason& blocking = cycle.record.explanation.blocking;
+  blocking.verdict = {cause, 0, from_s, needed_s};
+  blocking.track = track;
+  blocking.way_m = 40.0F;
 }
 
 constexpr float kFromLeft = -1.57F;  // it drives to our right
@@ -111,7 +111,7 @@ TEST(PlanWords, EveryCauseHasWords) {
 TEST(PlanWords, HardlyFurtherIsNoReason) {
   campaign::CycleTrace cycle = plan(10.0F, 10.0F);
   hold_up(cycle, safety::Cause::kRoadEnd, 255);
-  cycle.record.explanation.held_up.way_m = 32.0F;
+  cycle.record.explanation.blocking.way_m = 32.0F;
   EXPECT_EQ(in_words(cycle), "Driving on.");
 }
 
@@ -205,7 +205,7 @@ TEST(PlanWords, PassagesJoinPlansWithTheSameReason) {
     const bool waits = i == 2 || i >= 5;
     trace.cycles.push_back(plan(waits ? 0.0F : 10.0F, waits ? 0.0F : 10.0F, 2.0 + 0.1 * i));
   }
-  const std::vector<Passage> found = passages(trace, 2.0);
+  const std::vector<ReasonSpan> found = reason_spans(trace, 2.0);
   ASSERT_EQ(found.size(), 2U);
   EXPECT_EQ(found[0].words, "Driving on.");
   EXPECT_NEAR(found[0].from_s, 0.0, 1e-6);
@@ -213,7 +213,7 @@ TEST(PlanWords, PassagesJoinPlansWithTheSameReason) {
   EXPECT_EQ(found[1].words, "Waiting.");
   EXPECT_NEAR(found[1].to_s, 0.9, 1e-6);
   std::ostringstream printed;
-  print_passages(printed, trace, 2.0);
+  print_reason_spans(printed, trace, 2.0);
   EXPECT_NE(printed.str().find("0.5 ..   0.9 s  Waiting."), std::string::npos) << printed.str();
 }
 

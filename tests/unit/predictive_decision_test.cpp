@@ -19,7 +19,7 @@ struct Road {
         ego(test::ego_at(20.0F, 0.0F, 0.0F, 10.0F)),
         scene(test::scene_of(map, ego, tracks)) {
     predictor.encode(scene, parameters, scene.time_ms);
-    predictor.keep_going(others);
+    predictor.constant_velocity(others);
     build_reference(map, scene.ego_paths[0].path, 20.0F, 10.0F, parameters, line);
   }
   /// Every vehicle as "keeps doing what it does", which is easy to work out by hand.

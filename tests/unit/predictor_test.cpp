@@ -16,7 +16,7 @@ struct Predicted {
   Scene scene;
   Predictor predictor;
   PredictionSet set;
-  KinematicSet keep_going;
+  KinematicSet constant_velocity;
 
   const AgentPrediction& of(int id) const {
     for (const AgentPrediction& agent : set.agents) {
@@ -34,7 +34,7 @@ void predict(const LaneMap& map, const EgoState& ego, const std::vector<Track>& 
   result.scene = test::scene_of(map, ego, tracks, parameters, 1000);
   result.predictor.encode(result.scene, parameters, 1000 + lead_ms);
   result.predictor.decode(plan, kMaxPredictionWork, result.set);
-  result.predictor.keep_going(result.keep_going);
+  result.predictor.constant_velocity(result.constant_velocity);
 }
 
 constexpr int kLast = kHorizonSteps - 1;
@@ -91,8 +91,8 @@ TEST(Predictor, CountsFromPlanStart) {
   predict(map, test::ego_at(10.0F, 0.0F, 0.0F, 5.0F), {test::car(1, 100.0F, test::kLaneWidthM, 0.0F, 13.0F)},
           nullptr, result);
   EXPECT_NEAR(result.of(1).modes[0].steps[0].x_m, 102.6F, 0.02F);
-  EXPECT_NEAR(result.keep_going.agents[0].steps[0].x_m, 102.6F, 1e-3F);
-  EXPECT_NEAR(result.keep_going.agents[0].steps[kLast].x_m, 100.0F + 13.0F * 3.1F, 1e-2F);
+  EXPECT_NEAR(result.constant_velocity.agents[0].steps[0].x_m, 102.6F, 1e-3F);
+  EXPECT_NEAR(result.constant_velocity.agents[0].steps[kLast].x_m, 100.0F + 13.0F * 3.1F, 1e-2F);
 }
 
 // A car at 14 m/s comes up behind one at 6 m/s, 30 m ahead: it ends slower, and behind.
@@ -190,8 +190,8 @@ TEST(Predictor, OffTheMapTheArcGoesOn) {
   track.yaw_rate_radps = 0.5F;
   Predicted result;
   predict(map, test::ego_at(10.0F, 0.0F, 0.0F, 5.0F), {track}, nullptr, result, 0);
-  EXPECT_NEAR(result.keep_going.agents[0].steps[kLast].heading_rad, 1.5F, 1e-3F);
-  EXPECT_NEAR(result.keep_going.agents[0].steps[kLast].x_m, 20.0F * std::sin(1.5F), 0.05F);
+  EXPECT_NEAR(result.constant_velocity.agents[0].steps[kLast].heading_rad, 1.5F, 1e-3F);
+  EXPECT_NEAR(result.constant_velocity.agents[0].steps[kLast].x_m, 20.0F * std::sin(1.5F), 0.05F);
   ASSERT_EQ(result.of(1).modes.size(), 1);
   EXPECT_FLOAT_EQ(result.of(1).modes[0].probability, 1.0F);
 }
@@ -205,17 +205,17 @@ TEST(Predictor, WhoStandsWithoutReasonGoesOnStanding) {
   EXPECT_NEAR(result.of(1).modes[0].steps[kLast].x_m, 60.0F, 0.01F);
 }
 
-// Half way through a lane change at 12 m/s: it ends on the new lane's centre, and keep_going says so too.
+// Half way through a lane change at 12 m/s: it ends on the new lane's centre, and constant_velocity says so too.
 TEST(Predictor, FinishesALaneChange) {
   const LaneMap map = test::straight_road(2, 300.0F, 12.0F);
   Predicted result;
   predict(map, test::ego_at(10.0F, 0.0F, 0.0F, 5.0F), {test::car(1, 60.0F, 1.2F, 0.08F, 12.0F)}, nullptr,
           result);
   EXPECT_NEAR(result.of(1).modes[0].steps[kLast].y_m, test::kLaneWidthM, 0.1F);
-  EXPECT_NEAR(result.keep_going.agents[0].steps[kLast].y_m, test::kLaneWidthM, 0.1F);
+  EXPECT_NEAR(result.constant_velocity.agents[0].steps[kLast].y_m, test::kLaneWidthM, 0.1F);
 }
 
-// Work is counted in agent-mode-steps: one vehicle, one mode, 30 steps; keep_going the same again.
+// Work is counted in agent-mode-steps: one vehicle, one mode, 30 steps; constant_velocity the same again.
 TEST(Predictor, CountsItsWork) {
   const LaneMap map = test::straight_road(1, 200.0F);
   Predicted result;

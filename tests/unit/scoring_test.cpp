@@ -18,7 +18,7 @@ constexpr float kMissed = 480.0F;  // 80 times scoring.lane_route
 struct Road {
   LaneMap map = straight_road(2, 300.0F, 10.0F);
   Scene scene;
-  Outlook outlook;
+  LaneCostToGo cost_to_go;
   Parameters parameters;
 
   explicit Road(float route_end_m) {
@@ -27,7 +27,7 @@ struct Road {
     own.route_end_s_m = route_end_m;
     (void)add_way(scene, map, path_of(map, {1}), Manoeuvre::kLeft);
     put_ego(scene, state_on(map, scene.ego_paths[0].path, 40.0F, 5.0F));
-    outlook.look(scene, {}, 0.0F, parameters);
+    cost_to_go.look(scene, {}, 0.0F, parameters);
   }
   /// Cost of the lane of 3 s at 5 m/s: along our lane, or over to the left one by a quintic of 15 m.
   [[nodiscard]] float lane_cost(bool changes) const {
@@ -40,7 +40,7 @@ struct Road {
       if (changes) point.rear_axle.y_m += 3.2F * u * u * u * (10.0F - 15.0F * u + 6.0F * u * u);
     }
     const int path = changes ? 1 : 0;
-    return score_motion(scene, outlook, path, 40.0F, trajectory, false, false, parameters).lane;
+    return score_motion(scene, cost_to_go, path, 40.0F, trajectory, false, false, parameters).lane;
   }
 };
 

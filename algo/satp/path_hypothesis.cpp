@@ -1,4 +1,4 @@
-#include "algo/satp/way.hpp"
+#include "algo/satp/path_hypothesis.hpp"
 
 #include "algo/core/inline.hpp"
 #include "algo/satp/car_following.hpp"
@@ -41,35 +41,38 @@ float turn_speed(const Lane& lane, float length_m, float over_limit) {
   return min(limit_mps, sqrt(kLateralMps2 / curvature_1pm));
 }
 
-void read_slow_stretch(const LaneMap& map, const LanePath& path, float limit_mps, Way& way) {
-  const float over_limit = max(way.speed_mps / max(limit_mps, 1.0F), 1.0F);  // who speeds goes on speeding
-  way.slow_mps = way.desired_mps;
-  way.after_mps = way.desired_mps;
+void read_slow_stretch(const LaneMap& map, const LanePath& path, float limit_mps,
+                       PathHypothesis& hypothesis) {
+  const float over_limit =
+      max(hypothesis.speed_mps / max(limit_mps, 1.0F), 1.0F);  // who speeds goes on speeding
+  hypothesis.slow_mps = hypothesis.desired_mps;
+  hypothesis.after_mps = hypothesis.desired_mps;
   for (const PathLane& part : path.lanes) {
-    way.after_mps = max(way.after_mps, map.lanes[part.lane].speed_limit_mps * over_limit);
+    hypothesis.after_mps = max(hypothesis.after_mps, map.lanes[part.lane].speed_limit_mps * over_limit);
   }
   float most_binding_mps = 1e3F;
   for (int i = 0; i < path.lanes.size(); ++i) {
     const float from_s_m = path.lanes[i].start_s_m;
     const float to_s_m = i + 1 < path.lanes.size() ? path.lanes[i + 1].start_s_m : path.length_m;
-    if (to_s_m < way.start_s_m) continue;
-    if (from_s_m > way.start_s_m + kSlowAheadM) break;
+    if (to_s_m < hypothesis.start_s_m) continue;
+    if (from_s_m > hypothesis.start_s_m + kSlowAheadM) break;
     const float turn_mps =
         max(turn_speed(map.lanes[path.lanes[i].lane], to_s_m - from_s_m, over_limit), kSlowestTurnMps);
     // Who is in the turn already has chosen his speed for it.
-    const float speed_mps = from_s_m <= way.start_s_m ? max(turn_mps, way.speed_mps) : turn_mps;
-    if (turn_mps >= way.after_mps) continue;
-    const float distance_m = max(from_s_m - way.start_s_m, 0.0F);
+    const float speed_mps = from_s_m <= hypothesis.start_s_m ? max(turn_mps, hypothesis.speed_mps) : turn_mps;
+    if (turn_mps >= hypothesis.after_mps) continue;
+    const float distance_m = max(from_s_m - hypothesis.start_s_m, 0.0F);
     const float now_mps = sqrt(square(speed_mps) + 2.0F * kSlowDownMps2 * distance_m);
     if (now_mps >= most_binding_mps) continue;
     most_binding_mps = now_mps;
-    way.slow_from_s_m = from_s_m;
-    way.slow_to_s_m = to_s_m;
-    way.slow_mps = speed_mps;
+    hypothesis.slow_from_s_m = from_s_m;
+    hypothesis.slow_to_s_m = to_s_m;
+    hypothesis.slow_mps = speed_mps;
   }
 }
 
-void read_leader(const Scene& scene, int index, const LanePath& path, float s_m, float lead_s, Way& way) {
+void read_leader(const Scene& scene, int index, const LanePath& path, float s_m, float lead_s,
+                 PathHypothesis& hypothesis) {
   const Agent& agent = scene.agents[index];
   float nearest_m = 1e6F;
   for (int other = 0; other < scene.agents.size(); ++other) {
@@ -80,10 +83,10 @@ void read_leader(const Scene& scene, int index, const LanePath& path, float s_m,
     const float gap_m = other_s_m - s_m - 0.5F * (agent.track.length_m + ahead.track.length_m);
     if (other_s_m <= s_m || gap_m >= nearest_m) continue;
     nearest_m = gap_m;
-    way.follows = true;
-    way.leader_mps = ahead.track.speed_mps;
-    way.leader_rear_s_m = other_s_m - 0.5F * ahead.track.length_m + ahead.track.speed_mps * lead_s;
-    way.headway_s = kept_headway_s(gap_m, agent.track.speed_mps);
+    hypothesis.follows = true;
+    hypothesis.leader_mps = ahead.track.speed_mps;
+    hypothesis.leader_rear_s_m = other_s_m - 0.5F * ahead.track.length_m + ahead.track.speed_mps * lead_s;
+    hypothesis.headway_s = kept_headway_s(gap_m, agent.track.speed_mps);
   }
 }
 
@@ -111,26 +114,26 @@ float busy_until_s(const Scene& scene, int index, const ConflictView& view, floa
   return min(until_s, kLongestWaitS);
 }
 
-void add_crossing(const ConflictView& view, float lane_start_s_m, Way& way) {
-  const Crossing crossing{view.other,
-                          view.priority,
-                          lane_start_s_m + view.own_entry_m,
-                          lane_start_s_m + view.own_exit_m,
-                          view.other_entry_m,
-                          view.other_exit_m};
-  if (way.crossings.full()) {
-    if (crossing.entry_s_m >= way.crossings[kMaxCrossings - 1].entry_s_m) return;
-    way.crossings.truncate(kMaxCrossings - 1);
+void add_conflict(const ConflictView& view, float lane_start_s_m, PathHypothesis& hypothesis) {
+  const PathConflict conflict{view.other,
+                              view.priority,
+                              lane_start_s_m + view.own_entry_m,
+                              lane_start_s_m + view.own_exit_m,
+                              view.other_entry_m,
+                              view.other_exit_m};
+  if (hypothesis.conflicts.full()) {
+    if (conflict.entry_s_m >= hypothesis.conflicts[kMaxPathConflicts - 1].entry_s_m) return;
+    hypothesis.conflicts.truncate(kMaxPathConflicts - 1);
   }
-  int place = way.crossings.size();
-  (void)way.crossings.push(crossing);
-  for (; place > 0 && crossing.entry_s_m < way.crossings[place - 1].entry_s_m; --place) {
-    way.crossings[place] = way.crossings[place - 1];
+  int place = hypothesis.conflicts.size();
+  (void)hypothesis.conflicts.push(conflict);
+  for (; place > 0 && conflict.entry_s_m < hypothesis.conflicts[place - 1].entry_s_m; --place) {
+    hypothesis.conflicts[place] = hypothesis.conflicts[place - 1];
   }
-  way.crossings[place] = crossing;
+  hypothesis.conflicts[place] = conflict;
 }
 
-void read_zones(const Scene& scene, int index, const LanePath& path, Way& way) {
+void read_zones(const Scene& scene, int index, const LanePath& path, PathHypothesis& hypothesis) {
   std::int8_t place[kMaxLanes];
   for (std::int8_t& entry : place) entry = -1;
   for (int i = 0; i < path.lanes.size(); ++i) place[path.lanes[i].lane] = static_cast<std::int8_t>(i);
@@ -146,42 +149,43 @@ void read_zones(const Scene& scene, int index, const LanePath& path, Way& way) {
     if ((place[conflict.first] >= 0) == from_second) continue;
     const ConflictView view = view_from(conflict, from_second);
     const float lane_start_s_m = path.lanes[place[view.own]].start_s_m;
-    const float to_entry_m = lane_start_s_m + view.own_entry_m - way.start_s_m;
-    const float to_exit_m = lane_start_s_m + view.own_exit_m - way.start_s_m;
+    const float to_entry_m = lane_start_s_m + view.own_entry_m - hypothesis.start_s_m;
+    const float to_exit_m = lane_start_s_m + view.own_exit_m - hypothesis.start_s_m;
     if (to_exit_m < 0.0F) continue;
-    if (ours[view.other]) add_crossing(view, lane_start_s_m, way);
+    if (ours[view.other]) add_conflict(view, lane_start_s_m, hypothesis);
     if (view.priority == Priority::kFirstHasPriority || waits_read >= kReadZones) continue;
     const float room_m = to_entry_m - kZoneMarginM;
-    if (room_m < 0.0F || square(way.speed_mps) > 2.0F * kFirmBrakingMps2 * room_m) continue;
-    const float pace_mps = max(way.speed_mps, kUsualMps);
+    if (room_m < 0.0F || square(hypothesis.speed_mps) > 2.0F * kFirmBrakingMps2 * room_m) continue;
+    const float pace_mps = max(hypothesis.speed_mps, kUsualMps);
     const float until_s = busy_until_s(scene, index, view, to_entry_m / pace_mps, to_exit_m / pace_mps);
     ++waits_read;
     if (until_s <= 0.0F) continue;
-    const float hold_s_m = way.start_s_m + room_m;
-    if (way.hold_until_s <= 0.0F || hold_s_m < way.hold_s_m) way.hold_s_m = hold_s_m;
-    way.hold_until_s = max(way.hold_until_s, until_s);
+    const float hold_s_m = hypothesis.start_s_m + room_m;
+    if (hypothesis.hold_until_s <= 0.0F || hold_s_m < hypothesis.hold_s_m) hypothesis.hold_s_m = hold_s_m;
+    hypothesis.hold_until_s = max(hypothesis.hold_until_s, until_s);
   }
 }
 
 }  // namespace
 
-Way read_way(const Scene& scene, int index, int path_index, float lead_s) {
+PathHypothesis read_path_hypothesis(const Scene& scene, int index, int path_index, float lead_s) {
   const Agent& agent = scene.agents[index];
   const LanePath& path = agent.paths[path_index];
   const float s_m = agent.frenet[path_index].s_m;
-  Way way;
-  way.speed_mps = agent.track.speed_mps;
-  way.start_s_m = s_m + way.speed_mps * lead_s;
+  PathHypothesis hypothesis;
+  hypothesis.speed_mps = agent.track.speed_mps;
+  hypothesis.start_s_m = s_m + hypothesis.speed_mps * lead_s;
   const LaneIndex first = agent.lane != kNoLaneIndex ? agent.lane : path.lanes[0].lane;
   const float limit_mps = scene.map->lanes[first].speed_limit_mps;
-  way.desired_mps = desired_speed(agent.track, limit_mps);
-  read_slow_stretch(*scene.map, path, limit_mps, way);
-  read_leader(scene, index, path, s_m, lead_s, way);
-  read_zones(scene, index, path, way);
+  hypothesis.desired_mps = desired_speed(agent.track, limit_mps);
+  read_slow_stretch(*scene.map, path, limit_mps, hypothesis);
+  read_leader(scene, index, path, s_m, lead_s, hypothesis);
+  read_zones(scene, index, path, hypothesis);
   // Who stands though nothing is in its way has a reason we do not see.
-  const bool standing = way.speed_mps < kStandingMps && agent.track.acceleration_mps2 < 0.2F;
-  if (standing && !way.follows && way.hold_until_s <= 0.0F && way.crossings.empty()) way.desired_mps = 0.0F;
-  return way;
+  const bool standing = hypothesis.speed_mps < kStandingMps && agent.track.acceleration_mps2 < 0.2F;
+  if (standing && !hypothesis.follows && hypothesis.hold_until_s <= 0.0F && hypothesis.conflicts.empty())
+    hypothesis.desired_mps = 0.0F;
+  return hypothesis;
 }
 
 }  // namespace s4tp

@@ -1,4 +1,4 @@
-#include "algo/trajectory/standing_room.hpp"
+#include "algo/trajectory/lateral_offset.hpp"
 
 #include "algo/core/inline.hpp"
 #include "algo/trajectory/bicycle.hpp"
@@ -28,7 +28,7 @@ Box box_beside(const Pose& centre_line, float aside_m, const Parameters& paramet
 }
 
 bool leaves_room(const Pose& centre_line, float aside_m, const Box& other, const Parameters& parameters) {
-  return separation(box_beside(centre_line, aside_m, parameters), other) >= kStandingRoomM;
+  return separation(box_beside(centre_line, aside_m, parameters), other) >= kBystanderGapM;
 }
 
 /// Of the places in `from` (bit k: kAsidesM[k]), those from which our box at one point of the centre line
@@ -85,7 +85,7 @@ bool is_standing(const Agent& agent) {
   return agent.track.speed_mps < kStandsMps;
 }
 
-void keep_aside(const Parameters& parameters, Scene& scene) {
+void set_lateral_offsets(const Parameters& parameters, Scene& scene) {
   bool somebody_stands = false;
   for (const Agent& agent : scene.agents) somebody_stands = somebody_stands || is_standing(agent);
   for (EgoPath& path : scene.ego_paths) {

@@ -1,6 +1,6 @@
 // What a lane costs beyond the horizon: when overtaking pays, and when there is no time left for it.
 
-#include "algo/planner/outlook.hpp"
+#include "algo/planner/lane_cost_to_go.hpp"
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@ using namespace test;  // NOLINT: the map builders are the language of these tes
 struct Road {
   LaneMap map = straight_road(2, 300.0F, 10.0F);
   Scene scene;
-  Outlook outlook;
+  LaneCostToGo cost_to_go;
 
   Road() {
     add_way(scene, map, path_of(map, {0}));
@@ -27,62 +27,62 @@ struct Road {
     add_vehicle(scene, map, scene.ego_paths[path].path, s_m, speed_mps);
   }
   void look() {
-    KinematicSet keep_going;
-    for (const Agent& agent : scene.agents) (void)keep_going.agents.push(steady_future(map, agent));
-    outlook.look(scene, keep_going, 0.0F, Parameters{});
+    KinematicSet constant_velocity;
+    for (const Agent& agent : scene.agents) (void)constant_velocity.agents.push(steady_future(map, agent));
+    cost_to_go.look(scene, constant_velocity, 0.0F, Parameters{});
   }
 };
 
 // With nobody about 150 m at the limit lose nothing, in neither lane.
-TEST(Outlook, EmptyRoadLosesNothing) {
+TEST(LaneCostToGo, EmptyRoadLosesNothing) {
   Road road;
   road.look();
-  EXPECT_NEAR(road.outlook.delay_s(0, 50.0F, 10.0F), 0.0F, 0.01F);
-  EXPECT_NEAR(road.outlook.delay_s(1, 50.0F, 10.0F), 0.0F, 0.01F);
+  EXPECT_NEAR(road.cost_to_go.delay_s(0, 50.0F, 10.0F), 0.0F, 0.01F);
+  EXPECT_NEAR(road.cost_to_go.delay_s(1, 50.0F, 10.0F), 0.0F, 0.01F);
 }
 
 // Who has slowed down to 5 m/s by the horizon's end builds up again at 2 m/s^2: 2.5 s over 18.75 m, which the
 // limit drives in 1.875 s: 0.625 s lost, besides what the shorter way to there has lost.
-TEST(Outlook, BuildingUpSpeedCosts) {
+TEST(LaneCostToGo, BuildingUpSpeedCosts) {
   Road road;
   road.look();
-  EXPECT_NEAR(road.outlook.delay_s(0, 50.0F, 5.0F), 0.625F, 0.01F);
+  EXPECT_NEAR(road.cost_to_go.delay_s(0, 50.0F, 5.0F), 0.625F, 0.01F);
 }
 
 // Our leader drives 5 m/s, his centre at 60 m now. Our centre is at the target of 170 + 1.5 m when his is 5 m
 // of lengths, 2.5 m and 1.2 s * 5 m/s further: (171.5 + 13.5 - 75) / 5 = 22 s after the horizon's end. 15 s
 // at the limit: 10 s lost. The lane beside loses none: he is passed long before the way back has to begin.
-TEST(Outlook, OvertakingPays) {
+TEST(LaneCostToGo, OvertakingPays) {
   Road road;
   road.vehicle(0, 60.0F, 5.0F);
   road.look();
-  EXPECT_NEAR(road.outlook.delay_s(0, 50.0F, 10.0F), 10.0F, 0.05F);
-  EXPECT_NEAR(road.outlook.delay_s(1, 50.0F, 10.0F), 0.0F, 0.01F);
+  EXPECT_NEAR(road.cost_to_go.delay_s(0, 50.0F, 10.0F), 10.0F, 0.05F);
+  EXPECT_NEAR(road.cost_to_go.delay_s(1, 50.0F, 10.0F), 0.0F, 0.01F);
 }
 
 // One at 9 m/s, 15 m nearer, costs (171.5 + 18.3 - 72) / 9 = 13.1 s: 1.1 s lost. We gain 1 m/s on him: where
 // the way back has to begin, 20 m of braking before our front is at 300, we are 2.3 m ahead, centre to
 // centre: not past him. So the lane beside is as slow as ours.
-TEST(Outlook, NoOvertakingWithoutRoomToReturn) {
+TEST(LaneCostToGo, NoOvertakingWithoutRoomToReturn) {
   Road road;
   road.vehicle(0, 45.0F, 9.0F);
   road.look();
-  EXPECT_NEAR(road.outlook.delay_s(0, 50.0F, 10.0F), 1.1F, 0.05F);
-  EXPECT_NEAR(road.outlook.delay_s(1, 50.0F, 10.0F), road.outlook.delay_s(0, 50.0F, 10.0F), 0.01F);
+  EXPECT_NEAR(road.cost_to_go.delay_s(0, 50.0F, 10.0F), 1.1F, 0.05F);
+  EXPECT_NEAR(road.cost_to_go.delay_s(1, 50.0F, 10.0F), road.cost_to_go.delay_s(0, 50.0F, 10.0F), 0.01F);
 }
 
 // Somebody slower in the other lane makes that the worse one.
-TEST(Outlook, TheLaneBesideMayBeSlower) {
+TEST(LaneCostToGo, TheLaneBesideMayBeSlower) {
   Road road;
   road.vehicle(0, 60.0F, 6.0F);
   road.vehicle(1, 60.0F, 4.0F);
   road.look();
-  EXPECT_GT(road.outlook.delay_s(1, 50.0F, 10.0F), road.outlook.delay_s(0, 50.0F, 10.0F) + 3.0F);
+  EXPECT_GT(road.cost_to_go.delay_s(1, 50.0F, 10.0F), road.cost_to_go.delay_s(0, 50.0F, 10.0F) + 3.0F);
 }
 
 // A change that we have to make comes first: with 60 m left for it time counts for nothing, with 90 m half of
 // what it does with 120 m.
-TEST(Outlook, DeadlinesComeBeforeTime) {
+TEST(LaneCostToGo, DeadlinesComeBeforeTime) {
   float delays_s[3] = {};
   const float rooms_m[3] = {60.0F, 90.0F, 120.0F};
   for (int i = 0; i < 3; ++i) {
@@ -92,7 +92,7 @@ TEST(Outlook, DeadlinesComeBeforeTime) {
     road.scene.ego_paths[0].route_end_s_m = 20.0F + rooms_m[i];
     road.vehicle(0, 60.0F, 5.0F);
     road.look();
-    delays_s[i] = road.outlook.delay_s(0, 50.0F, 10.0F);
+    delays_s[i] = road.cost_to_go.delay_s(0, 50.0F, 10.0F);
   }
   EXPECT_EQ(delays_s[0], 0.0F);
   EXPECT_NEAR(delays_s[1], 0.5F * delays_s[2], 0.01F);
@@ -103,7 +103,7 @@ TEST(Outlook, DeadlinesComeBeforeTime) {
 // m behind that one, at 57 m at the horizon's end, he costs (171.5 + 18.3 - 57) / 9 = 14.8 s: 2.8 s lost. At
 // 25 m there is room: 5 + 5 m of lengths, 1 + 81/10 - 81/16 in front, 1 + 0.2 * 9 behind, 0.4 m to spare
 // are 17.2 m.
-TEST(Outlook, NoReturnIntoATightColumn) {
+TEST(LaneCostToGo, NoReturnIntoATightColumn) {
   float delays_s[2] = {};
   const float centres_m[2] = {30.0F, 20.0F};
   for (int i = 0; i < 2; ++i) {
@@ -111,7 +111,7 @@ TEST(Outlook, NoReturnIntoATightColumn) {
     road.vehicle(0, 45.0F, 9.0F);
     road.vehicle(0, centres_m[i], 9.0F);
     road.look();
-    delays_s[i] = road.outlook.delay_s(1, 50.0F, 10.0F);
+    delays_s[i] = road.cost_to_go.delay_s(1, 50.0F, 10.0F);
   }
   EXPECT_NEAR(delays_s[0], 2.76F, 0.05F);
   EXPECT_NEAR(delays_s[1], 1.1F, 0.05F);
@@ -120,13 +120,13 @@ TEST(Outlook, NoReturnIntoATightColumn) {
 // One abreast at our speed, the limit: we can only fall back behind him, 15.37 m behind his centre (see
 // lane_gap_test.cpp) and 1 m more: 22 - 16.37 m. From 50 m at the horizon's end 13.37 m have to be lost: 5.48
 // s.
-TEST(Outlook, GapsAreAimedAt) {
+TEST(LaneCostToGo, GapsAreAimedAt) {
   Road road;
   road.vehicle(1, 22.0F, 10.0F);  // at 52 m at the horizon's end
   road.look();
-  EXPECT_NEAR(road.outlook.time_to_gap_s(1, 50.0F, 10.0F), 5.48F, 0.05F);
-  EXPECT_EQ(road.outlook.time_to_gap_s(1, 36.0F, 10.0F), 0.0F);
-  const GapAim aim = road.outlook.gap_aim(road.scene, 1);
+  EXPECT_NEAR(road.cost_to_go.time_to_gap_s(1, 50.0F, 10.0F), 5.48F, 0.05F);
+  EXPECT_EQ(road.cost_to_go.time_to_gap_s(1, 36.0F, 10.0F), 0.0F);
+  const MergeTarget aim = road.cost_to_go.merge_target(road.scene, 1);
   EXPECT_EQ(aim.path, 1);
   EXPECT_NEAR(aim.s_m, 5.63F, 0.05F);
   EXPECT_EQ(aim.speed_mps, 10.0F);

@@ -9,7 +9,7 @@
 namespace s4tp {
 
 /// A zone this vehicle shares with a lane that is on one of our paths.
-struct Crossing {
+struct PathConflict {
   LaneIndex our_lane = kNoLaneIndex;
   Priority priority = Priority::kFirstCome;  ///< seen from the vehicle: kFirstYields = it yields to us
   float entry_s_m = 0.0F;                    ///< of its box centre
@@ -18,9 +18,9 @@ struct Crossing {
   float our_exit_m = 0.0F;
 };
 
-inline constexpr int kMaxCrossings = 4;
+inline constexpr int kMaxPathConflicts = 4;
 
-struct Way {
+struct PathHypothesis {
   float start_s_m = 0.0F;  ///< of the vehicle's centre at plan start
   float speed_mps = 0.0F;
   float desired_mps = 0.0F;
@@ -37,10 +37,10 @@ struct Way {
   /// Where its centre waits for others to pass, and until when; until <= 0: nowhere.
   float hold_s_m = 0.0F;
   float hold_until_s = 0.0F;
-  BoundedVector<Crossing, kMaxCrossings> crossings;  ///< nearest first
+  BoundedVector<PathConflict, kMaxPathConflicts> conflicts;  ///< nearest first
 };
 
 /// Reads way `path` of agent `index`. \pre scene.map is there and the agent has that path
-[[nodiscard]] Way read_way(const Scene& scene, int index, int path, float lead_s);
+[[nodiscard]] PathHypothesis read_path_hypothesis(const Scene& scene, int index, int path, float lead_s);
 
 }  // namespace s4tp

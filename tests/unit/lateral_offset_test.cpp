@@ -1,4 +1,4 @@
-#include "algo/trajectory/standing_room.hpp"
+#include "algo/trajectory/lateral_offset.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -19,7 +19,7 @@ struct Bystander : Crossing {
     other(100.0F + front_m - 2.5F, 0.0F);
   }
   float aside_m() {
-    keep_aside(parameters, scene);
+    set_lateral_offsets(parameters, scene);
     return scene.ego_paths[0].aside_m;
   }
 };
@@ -101,7 +101,7 @@ TEST(StandingRoom, MovesAsideForRoom) {
         const Pose line = path_point(bystander.map, path.path, s_m).pose;
         const Point at = offset_point(line, 0.0F, path.aside_m);
         const Pose rear_axle{at.x_m, at.y_m, line.heading_rad};
-        if (separation(ego_box(rear_axle, bystander.parameters), other) < kStandingRoomM) return false;
+        if (separation(ego_box(rear_axle, bystander.parameters), other) < kBystanderGapM) return false;
       }
       return true;
     };

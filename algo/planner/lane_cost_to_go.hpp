@@ -12,11 +12,12 @@
 
 namespace s4tp {
 
-class Outlook {
+class LaneCostToGo {
  public:
-  /// Looks at every path of the scene, once a cycle. \param keep_going  where the others are meanwhile, from
+  /// Looks at every path of the scene, once a cycle. \param constant_velocity  where the others are meanwhile, from
   /// plan start, `lead_s` after the scene's time
-  void look(const Scene& scene, const KinematicSet& keep_going, float lead_s, const Parameters& parameters);
+  void look(const Scene& scene, const KinematicSet& constant_velocity, float lead_s,
+            const Parameters& parameters);
 
   /// Time lost [s] against driving at the limit, until the goal or 150 m from here, by whoever is at `s_m`
   /// with `speed_mps` at the horizon's end and then stays in the lane of `path`: behind the slower ones in
@@ -29,7 +30,7 @@ class Outlook {
   [[nodiscard]] float time_to_gap_s(int path, float s_m, float speed_mps) const;
 
   /// Where to be for the gap of `path` that we can meet, along the keep path at plan start.
-  [[nodiscard]] GapAim gap_aim(const Scene& scene, int path) const;
+  [[nodiscard]] MergeTarget merge_target(const Scene& scene, int path) const;
 
  private:
   struct Lane {

@@ -1,4 +1,4 @@
-#include "algo/planner/outlook.hpp"
+#include "algo/planner/lane_cost_to_go.hpp"
 
 #include "algo/core/inline.hpp"
 #include "algo/safety/change_gaps.hpp"
@@ -32,8 +32,8 @@ float lane_end_s_m(const Scene& scene, const EgoPath& path, const Parameters& pa
 
 }  // namespace
 
-void Outlook::look(const Scene& scene, const KinematicSet& keep_going, float lead_s,
-                   const Parameters& parameters) {
+void LaneCostToGo::look(const Scene& scene, const KinematicSet& constant_velocity, float lead_s,
+                        const Parameters& parameters) {
   lanes_.clear();
   parameters_ = &parameters;
   centre_m_ = rear_axle_to_centre_m(parameters);
@@ -43,8 +43,8 @@ void Outlook::look(const Scene& scene, const KinematicSet& keep_going, float lea
   const float spare_m = own.route_end_s_m - own.frenet.s_m - kRoomM * static_cast<float>(changes);
   weight_ = changes == 0 ? 1.0F : clamp(spare_m / kRoomM, 0.0F, 1.0F);
   way_m_ = clamp(scene.ego_paths[0].goal_s_m - scene.ego_paths[0].frenet.s_m, 0.0F, kFarM);
-  const int count =
-      keep_going.agents.size() < scene.agents.size() ? keep_going.agents.size() : scene.agents.size();
+  const int count = constant_velocity.agents.size() < scene.agents.size() ? constant_velocity.agents.size()
+                                                                          : scene.agents.size();
   for (const EgoPath& path : scene.ego_paths) {
     const PathPoint here = path_point(*scene.map, path.path, path.frenet.s_m);
     Lane lane;
@@ -55,7 +55,7 @@ void Outlook::look(const Scene& scene, const KinematicSet& keep_going, float lea
     const float to_route_m = static_cast<float>(path.changes_needed) * here.width_m;
     for (int i = 0; i < count; ++i) {
       const Track& track = scene.agents[i].track;
-      const Pose& then = keep_going.agents[i].steps[kHorizonSteps - 1];
+      const Pose& then = constant_velocity.agents[i].steps[kHorizonSteps - 1];
       const Frenet frenet = project(*scene.map, path.path, position(then), path.frenet.s_m, -1.0F);
       const float along = cos(wrap_angle(then.heading_rad - frenet.heading_rad));
       if (along < 0.7F) continue;  // crossing and oncoming traffic is no matter of lanes
@@ -72,7 +72,7 @@ void Outlook::look(const Scene& scene, const KinematicSet& keep_going, float lea
   find_gaps(scene, lead_s);
 }
 
-void Outlook::find_gaps(const Scene& scene, float lead_s) {
+void LaneCostToGo::find_gaps(const Scene& scene, float lead_s) {
   const EgoPath& own = scene.ego_paths[0];
   our_s_m_ = own.frenet.s_m + lead_s * scene.ego.speed_mps;
   GapSeeker us;
@@ -99,14 +99,14 @@ void Outlook::find_gaps(const Scene& scene, float lead_s) {
   }
 }
 
-float Outlook::behind_s(const LaneVehicle& other, float to_s_m) const {
+float LaneCostToGo::behind_s(const LaneVehicle& other, float to_s_m) const {
   const float speed = max(other.speed_mps, kCrawlMps);
   const float gap_m = 0.5F * (parameters_->vehicle.length_m + other.length_m) +
                       parameters_->comfort.standstill_gap_m + parameters_->comfort.headway_s * speed;
   return (to_s_m + centre_m_ + gap_m - other.s_m) / speed;
 }
 
-float Outlook::arrival_s(const Lane& lane, float to_s_m, float s_m, float& speed_mps) const {
+float LaneCostToGo::arrival_s(const Lane& lane, float to_s_m, float s_m, float& speed_mps) const {
   float longest_s =
       driving_time_s(to_s_m - s_m, speed_mps, lane.limit_mps, parameters_->comfort.acceleration_mps2);
   speed_mps = lane.limit_mps;
@@ -120,7 +120,7 @@ float Outlook::arrival_s(const Lane& lane, float to_s_m, float s_m, float& speed
   return longest_s;
 }
 
-float Outlook::delay_s(int path, float s_m, float speed_mps) const {
+float LaneCostToGo::delay_s(int path, float s_m, float speed_mps) const {
   const Lane& lane = lanes_[path];
   const float ideal_s = way_m_ / lane.limit_mps;
   float target_mps = speed_mps;
@@ -152,15 +152,15 @@ float Outlook::delay_s(int path, float s_m, float speed_mps) const {
   return weight_ * max(0.0F, kHorizonS + longest_s - ideal_s);
 }
 
-float Outlook::time_to_gap_s(int path, float s_m, float speed_mps) const {
+float LaneCostToGo::time_to_gap_s(int path, float s_m, float speed_mps) const {
   const Lane& lane = lanes_[path];
   if (!lane.gap.found) return 0.0F;
   return time_to_meet_s(lane.gap, 0.0F, s_m, speed_mps, lane.limit_mps, *parameters_);
 }
 
-GapAim Outlook::gap_aim(const Scene& scene, int path) const {
+MergeTarget LaneCostToGo::merge_target(const Scene& scene, int path) const {
   const LaneGap& gap = lanes_[path].gap;
-  GapAim aim;
+  MergeTarget aim;
   if (!gap.found) return aim;
   const float shift_m = scene.ego_paths[path].frenet.s_m - scene.ego_paths[0].frenet.s_m;
   const float back_m = gap.speed_mps * kHorizonS + shift_m;

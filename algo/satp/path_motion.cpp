@@ -1,4 +1,4 @@
-#include "algo/satp/way_motion.hpp"
+#include "algo/satp/path_motion.hpp"
 
 #include "algo/core/inline.hpp"
 #include "algo/satp/car_following.hpp"
@@ -20,11 +20,12 @@ constexpr float kSlopeMax = 0.3F;
 constexpr float kSlopeSpanM = 3.0F;  // a slope of this over the span leads astray by 4/27 of it: 0.44 m
 static_assert(kHorizonSteps % kStepsPerUpdate == 0, "updates span the horizon");
 
-float desired_at(const Way& way, float s_m) {
-  if (way.slow_to_s_m <= 0.0F) return way.desired_mps;
-  if (s_m >= way.slow_to_s_m) return way.after_mps;
-  if (s_m >= way.slow_from_s_m) return way.slow_mps;
-  return min(way.desired_mps, sqrt(square(way.slow_mps) + 2.0F * kSlowDownMps2 * (way.slow_from_s_m - s_m)));
+float desired_at(const PathHypothesis& hypothesis, float s_m) {
+  if (hypothesis.slow_to_s_m <= 0.0F) return hypothesis.desired_mps;
+  if (s_m >= hypothesis.slow_to_s_m) return hypothesis.after_mps;
+  if (s_m >= hypothesis.slow_from_s_m) return hypothesis.slow_mps;
+  return min(hypothesis.desired_mps,
+             sqrt(square(hypothesis.slow_mps) + 2.0F * kSlowDownMps2 * (hypothesis.slow_from_s_m - s_m)));
 }
 
 float hold_acceleration(const Hold& hold, float time_s, float s_m, float speed_mps) {
@@ -33,13 +34,15 @@ float hold_acceleration(const Hold& hold, float time_s, float s_m, float speed_m
 }
 
 // With its lane, its leader and whom it gives way to, but without us.
-float acceleration_alone(const Way& way, float time_s, float s_m, float speed_mps, float half_length_m) {
-  const Hold own_hold{way.hold_s_m, way.hold_until_s};
-  float alone_mps2 = min(free_acceleration(speed_mps, desired_at(way, s_m)),
+float acceleration_alone(const PathHypothesis& hypothesis, float time_s, float s_m, float speed_mps,
+                         float half_length_m) {
+  const Hold own_hold{hypothesis.hold_s_m, hypothesis.hold_until_s};
+  float alone_mps2 = min(free_acceleration(speed_mps, desired_at(hypothesis, s_m)),
                          hold_acceleration(own_hold, time_s, s_m, speed_mps));
-  if (way.follows) {
-    const float gap_m = way.leader_rear_s_m + way.leader_mps * time_s - s_m - half_length_m;
-    alone_mps2 = min(alone_mps2, following_acceleration(speed_mps, gap_m, way.leader_mps, way.headway_s));
+  if (hypothesis.follows) {
+    const float gap_m = hypothesis.leader_rear_s_m + hypothesis.leader_mps * time_s - s_m - half_length_m;
+    alone_mps2 = min(alone_mps2,
+                     following_acceleration(speed_mps, gap_m, hypothesis.leader_mps, hypothesis.headway_s));
   }
   return max(alone_mps2, -kHardestMps2);
 }
@@ -63,19 +66,21 @@ float ego_acceleration(const EgoOnPath& ego, float time_s, float s_m, float spee
 
 }  // namespace
 
-float undisturbed_acceleration(const Way& way, const Track& track) {
-  return acceleration_alone(way, 0.0F, way.start_s_m, way.speed_mps, 0.5F * track.length_m);
+float undisturbed_acceleration(const PathHypothesis& hypothesis, const Track& track) {
+  return acceleration_alone(hypothesis, 0.0F, hypothesis.start_s_m, hypothesis.speed_mps,
+                            0.5F * track.length_m);
 }
 
-void drive(const Way& way, const Track& track, const EgoOnPath& ego, const Hold& hold, WayMotion& motion) {
+void drive(const PathHypothesis& hypothesis, const Track& track, const EgoOnPath& ego, const Hold& hold,
+           PathMotion& motion) {
   const float half_length_m = 0.5F * track.length_m;
-  float s_m = way.start_s_m;
-  float speed_mps = way.speed_mps;
+  float s_m = hypothesis.start_s_m;
+  float speed_mps = hypothesis.speed_mps;
   float habit_mps2 = 0.0F;
   for (int step = 0; step < kHorizonSteps; step += kStepsPerUpdate) {
     const float time_s = kStepS * static_cast<float>(step);
-    const float free_mps2 = free_acceleration(speed_mps, desired_at(way, s_m));
-    const float alone_mps2 = acceleration_alone(way, time_s, s_m, speed_mps, half_length_m);
+    const float free_mps2 = free_acceleration(speed_mps, desired_at(hypothesis, s_m));
+    const float alone_mps2 = acceleration_alone(hypothesis, time_s, s_m, speed_mps, half_length_m);
     // What it does now and the model does not explain fades away; what it does for us comes on top.
     if (step == 0) habit_mps2 = clamp(track.acceleration_mps2 - alone_mps2, -kHabitMax, kHabitMax);
     const float own_mps2 = alone_mps2 + habit_mps2 * max(1.0F - time_s / kHabitS, 0.0F);
@@ -92,9 +97,9 @@ void drive(const Way& way, const Track& track, const EgoOnPath& ego, const Hold&
   motion.end_mps = speed_mps;
 }
 
-float time_at(const Way& way, const WayMotion& motion, float goal_s_m) {
-  if (way.start_s_m >= goal_s_m) return 0.0F;
-  float before_s_m = way.start_s_m;
+float time_at(const PathHypothesis& hypothesis, const PathMotion& motion, float goal_s_m) {
+  if (hypothesis.start_s_m >= goal_s_m) return 0.0F;
+  float before_s_m = hypothesis.start_s_m;
   for (int i = 0; i < kHorizonSteps; ++i) {
     if (motion.s_m[i] >= goal_s_m) {
       const float part = (goal_s_m - before_s_m) / max(motion.s_m[i] - before_s_m, 1e-3F);
@@ -106,7 +111,7 @@ float time_at(const Way& way, const WayMotion& motion, float goal_s_m) {
 }
 
 void place(const LaneMap& map, const LanePath& path, const Frenet& start, const Track& track,
-           const WayMotion& motion, Mode& mode) {
+           const PathMotion& motion, Mode& mode) {
   const float return_s = kReturnS + kReturnSPerM * min(abs(start.d_m), kReturnLongestM);
   const float span_m = max(track.speed_mps * return_s, kReturnM);
   const float slope_max = min(kSlopeMax, kSlopeSpanM / span_m);
