@@ -43,7 +43,7 @@ float kept(float passed_s, float memory_s) {
   return max(0.0F, 1.0F - passed_s / memory_s);
 }
 
-/// A first-order actuator behind its delay.
+/// A first-order lag.
 void follow(float& model, float target, float passed_s, float lag_s) {
   model = lag_s > passed_s ? model + passed_s / lag_s * (target - model) : target;
 }
@@ -154,7 +154,12 @@ void PlausibilityMonitor::model_actuators(const Measured& measured, const Comman
     follow(drive_model_mps2_, commanded.command.acceleration_mps2, passed_s,
            parameters.tracking.drive_delay_s);
   }
-  judge(Check::kSteeringCommand, abs(measured.steering_rad - steering_model_rad_), measured);
+  // The wheels lag by less than the delay, which has the tyres' share in it: they are between both.
+  const float asked_rad = commanded.active ? commanded.command.steering_rad : measured.steering_rad;
+  const float low_rad = min(steering_model_rad_, asked_rad);
+  const float high_rad = max(steering_model_rad_, asked_rad);
+  judge(Check::kSteeringCommand, abs(measured.steering_rad - clamp(measured.steering_rad, low_rad, high_rad)),
+        measured);
   const bool moves = measured.speed_mps > kMovingMps;
   judge(Check::kAccelerationCommand, moves ? abs(measured.acceleration_mps2 - drive_model_mps2_) : 0.0F,
         measured);

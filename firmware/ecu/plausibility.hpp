@@ -49,7 +49,7 @@ enum class Check : std::uint8_t {
   kPoseAcross,           ///< PLAUS-004 the same across it
   kPoseHeading,          ///< PLAUS-005 heading against the sum of yaw rate
   kYawSteering,          ///< PLAUS-006 yaw rate against speed times the steering's curvature
-  kSteeringCommand,      ///< PLAUS-007 steering against what was commanded
+  kSteeringCommand,      ///< PLAUS-007 steering against what was commanded, at once or late
   kAccelerationCommand,  ///< PLAUS-008 acceleration against what was commanded
   kSpeedFrozen,          ///< PLAUS-009 speed stays 0 while drive is commanded
   kOffMap,               ///< PLAUS-010 rear axle outside every lane while driving

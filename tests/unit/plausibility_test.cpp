@@ -161,6 +161,22 @@ TEST(Plausibility, MeasuredAgainstCommanded) {
   EXPECT_FALSE(idle.monitor.failed(Check::kSteeringCommand));
 }
 
+// PLAUS-007: wheels turned as fast as the gate lets them, 0.7 rad/s, whatever they lag behind: 0.02 s or 0.15 s.
+TEST(Plausibility, WheelsTurnedFastAreNoFault) {
+  for (const float lag_s : {0.02F, 0.08F, 0.15F}) {
+    Drive drive;
+    drive.honest(100);
+    float wheels_rad = 0.0F;
+    for (int tick = 0; tick < 100; ++tick) {
+      wheels_rad += 0.01F / lag_s * (drive.commanded.command.steering_rad - wheels_rad);
+      drive.commanded.command.steering_rad += tick < 70 ? 0.007F : 0.0F;
+      const auto told = [=](float, Measured& measured) { measured.steering_rad = wheels_rad; };
+      drive.step(told, 0.0F);
+      EXPECT_FALSE(drive.monitor.failed(Check::kSteeringCommand)) << lag_s << " s, tick " << tick;
+    }
+  }
+}
+
 // PLAUS-009: told to set off with 2 m/s^2 and still at 0 half a second later; held with the brake that is
 // no fault.
 TEST(Plausibility, SpeedFrozenAtZero) {
