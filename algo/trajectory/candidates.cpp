@@ -8,6 +8,8 @@
 namespace s4tp {
 namespace {
 
+constexpr float kHardest = -100.0F;  // as hard as the fail-safe: what that can still do, a plan can
+
 /// What is tried, in this order, on every path: the running plan, one of each intent, then what adds most.
 struct Trial {
   Intent intent;
@@ -17,7 +19,7 @@ struct Trial {
 constexpr Trial kTrials[] = {
     {Intent::kPrevious, 0.0F, 0},   {Intent::kFollow, 0.0F, 0},      {Intent::kStop, 0.0F, 0},
     {Intent::kFollow, 0.0F, 1},     {Intent::kAccelerate, 2.0F, 0},  {Intent::kAccelerate, -3.0F, 0},
-    {Intent::kAccelerate, 0.0F, 0}, {Intent::kAccelerate, -1.0F, 0}, {Intent::kAccelerate, -5.0F, 0},
+    {Intent::kAccelerate, 0.0F, 0}, {Intent::kAccelerate, -1.0F, 0}, {Intent::kAccelerate, kHardest, 0},
     {Intent::kAccelerate, 1.0F, 0}, {Intent::kAccelerate, 4.0F, 0},  {Intent::kStop, 0.0F, 1},
     {Intent::kStop, 0.0F, 2},
 };
@@ -163,8 +165,8 @@ bool shape_longitudinal(const Scene& scene, const Trial& trial, const ReferenceL
   candidate.acceleration_mps2 = parameters.comfort.acceleration_mps2;
   switch (trial.intent) {
     case Intent::kAccelerate:
-      candidate.acceleration_mps2 =
-          min(trial.acceleration_mps2, kDriveShare * parameters.vehicle.acceleration_max_mps2);
+      candidate.acceleration_mps2 = clamp(trial.acceleration_mps2, -parameters.guard.braking_mps2,
+                                          kDriveShare * parameters.vehicle.acceleration_max_mps2);
       return true;
     case Intent::kStop:
       if (trial.line >= course.stop_count) return false;

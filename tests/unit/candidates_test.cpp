@@ -146,7 +146,7 @@ TEST(Candidates, CoverEveryPathAndIntent) {
       EXPECT_NE(find(list, path, Intent::kAccelerate, acceleration), nullptr) << path << ' ' << acceleration;
     }
   }
-  EXPECT_NE(find(list, 0, Intent::kAccelerate, -5.0F), nullptr);
+  EXPECT_NE(find(list, 0, Intent::kAccelerate, -6.0F), nullptr);
 }
 
 // CAND-009 At the limit of 13.89 m/s accelerating by 1, 2 or 3.5 is the same motion: it is there once.
