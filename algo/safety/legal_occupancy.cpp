@@ -52,11 +52,15 @@ bool can_stop_gently(const Pace& fastest, float to_entry_m, float unseen_s, cons
   return room_m > 0.0F && square(later_mps) <= 2.0F * law.ask_braking_mps2 * room_m;
 }
 
-/// L2. Who is not seen any more may have set off.
-bool stands_in_sight(const Scene& scene, const Agent& agent, const Parameters& parameters) {
+/// Who is not seen any more may have set off.
+bool stands(const Agent& agent, const Parameters& parameters) {
   return agent.age_ms <= kFreshMs && agent.track.speed_mps < kStandingMps &&
-         agent.track.acceleration_mps2 < kSetsOffMps2 && seconds(agent.stood_ms) >= parameters.law.seen_s &&
-         scene.waited_s >= parameters.law.seen_s;
+         agent.track.acceleration_mps2 < kSetsOffMps2 && seconds(agent.stood_ms) >= parameters.law.seen_s;
+}
+
+/// L2.
+bool stands_in_sight(const Scene& scene, const Agent& agent, const Parameters& parameters) {
+  return stands(agent, parameters) && scene.waited_s >= parameters.law.seen_s;
 }
 
 }  // namespace
@@ -90,8 +94,10 @@ ZoneOccupancy zone_occupancy(const Scene& scene, const Agent& agent, const occup
       occupancy::latest_time_s(seen_mps(agent), parameters.law.braking_max_mps2, exit_m) - unseen_s - lead_s;
   if (result.to_entry_m <= 0.0F) {
     // Where it stands it is an obstacle like any other; the rest of the zone is left by whoever does not
-    // move.
-    if (stands_in_sight(scene, agent, parameters)) result.claim = Claim::kStands;
+    // move. Who owes us the way need not have seen us wait.
+    const bool owes = zone.priority == Priority::kFirstHasPriority;
+    if (owes && stands(agent, parameters)) result.claim = Claim::kOwes;
+    if (!owes && stands_in_sight(scene, agent, parameters)) result.claim = Claim::kStands;
     result.from_s = -lead_s;
     return result;
   }
