@@ -25,6 +25,14 @@ ALGO = {
     "planner": [""],
     "api": [],
 }
+# The same for the world's rooms; the files directly in sim_host/world are the whole of it.
+WORLD = {
+    "map": [],
+    "scenario": ["map/"],
+    "traffic": ["map/", "scenario/"],
+    "nodes": ["map/", "scenario/", "traffic/"],
+    "judge": ["map/", "traffic/"],
+}
 # Room (longest prefix wins) -> prefixes of project headers it may include, besides its own.
 ALLOWED = {
     **{f"algo/{room}/": [f"algo/{below}" for below in under] for room, under in ALGO.items()},
@@ -38,7 +46,10 @@ ALLOWED = {
     "firmware/ecu/": ["algo/", "firmware/can/", "firmware/gate/", "firmware/wire/", "hal/"],
     "firmware/secoc/": ["firmware/can/", "firmware/wire/", "hal/"],
     "firmware/targets/": ["algo/", "firmware/", "hal/"],
-    "sim_host/world/": ["firmware/wire/"],
+    **{f"sim_host/world/{room}/": ["firmware/wire/", *(f"sim_host/world/{below}" for below in under)]
+       for room, under in WORLD.items()},
+    "sim_host/sumo/": [f"sim_host/world/{room}/" for room in ("map", "scenario", "traffic")],
+    "sim_host/world/": ["firmware/wire/", "sim_host/sumo/", "sim_host/world/"],
     "sim_host/metrics/": ["sim_host/world/"],
     "sim_host/roads/": ["sim_host/world/"],
     **{f"sim_host/{room}/": ["algo/", "firmware/can/", "firmware/ecu/", "firmware/gate/", "firmware/secoc/", "firmware/wire/", "hal/", "sim_host/"]

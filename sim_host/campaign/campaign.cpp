@@ -11,7 +11,7 @@
 
 #include "sim_host/campaign/digest.hpp"
 #include "sim_host/campaign/planner_registry.hpp"
-#include "sim_host/world/sumo/sumo_routes.hpp"
+#include "sim_host/sumo/sumo_routes.hpp"
 
 namespace s4tp::campaign {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "sim_host/world/listed.hpp"
+#include "sim_host/world/scenario/listed.hpp"
 
 namespace s4tp::campaign {
 namespace {

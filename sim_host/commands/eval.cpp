@@ -20,8 +20,8 @@
 #include "sim_host/campaign/table.hpp"
 #include "sim_host/commands/command.hpp"
 #include "sim_host/processes/stop_signals.hpp"
-#include "sim_host/world/perception.hpp"
-#include "sim_host/world/traffic_engine.hpp"
+#include "sim_host/world/nodes/perception.hpp"
+#include "sim_host/world/traffic/traffic_engine.hpp"
 
 namespace s4tp::commands {
 namespace {

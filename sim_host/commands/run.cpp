@@ -25,7 +25,7 @@
 #include "sim_host/view/plan_words.hpp"
 #include "sim_host/view/replay.hpp"
 #include "sim_host/view/report.hpp"
-#include "sim_host/world/cut.hpp"
+#include "sim_host/world/scenario/cut.hpp"
 #include "sim_host/world/world.hpp"
 
 namespace s4tp::commands {

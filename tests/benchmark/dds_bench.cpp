@@ -22,7 +22,7 @@
 
 #include "sim_host/processes/child_process.hpp"
 #include "sim_host/telemetry/live_drive.hpp"
-#include "sim_host/world/scenario.hpp"
+#include "sim_host/world/scenario/scenario.hpp"
 #include "tests/benchmark/dds_subscriber.hpp"
 #include "tests/benchmark/ddsperf.hpp"
 

@@ -13,7 +13,7 @@
 
 #include "sim_host/campaign/driver.hpp"
 #include "sim_host/telemetry/ecu_tap.hpp"
-#include "sim_host/world/scenario.hpp"
+#include "sim_host/world/scenario/scenario.hpp"
 #include "sim_host/world/world.hpp"
 
 namespace s4tp::tests {

@@ -17,7 +17,7 @@
 #include "sim_host/processes/input_link.hpp"
 #include "sim_host/processes/world_process.hpp"
 #include "sim_host/telemetry/watch.hpp"
-#include "sim_host/world/scenario.hpp"
+#include "sim_host/world/scenario/scenario.hpp"
 #include "tests/dds/input_publisher.hpp"
 #include "tests/support/free_port.hpp"
 

@@ -13,7 +13,7 @@
 #include "sim_host/campaign/driver.hpp"
 #include "sim_host/campaign/trace.hpp"
 #include "sim_host/telemetry/watch.hpp"
-#include "sim_host/world/scenario.hpp"
+#include "sim_host/world/scenario/scenario.hpp"
 #include "sim_host/world/world.hpp"
 
 namespace s4tp::processes {

@@ -69,6 +69,15 @@ class Includes(unittest.TestCase):
         self.assertEqual(len(findings("algo/scene/x.cpp", '#include "algo/planner/planner.hpp"\n')), 1)
         self.assertEqual(len(findings("algo/cellar/x.cpp", '#include "algo/core/math.hpp"\n')), 1)
 
+    # The world's rooms stand in an order, too: a map knows no cars, and only the whole of it knows SUMO.
+    def test_order_of_the_worlds_rooms_is_kept(self):
+        self.assertEqual(findings("sim_host/world/traffic/x.cpp", '#include "sim_host/world/map/network.hpp"\n'), [])
+        self.assertEqual(len(findings("sim_host/world/map/x.cpp", '#include "sim_host/world/traffic/box.hpp"\n')), 1)
+        self.assertEqual(len(findings("sim_host/world/traffic/x.cpp", '#include "sim_host/world/world.hpp"\n')), 1)
+        self.assertEqual(findings("sim_host/world/x.cpp", '#include "sim_host/sumo/sumo_traffic.hpp"\n'), [])
+        self.assertEqual(len(findings("sim_host/world/traffic/x.cpp", '#include "sim_host/sumo/sumo_traffic.hpp"\n')), 1)
+        self.assertEqual(len(findings("sim_host/sumo/x.cpp", '#include "algo/core/math.hpp"\n')), 1)
+
 
 if __name__ == "__main__":
     unittest.main()
