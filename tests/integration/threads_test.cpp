@@ -10,7 +10,7 @@
 #include "firmware/can/frames.hpp"
 #include "hal/sim/bus.hpp"
 #include "hal/sim/null_devices.hpp"
-#include "sim_host/campaign/any_ecu.hpp"
+#include "sim_host/baselines/any_ecu.hpp"
 #include "sim_host/campaign/episode.hpp"
 #include "sim_host/processes/ecu_process.hpp"
 #include "sim_host/processes/world_process.hpp"
@@ -57,8 +57,8 @@ ThreadedDrive drive_on_two_threads(const world::Scenario& scenario, int late_one
   hal::sim::Bus::Port* const ecu_port = bus.attach();
   hal::sim::NullCycleCounter cycles;
   hal::sim::NullWatchdog watchdog;
-  const auto ecu = campaign::make_ecu("s4tp", true, Parameters{},
-                                      {ecu_port, nullptr, &cycles, &watchdog, nullptr}, nullptr);
+  const auto ecu = baselines::make_ecu("s4tp", true, Parameters{},
+                                       {ecu_port, nullptr, &cycles, &watchdog, nullptr}, nullptr);
   std::atomic<bool> done{false};
   std::atomic<bool> hold{false};
   std::thread planning([&] {

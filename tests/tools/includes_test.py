@@ -78,6 +78,16 @@ class Includes(unittest.TestCase):
         self.assertEqual(len(findings("sim_host/world/traffic/x.cpp", '#include "sim_host/sumo/sumo_traffic.hpp"\n')), 1)
         self.assertEqual(len(findings("sim_host/sumo/x.cpp", '#include "algo/core/math.hpp"\n')), 1)
 
+    # Planners and what compares them do not include each other: by the registry only, and one way.
+    def test_campaign_knows_planners_by_the_registry_only(self):
+        self.assertEqual(findings("sim_host/campaign/x.cpp", '#include "sim_host/baselines/planner_registry.hpp"\n'), [])
+        self.assertEqual(len(findings("sim_host/campaign/x.cpp", '#include "sim_host/baselines/idm_lane.hpp"\n')), 1)
+        self.assertEqual(len(findings("sim_host/baselines/x.cpp", '#include "sim_host/campaign/campaign.hpp"\n')), 1)
+
+    # What opens ticks for a simulated world is no part of a car's ECU.
+    def test_ecu_knows_no_lockstep(self):
+        self.assertEqual(len(findings("firmware/ecu/x.cpp", '#include "firmware/lockstep/lockstep_bus.hpp"\n')), 1)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -1,10 +1,10 @@
-#include "firmware/ecu/lockstep_bus.hpp"
+#include "firmware/lockstep/lockstep_bus.hpp"
 
 #include "firmware/can/frames.hpp"
 #include "firmware/wire/codec.hpp"
 #include "firmware/wire/e2e.hpp"
 
-namespace s4tp::ecu {
+namespace s4tp::lockstep {
 namespace {
 
 constexpr std::uint64_t kOtherWorldAfterMs = 1000;
@@ -76,4 +76,4 @@ hal::CanCounters LockstepBus::counters() const {
   return counters;
 }
 
-}  // namespace s4tp::ecu
+}  // namespace s4tp::lockstep

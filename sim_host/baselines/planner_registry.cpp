@@ -1,10 +1,10 @@
-#include "sim_host/campaign/planner_registry.hpp"
+#include "sim_host/baselines/planner_registry.hpp"
 
 #include <algorithm>
 
 #include "sim_host/world/scenario/listed.hpp"
 
-namespace s4tp::campaign {
+namespace s4tp::baselines {
 namespace {
 
 std::vector<PlannerEntry>& registry() {
@@ -40,4 +40,4 @@ RegisterPlanner::RegisterPlanner(const PlannerEntry& entry) {
   registry().insert(place, entry);
 }
 
-}  // namespace s4tp::campaign
+}  // namespace s4tp::baselines

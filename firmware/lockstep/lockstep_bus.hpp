@@ -13,7 +13,7 @@
 #include "firmware/wire/frame.hpp"
 #include "hal/can.hpp"
 
-namespace s4tp::ecu {
+namespace s4tp::lockstep {
 
 /// Which TICK frames open a tick. Of random frames one in 256 has a CRC that fits, so number and counter have
 /// to say the same.
@@ -45,7 +45,7 @@ class LockstepBus final : public hal::Can {
   /// No more than the ECU takes in a tick: else it would work off a flood behind the world's back, and answer
   /// ticks that are long over. (A real bus carries 90 frames in 10 ms; in lock-step a tick lasts as long as
   /// it likes.)
-  static constexpr int kQueueFrames = kMaxFramesPerTick;
+  static constexpr int kQueueFrames = ecu::kMaxFramesPerTick;
 
   /// \param can  must outlive this
   explicit LockstepBus(hal::Can& can) : can_(can) {}
@@ -77,4 +77,4 @@ class LockstepBus final : public hal::Can {
   std::uint32_t refused_ticks_ = 0;
 };
 
-}  // namespace s4tp::ecu
+}  // namespace s4tp::lockstep

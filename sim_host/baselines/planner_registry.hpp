@@ -3,7 +3,7 @@
 /// names it:
 ///
 /// \code
-///     const campaign::RegisterPlanner kMine{campaign::planner<MyPlanner>("mine", "what he is, in a line")};
+///     const RegisterPlanner kMine{planner<MyPlanner>("mine", "what he is, in a line")};
 /// \endcode
 /// MyPlanner offers init() and plan() as s4tp::Planner does. It plans bare; the guard is put around it here
 /// (sim_host/baselines/guard.hpp), unless its file says otherwise. The files are linked as objects: an
@@ -15,10 +15,10 @@
 #include <vector>
 
 #include "firmware/ecu/ecu.hpp"
+#include "sim_host/baselines/any_ecu.hpp"
 #include "sim_host/baselines/guard.hpp"
-#include "sim_host/campaign/any_ecu.hpp"
 
-namespace s4tp::campaign {
+namespace s4tp::baselines {
 
 using EcuFactory = std::unique_ptr<AnyEcu> (*)(const Parameters&, const ecu::Ports&, Probe*);
 
@@ -79,7 +79,7 @@ std::unique_ptr<AnyEcu> ecu_with(const Parameters& parameters, const ecu::Ports&
 /// The entry of a planner that has no guard of its own.
 template <class PlannerT>
 PlannerEntry planner(const std::string& name, const std::string& meaning) {
-  return {name, meaning, ecu_with<PlannerT>, ecu_with<baselines::Guarded<PlannerT>>};
+  return {name, meaning, ecu_with<PlannerT>, ecu_with<Guarded<PlannerT>>};
 }
 
-}  // namespace s4tp::campaign
+}  // namespace s4tp::baselines

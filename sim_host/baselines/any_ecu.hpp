@@ -9,7 +9,7 @@
 #include "algo/planner/probe.hpp"
 #include "firmware/ecu/ecu_core.hpp"
 
-namespace s4tp::campaign {
+namespace s4tp::baselines {
 
 /// ecu::Ecu without its type; the same two contexts.
 class AnyEcu {
@@ -32,4 +32,4 @@ class AnyEcu {
                                                const Parameters& parameters, const ecu::Ports& ports,
                                                Probe* probe);
 
-}  // namespace s4tp::campaign
+}  // namespace s4tp::baselines

@@ -1,10 +1,10 @@
-#include "sim_host/campaign/any_ecu.hpp"
+#include "sim_host/baselines/any_ecu.hpp"
 
 #include <stdexcept>
 
-#include "sim_host/campaign/planner_registry.hpp"
+#include "sim_host/baselines/planner_registry.hpp"
 
-namespace s4tp::campaign {
+namespace s4tp::baselines {
 
 std::vector<std::string> planner_names() {
   std::vector<std::string> names;
@@ -21,4 +21,4 @@ std::unique_ptr<AnyEcu> make_ecu(const std::string& planner, bool guarded, const
   return (guarded ? entry.guarded : entry.bare)(parameters, ports, probe);
 }
 
-}  // namespace s4tp::campaign
+}  // namespace s4tp::baselines
