@@ -20,6 +20,7 @@
 #include "sim_host/telemetry/web_access.hpp"
 #include "sim_host/telemetry/who_matters.hpp"
 #include "sim_host/view/plan_words.hpp"
+#include "tests/support/drive_time.hpp"
 #include "tests/support/test_memory.hpp"
 
 namespace s4tp::telemetry {
@@ -175,8 +176,7 @@ TEST(LiveCycle, TellsModeAndFaults) {
 
 // TELE-005 Looked at or not, at the pace of the clock or not, the drive is the same.
 TEST(LiveDrive, IsTheSameDrive) {
-  const world::Scenario scenario =
-      world::load_scenario(std::filesystem::path(S4TP_SOURCE_DIR) / "sim_host/scenarios/cruise");
+  const world::Scenario scenario = tests::shipped_for("cruise", 4.0);
   campaign::EpisodeOptions options;
   options.trace = true;
   const auto begin = std::chrono::steady_clock::now();
