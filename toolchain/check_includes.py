@@ -25,6 +25,30 @@ ALGO = {
     "planner": [""],
     "api": [],
 }
+# The same for the world's rooms; the files directly in sim_host/world are the whole of it.
+WORLD = {
+    "map": [],
+    "scenario": ["map/"],
+    "traffic": ["map/", "scenario/"],
+    "nodes": ["map/", "scenario/", "traffic/"],
+    "judge": ["map/", "traffic/"],
+}
+# What only looks at the world.
+MEASURING = {"metrics": ["world/"], "roads": ["world/"]}
+# What drives a planner in it, all of them above the world. A planner is known by its name in the registry, and to nobody else.
+REGISTRY = ["baselines/any_ecu.hpp", "baselines/planner_registry.hpp"]
+DRIVING = {
+    "baselines": ["metrics/"],
+    "campaign": [*REGISTRY, "metrics/", "roads/", "sumo/"],
+    "clips": [],
+    "faults": [*REGISTRY, "metrics/"],
+    "train": ["campaign/"],
+    "view": ["campaign/", "metrics/"],
+    "recording": ["campaign/", "metrics/", "view/"],
+    # Each has one thing of the other's: the ECU process writes the records that telemetry reads.
+    "processes": [*REGISTRY, "campaign/", "metrics/", "recording/", "telemetry/"],
+    "telemetry": ["campaign/", "processes/", "view/"],
+}
 # Room (longest prefix wins) -> prefixes of project headers it may include, besides its own.
 ALLOWED = {
     **{f"algo/{room}/": [f"algo/{below}" for below in under] for room, under in ALGO.items()},
@@ -36,13 +60,17 @@ ALLOWED = {
     "firmware/gate/": ["firmware/wire/"],
     "firmware/can/": ["firmware/wire/", "hal/"],
     "firmware/ecu/": ["algo/", "firmware/can/", "firmware/gate/", "firmware/wire/", "hal/"],
+    "firmware/lockstep/": ["firmware/can/", "firmware/ecu/", "firmware/wire/", "hal/"],
     "firmware/secoc/": ["firmware/can/", "firmware/wire/", "hal/"],
     "firmware/targets/": ["algo/", "firmware/", "hal/"],
-    "sim_host/world/": ["firmware/wire/"],
-    "sim_host/metrics/": ["sim_host/world/"],
-    "sim_host/roads/": ["sim_host/world/"],
-    **{f"sim_host/{room}/": ["algo/", "firmware/can/", "firmware/ecu/", "firmware/gate/", "firmware/secoc/", "firmware/wire/", "hal/", "sim_host/"]
-       for room in ("baselines", "clips", "replay", "train", "view", "campaign", "processes", "faults", "telemetry")},
+    **{f"sim_host/world/{room}/": ["firmware/wire/", *(f"sim_host/world/{below}" for below in under)]
+       for room, under in WORLD.items()},
+    "sim_host/sumo/": [f"sim_host/world/{room}/" for room in ("map", "scenario", "traffic")],
+    "sim_host/world/": ["firmware/wire/", "sim_host/sumo/", "sim_host/world/"],
+    **{f"sim_host/{room}/": [f"sim_host/{below}" for below in under] for room, under in MEASURING.items()},
+    **{f"sim_host/{room}/": ["algo/", *(f"firmware/{part}/" for part in ("can", "ecu", "gate", "lockstep", "secoc", "wire")), "hal/",
+                             "sim_host/world/", *(f"sim_host/{below}" for below in under)]
+       for room, under in DRIVING.items()},
     "sim_host/": ["algo/", "firmware/", "hal/", "sim_host/"],  # main.cpp and its commands
     "tests/": ["algo/", "firmware/", "hal/", "sim_host/", "tests/"],
 }

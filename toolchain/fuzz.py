@@ -32,20 +32,20 @@ class Target:
 
 TARGETS = {
     "candump": Target(128, ["firmware/wire/candump.cpp"]),
-    "cut": Target(1024, [f"{WORLD}/cut.cpp"]),
+    "cut": Target(1024, [f"{WORLD}/scenario/cut.cpp"]),
     "ecu": Target(1024, ["firmware/ecu", "firmware/gate/command_gate.cpp", "hal/sim/bus.cpp"]),
     "facade": Target(1024, ["algo/planner", "algo/safety", "algo/scene", "algo/trajectory", "algo/occupancy"]),
     "map": Target(512, ["firmware/wire/map_receiver.cpp", "firmware/wire/map_record.cpp"]),
-    "network": Target(4096, [f"{WORLD}/{name}.cpp" for name in (
+    "network": Target(4096, [f"{WORLD}/map/{name}.cpp" for name in (
         "sumo_network", "sumo_lane", "xml_values", "conflicts", "junction_bridge")]),
     "records": Target(4096, [f"sim_host/campaign/{name}.cpp" for name in ("records", "record_limits", "episode_record", "compare")]),
     "routes": Target(2048, [f"{WORLD}/{name}.cpp" for name in (
-        "route_file", "vehicle_types", "flow_attributes", "xml_values")]),
+        "scenario/route_file", "scenario/vehicle_types", "scenario/flow_attributes", "map/xml_values")]),
     "secoc": Target(512, ["firmware/secoc"]),
     "slcan": Target(96, ["hal/slcan.cpp"]),
-    "toml": Target(2048, [f"{WORLD}/{name}.cpp" for name in ("scenario", "toml_table", "toml_shape")]
+    "toml": Target(2048, [f"{WORLD}/scenario/{name}.cpp" for name in ("scenario", "toml_table", "toml_shape")]
                    + ["sim_host/campaign/parameters_file.cpp"]),
-    "traci": Target(256, [f"{WORLD}/sumo/{name}.cpp" for name in ("traci_client", "traci_message")]),
+    "traci": Target(256, [f"sim_host/sumo/{name}.cpp" for name in ("traci_client", "traci_message")]),
     "weights": Target(128, ["algo/satp/weight_image.cpp"]),
     "wire": Target(512, [f"firmware/wire/{name}.cpp" for name in ("e2e", "signal", "track_list", "crc16")]),
 }

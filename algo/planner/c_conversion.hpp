@@ -2,11 +2,11 @@
 /// Plain structs of s4tp.h into the core's types and back. Every copy in looks at what a caller in C may get
 /// wrong; on false the target's content is of no use.
 
+#include "algo/api/s4tp.h"
 #include "algo/core/parameters.hpp"
 #include "algo/core/trajectory.hpp"
 #include "algo/core/world_state.hpp"
 #include "algo/planner/explanation.hpp"
-#include "algo/planner/s4tp.h"
 
 namespace s4tp {
 

@@ -6,11 +6,11 @@
 #include <new>
 #include <type_traits>
 
+#include "algo/api/s4tp.h"
 #include "algo/core/math.hpp"
 #include "algo/core/versions.hpp"
 #include "algo/planner/c_conversion.hpp"
 #include "algo/planner/planner.hpp"
-#include "algo/planner/s4tp.h"
 #include "algo/satp/shipped_weights.hpp"
 #include "algo/satp/weight_image.hpp"
 

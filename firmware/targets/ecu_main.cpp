@@ -46,7 +46,7 @@ constexpr const char* kTickName = ", lock-step";
 constexpr std::uint32_t kTimerUs = 1000;  // how often it looks for the world's tick
 constexpr std::uint32_t kWatchdogMs =
     10'000;  // a sleeping processor's time jumps when its emulator's host is busy
-ecu::LockstepBus bus(can);
+lockstep::LockstepBus bus(can);
 LockstepTick tick({bus, can, timer, watchdog, the_ecu});
 StageCounter stages;
 PacedProbe probe(stages, {ticks_of_cycle, timer_interrupts});

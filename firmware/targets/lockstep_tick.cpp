@@ -9,7 +9,7 @@ constexpr std::uint64_t kHelloEveryUs = 100'000;
 constexpr std::uint64_t kSilenceUs = 1000;
 constexpr std::uint32_t kPlanningMs = static_cast<std::uint32_t>(kStepMs);
 /// Interrupts while a tick's frames come in: more than one a byte, of 512 frames at most.
-constexpr int kInterruptsATick = 4 * ecu::LockstepBus::kQueueFrames * hal::kSlcanLineSize;
+constexpr int kInterruptsATick = 4 * lockstep::LockstepBus::kQueueFrames * hal::kSlcanLineSize;
 
 }  // namespace
 

@@ -11,7 +11,7 @@
 /// bit, whatever the processor's speed, and control still preempts planning.
 
 #include "firmware/ecu/ecu.hpp"
-#include "firmware/ecu/lockstep_bus.hpp"
+#include "firmware/lockstep/lockstep_bus.hpp"
 #include "hal/clock.hpp"
 #include "hal/mps/slcan_can.hpp"
 #include "hal/tick.hpp"
@@ -22,7 +22,7 @@ namespace s4tp::targets {
 class LockstepTick final : public hal::Tick {
  public:
   struct Ports {
-    ecu::LockstepBus& bus;           ///< the ECU's
+    lockstep::LockstepBus& bus;      ///< the ECU's
     const hal::mps::SlcanCan& line;  ///< below it
     const hal::Clock& clock;         ///< of the board
     hal::Watchdog& watchdog;

@@ -1,12 +1,12 @@
 #include "sim_host/baselines/blind.hpp"
 
-#include "sim_host/campaign/planner_registry.hpp"
+#include "sim_host/baselines/planner_registry.hpp"
 
 namespace s4tp::baselines {
 namespace {
 
-const campaign::RegisterPlanner kRegistered{
-    campaign::planner<BlindPlanner>("blind", "s4tp with every other car withheld from it")};
+const RegisterPlanner kRegistered{
+    planner<BlindPlanner>("blind", "s4tp with every other car withheld from it")};
 
 }  // namespace
 

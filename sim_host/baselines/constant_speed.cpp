@@ -5,13 +5,13 @@
 
 #include "algo/core/math.hpp"
 #include "algo/trajectory/candidates.hpp"
-#include "sim_host/campaign/planner_registry.hpp"
+#include "sim_host/baselines/planner_registry.hpp"
 
 namespace s4tp::baselines {
 namespace {
 
-const campaign::RegisterPlanner kRegistered{
-    campaign::planner<ConstantSpeedPlanner>("constant_speed", "holds its speed along the route: the floor")};
+const RegisterPlanner kRegistered{
+    planner<ConstantSpeedPlanner>("constant_speed", "holds its speed along the route: the floor")};
 
 /// The lane beside ours when that brings us nearer to the route's, else ours.
 const EgoPath& wanted_path(const Scene& scene) {

@@ -8,13 +8,13 @@
 #include "algo/sadrf/box_integral.hpp"
 #include "algo/trajectory/bicycle.hpp"
 #include "algo/trajectory/candidates.hpp"
-#include "sim_host/campaign/planner_registry.hpp"
+#include "sim_host/baselines/planner_registry.hpp"
 
 namespace s4tp::baselines {
 namespace {
 
-const campaign::RegisterPlanner kRegistered{campaign::planner<DrfControllerPlanner>(
-    "drf_controller", "Kolekar's four-case controller on the risk field")};
+const RegisterPlanner kRegistered{
+    planner<DrfControllerPlanner>("drf_controller", "Kolekar's four-case controller on the risk field")};
 
 constexpr int kGrid = 12;  // of the search, then halved so often between two points of it:
 constexpr int kHalvings = 6;

@@ -8,13 +8,13 @@
 #include "algo/trajectory/path_walk.hpp"
 #include "algo/trajectory/roll_out.hpp"
 #include "algo/trajectory/speed_profile.hpp"
-#include "sim_host/campaign/planner_registry.hpp"
+#include "sim_host/baselines/planner_registry.hpp"
 
 namespace s4tp::baselines {
 namespace {
 
-const campaign::RegisterPlanner kRegistered{campaign::planner<IdmLanePlanner>(
-    "idm_lane", "a plain driver: IDM, gap acceptance, needed lane changes")};
+const RegisterPlanner kRegistered{
+    planner<IdmLanePlanner>("idm_lane", "a plain driver: IDM, gap acceptance, needed lane changes")};
 
 constexpr float kFarM = 1e6F;
 constexpr std::uint8_t kNobody = 255;

@@ -10,16 +10,15 @@
 #include "algo/trajectory/along_path.hpp"
 #include "algo/trajectory/bicycle.hpp"
 #include "algo/trajectory/candidates.hpp"
-#include "sim_host/campaign/planner_registry.hpp"
+#include "sim_host/baselines/planner_registry.hpp"
 #include "sim_host/metrics/time_to_collision.hpp"
 
 namespace s4tp::baselines {
 namespace {
 
-const campaign::RegisterPlanner kRegistered{
+const RegisterPlanner kRegistered{
     {"predictive_decision", "the same predictor, no risk field: a sum of seven features decides",
-     campaign::ecu_with<PredictiveDecisionPlanner<false>>,
-     campaign::ecu_with<Guarded<PredictiveDecisionPlanner<true>>>}};
+     ecu_with<PredictiveDecisionPlanner<false>>, ecu_with<Guarded<PredictiveDecisionPlanner<true>>>}};
 
 constexpr float kHorizonS = kHorizonSteps * kStepS;
 constexpr float kLaneChangeM = 20.0F;

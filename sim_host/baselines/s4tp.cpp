@@ -2,13 +2,13 @@
 // same cycle without it.
 
 #include "sim_host/baselines/bare.hpp"
-#include "sim_host/campaign/planner_registry.hpp"
+#include "sim_host/baselines/planner_registry.hpp"
 
 namespace s4tp::baselines {
 namespace {
 
-const campaign::RegisterPlanner kRegistered{
-    {"s4tp", "what the firmware has", campaign::ecu_with<BarePlanner>, campaign::ecu_with<Planner>}};
+const RegisterPlanner kRegistered{
+    {"s4tp", "what the firmware has", ecu_with<BarePlanner>, ecu_with<Planner>}};
 
 }  // namespace
 }  // namespace s4tp::baselines

@@ -2,12 +2,12 @@
 /// mission's start on: what a simulator takes for human, and a reference for time and success. He knows his
 /// traffic from inside, so there is no ECU and no guard; what he does is recorded and judged as any drive is.
 
-#include "sim_host/campaign/planner_registry.hpp"
+#include "sim_host/baselines/planner_registry.hpp"
 
 namespace s4tp::baselines {
 namespace {
 
-const campaign::RegisterPlanner kRegistered{
+const RegisterPlanner kRegistered{
     {"sumo_driver", "SUMO's own driver, in SUMO's traffic", nullptr, nullptr, true}};
 
 }  // namespace

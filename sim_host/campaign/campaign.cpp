@@ -9,9 +9,9 @@
 #include <stdexcept>
 #include <thread>
 
+#include "sim_host/baselines/planner_registry.hpp"
 #include "sim_host/campaign/digest.hpp"
-#include "sim_host/campaign/planner_registry.hpp"
-#include "sim_host/world/sumo/sumo_routes.hpp"
+#include "sim_host/sumo/sumo_routes.hpp"
 
 namespace s4tp::campaign {
 namespace {
@@ -57,7 +57,8 @@ Campaign load_campaign(const CampaignPlan& plan, const std::filesystem::path& sc
     }
   }
   for (const std::string& planner : plan.planners) {
-    const bool by_sumo = find_planner(planner).drives_in_sumo;  // in its traffic only, and nothing to guard
+    const bool by_sumo =
+        baselines::find_planner(planner).drives_in_sumo;  // in its traffic only, and nothing to guard
     if (by_sumo && !with_sumo) {
       throw std::invalid_argument(planner + " drives in SUMO's traffic only: --traffic sumo");
     }

@@ -12,7 +12,7 @@
 #include "algo/core/parameters.hpp"
 #include "sim_host/campaign/cell.hpp"
 #include "sim_host/campaign/episode.hpp"
-#include "sim_host/world/scenario.hpp"
+#include "sim_host/world/scenario/scenario.hpp"
 
 namespace s4tp::campaign {
 

@@ -14,8 +14,8 @@ class EcuOnBus final : public Driver {
  public:
   EcuOnBus(const std::string& planner, bool guarded, const Parameters& parameters, hal::Telemetry* telemetry,
            Probe* probe)
-      : ecu_(make_ecu(planner, guarded, parameters, {ecu_port_, &clock_, &cycles_, &watchdog_, telemetry},
-                      probe)) {}
+      : ecu_(baselines::make_ecu(planner, guarded, parameters,
+                                 {ecu_port_, &clock_, &cycles_, &watchdog_, telemetry}, probe)) {}
 
   void tick(const std::vector<wire::Frame>& from_world, std::vector<wire::Frame>& to_world) override {
     for (const wire::Frame& frame : from_world) {
@@ -42,7 +42,7 @@ class EcuOnBus final : public Driver {
   hal::sim::NullCycleCounter cycles_;
   hal::sim::NullWatchdog watchdog_;
   std::uint32_t time_ms_ = 0;
-  std::unique_ptr<AnyEcu> ecu_;
+  std::unique_ptr<baselines::AnyEcu> ecu_;
 };
 
 }  // namespace

@@ -10,7 +10,7 @@
 #include "firmware/wire/frame.hpp"
 #include "hal/can.hpp"
 #include "hal/telemetry.hpp"
-#include "sim_host/campaign/any_ecu.hpp"
+#include "sim_host/baselines/any_ecu.hpp"
 
 namespace s4tp::campaign {
 

@@ -3,9 +3,9 @@
 #include <ctime>
 
 #include "firmware/wire/codec.hpp"
+#include "sim_host/baselines/planner_registry.hpp"
 #include "sim_host/campaign/bus_log.hpp"
 #include "sim_host/campaign/driver.hpp"
-#include "sim_host/campaign/planner_registry.hpp"
 #include "sim_host/world/world.hpp"
 
 namespace s4tp::campaign {
@@ -27,7 +27,7 @@ EpisodeResult run_episode(const world::Scenario& scenario, const EpisodeOptions&
   if (options.onlooker != nullptr) options.onlooker->begin(trace);
   hal::Telemetry* const telemetry = options.onlooker != nullptr ? options.onlooker->telemetry() : trace;
   Probe* const probe = options.onlooker != nullptr ? options.onlooker->probe() : trace;
-  const bool by_sumo = find_planner(options.planner).drives_in_sumo;
+  const bool by_sumo = baselines::find_planner(options.planner).drives_in_sumo;
   const auto driver =
       by_sumo ? nullptr : make_driver(options.planner, options.guarded, options.parameters, telemetry, probe);
   world::WorldOptions world_options;

@@ -13,10 +13,10 @@
 #include "firmware/wire/frame.hpp"
 #include "sim_host/campaign/driver.hpp"
 #include "sim_host/campaign/trace.hpp"
-#include "sim_host/world/perception.hpp"
-#include "sim_host/world/recording.hpp"
-#include "sim_host/world/scenario.hpp"
-#include "sim_host/world/traffic_engine.hpp"
+#include "sim_host/world/nodes/perception.hpp"
+#include "sim_host/world/scenario/scenario.hpp"
+#include "sim_host/world/traffic/recording.hpp"
+#include "sim_host/world/traffic/traffic_engine.hpp"
 
 namespace s4tp::campaign {
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "algo/sadrf/presets.hpp"
-#include "sim_host/world/toml_table.hpp"
-#include "sim_host/world/utf8.hpp"
+#include "sim_host/world/scenario/toml_table.hpp"
+#include "sim_host/world/scenario/utf8.hpp"
 
 namespace s4tp::campaign {
 namespace {

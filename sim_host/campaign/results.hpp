@@ -9,7 +9,7 @@
 
 #include "sim_host/campaign/cell.hpp"
 #include "sim_host/metrics/summary.hpp"
-#include "sim_host/world/recording.hpp"
+#include "sim_host/world/traffic/recording.hpp"
 
 namespace s4tp::campaign {
 

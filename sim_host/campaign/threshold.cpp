@@ -8,7 +8,8 @@
 
 #include "algo/core/math.hpp"
 #include "algo/sadrf/risk.hpp"
-#include "sim_host/world/traffic_engine.hpp"
+#include "sim_host/world/engine_factory.hpp"
+#include "sim_host/world/traffic/traffic_engine.hpp"
 
 namespace s4tp::campaign {
 namespace {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "algo/sadrf/presets.hpp"
-#include "sim_host/world/scenario.hpp"
+#include "sim_host/world/scenario/scenario.hpp"
 
 namespace s4tp::campaign {
 

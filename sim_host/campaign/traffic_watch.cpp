@@ -9,6 +9,8 @@
 #include <thread>
 #include <vector>
 
+#include "sim_host/world/engine_factory.hpp"
+
 namespace s4tp::campaign {
 namespace {
 

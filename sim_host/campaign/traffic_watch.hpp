@@ -5,8 +5,8 @@
 #include <functional>
 
 #include "sim_host/metrics/traffic_figures.hpp"
-#include "sim_host/world/scenario.hpp"
-#include "sim_host/world/traffic_engine.hpp"
+#include "sim_host/world/scenario/scenario.hpp"
+#include "sim_host/world/traffic/traffic_engine.hpp"
 
 namespace s4tp::campaign {
 

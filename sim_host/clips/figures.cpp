@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "sim_host/world/box.hpp"
+#include "sim_host/world/traffic/box.hpp"
 
 namespace s4tp::clips {
 namespace {

@@ -13,7 +13,7 @@
 #include "algo/satp/shipped_weights.hpp"
 #include "algo/scene/scene.hpp"
 #include "sim_host/clips/forecaster.hpp"
-#include "sim_host/world/box.hpp"
+#include "sim_host/world/traffic/box.hpp"
 
 namespace s4tp::clips {
 namespace {

@@ -6,8 +6,8 @@
 #include <stdexcept>
 
 #include "algo/satp/shipped_weights.hpp"
-#include "sim_host/world/box.hpp"
-#include "sim_host/world/listed.hpp"
+#include "sim_host/world/scenario/listed.hpp"
+#include "sim_host/world/traffic/box.hpp"
 
 namespace s4tp::clips {
 namespace {

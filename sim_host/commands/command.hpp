@@ -13,7 +13,7 @@
 
 #include "algo/core/parameters.hpp"
 #include "sim_host/processes/own_files.hpp"
-#include "sim_host/world/scenario.hpp"
+#include "sim_host/world/scenario/scenario.hpp"
 
 namespace s4tp::commands {
 

@@ -7,7 +7,7 @@
 #include "sim_host/campaign/parameters_file.hpp"
 #include "sim_host/campaign/record_limits.hpp"
 #include "sim_host/commands/command.hpp"
-#include "sim_host/world/traffic_engine.hpp"
+#include "sim_host/world/traffic/traffic_engine.hpp"
 
 namespace s4tp::commands {
 namespace {

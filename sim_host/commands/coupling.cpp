@@ -2,7 +2,7 @@
 #include <iostream>
 
 #include "sim_host/commands/command.hpp"
-#include "sim_host/world/sumo/coupling_floor.hpp"
+#include "sim_host/sumo/coupling_floor.hpp"
 
 namespace s4tp::commands {
 namespace {

@@ -8,7 +8,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "sim_host/campaign/any_ecu.hpp"
+#include "sim_host/baselines/any_ecu.hpp"
 #include "sim_host/campaign/compare.hpp"
 #include "sim_host/campaign/episode_record.hpp"
 #include "sim_host/campaign/families.hpp"
@@ -20,8 +20,8 @@
 #include "sim_host/campaign/table.hpp"
 #include "sim_host/commands/command.hpp"
 #include "sim_host/processes/stop_signals.hpp"
-#include "sim_host/world/perception.hpp"
-#include "sim_host/world/traffic_engine.hpp"
+#include "sim_host/world/nodes/perception.hpp"
+#include "sim_host/world/traffic/traffic_engine.hpp"
 
 namespace s4tp::commands {
 namespace {
@@ -236,7 +236,7 @@ Command add_eval(CLI::App& tool) {
   options->common.out = fs::path("out") / "eval";
   eval->add_option("--planner,--planners", plan.planners, "who drives (default s4tp)")
       ->delimiter(',')
-      ->check(CLI::IsMember(campaign::planner_names()));
+      ->check(CLI::IsMember(baselines::planner_names()));
   options->scenarios_named =
       eval->add_option("--scenarios,--scenario", plan.scenarios, "shipped names, folders or .toml files")
           ->delimiter(',');

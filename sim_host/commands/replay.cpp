@@ -6,7 +6,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include "sim_host/campaign/planner_registry.hpp"
+#include "sim_host/baselines/planner_registry.hpp"
 #include "sim_host/commands/command.hpp"
 #include "sim_host/recording/cut.hpp"
 #include "sim_host/recording/playback.hpp"
@@ -166,7 +166,7 @@ Command add_replay(CLI::App& tool) {
   options->common.out_named =
       replay_app->add_option("--out", options->common.out, "folder for that (--view: default out/replay)");
   replay_app->add_option("--planner", options->planner, "of a log that does not say it (default s4tp)")
-      ->check(CLI::IsMember(campaign::planner_names()));
+      ->check(CLI::IsMember(baselines::planner_names()));
   replay_app->add_option("--guard", options->guard, "the same (default on)")
       ->check(CLI::IsMember({"on", "off"}));
   replay_app->add_option("--parameters", options->common.parameters_file,

@@ -7,9 +7,9 @@
 #include <stdexcept>
 #include <utility>
 
-#include "sim_host/campaign/any_ecu.hpp"
+#include "sim_host/baselines/any_ecu.hpp"
+#include "sim_host/baselines/planner_registry.hpp"
 #include "sim_host/campaign/bus_log.hpp"
-#include "sim_host/campaign/planner_registry.hpp"
 #include "sim_host/campaign/results.hpp"
 #include "sim_host/commands/command.hpp"
 #include "sim_host/commands/vcan_machine.hpp"
@@ -25,7 +25,7 @@
 #include "sim_host/view/plan_words.hpp"
 #include "sim_host/view/replay.hpp"
 #include "sim_host/view/report.hpp"
-#include "sim_host/world/cut.hpp"
+#include "sim_host/world/scenario/cut.hpp"
 #include "sim_host/world/world.hpp"
 
 namespace s4tp::commands {
@@ -115,7 +115,7 @@ int run_one(RunOptions run) {
   campaign::EpisodeOptions options;
   options.seed = run.common.seed;
   options.planner = run.planner;
-  options.guarded = run.guarded() && !campaign::find_planner(run.planner).drives_in_sumo;
+  options.guarded = run.guarded() && !baselines::find_planner(run.planner).drives_in_sumo;
   options.engine = world::engine_of(run.common.traffic);
   options.perception = world::perception_preset(run.perception);
   options.parameters = run.common.parameters();
@@ -123,7 +123,7 @@ int run_one(RunOptions run) {
   if (!run.log.empty()) options.log = run.log;
   telemetry::LiveDrive live(run.telemetry, run.planner, options.parameters);
   if (run.live) options.onlooker = &live;
-  if (!run.record.empty() && campaign::find_planner(run.planner).drives_in_sumo) {
+  if (!run.record.empty() && baselines::find_planner(run.planner).drives_in_sumo) {
     throw std::runtime_error("--record: " + run.planner + " runs on no ECU, so there is nothing to replay");
   }
   const auto recorder = make_recorder(run, scenario, recording::Meeting::kInProcess, run.planner);
@@ -258,7 +258,7 @@ Command add_run(CLI::App& tool) {
   options->common.add_traffic_to(*run);
   run->add_option("--scenario", options->scenario, "shipped name, folder or .toml file (default left_turn)");
   CLI::Option* const planner = run->add_option("--planner", options->planner, "who drives (default s4tp)")
-                                   ->check(CLI::IsMember(campaign::planner_names()));
+                                   ->check(CLI::IsMember(baselines::planner_names()));
   CLI::Option* const guard = run->add_option("--guard", options->guard,
                                              "check, RSS and minimum-risk manoeuvre behind him (default on)")
                                  ->check(CLI::IsMember({"on", "off"}));

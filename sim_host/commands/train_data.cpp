@@ -13,7 +13,7 @@
 #include "sim_host/roads/generator.hpp"
 #include "sim_host/train/data_drive.hpp"
 #include "sim_host/train/sample_file.hpp"
-#include "sim_host/world/random.hpp"
+#include "sim_host/world/traffic/random.hpp"
 
 namespace s4tp::commands {
 namespace {

@@ -6,12 +6,12 @@
 
 #include "algo/core/parameters.hpp"
 #include "firmware/can/frames.hpp"
-#include "firmware/ecu/lockstep_bus.hpp"
 #include "firmware/ecu/records.hpp"
+#include "firmware/lockstep/lockstep_bus.hpp"
 #include "firmware/wire/codec.hpp"
 #include "hal/sim/bus.hpp"
 #include "hal/sim/null_devices.hpp"
-#include "sim_host/campaign/any_ecu.hpp"
+#include "sim_host/baselines/any_ecu.hpp"
 #include "sim_host/faults/faulty_bus.hpp"
 #include "sim_host/world/world.hpp"
 
@@ -151,12 +151,12 @@ class Run {
   hal::sim::Bus bus_;
   hal::sim::Bus::Port* world_port_ = bus_.attach();
   hal::sim::Bus::Port* ecu_port_ = bus_.attach();
-  ecu::LockstepBus lockstep_{*ecu_port_};
+  lockstep::LockstepBus lockstep_{*ecu_port_};
   Witness witness_{script_.tick == TickSource::kTimer ? static_cast<hal::Can&>(*ecu_port_) : lockstep_,
                    judge_};
   hal::sim::NullCycleCounter cycles_;
   hal::sim::NullWatchdog watchdog_;
-  std::unique_ptr<campaign::AnyEcu> ecu_ = campaign::make_ecu(
+  std::unique_ptr<baselines::AnyEcu> ecu_ = baselines::make_ecu(
       "s4tp", true, Parameters{}, {&witness_, nullptr, &cycles_, &watchdog_, &story_}, nullptr);
   double speed_mps_ = 0.0;
   wire::Pose pose_;

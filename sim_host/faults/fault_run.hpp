@@ -13,9 +13,9 @@
 #include "firmware/wire/frame.hpp"
 #include "sim_host/faults/judge.hpp"
 #include "sim_host/faults/script.hpp"
-#include "sim_host/world/recording.hpp"
-#include "sim_host/world/scenario.hpp"
-#include "sim_host/world/vehicle_node.hpp"
+#include "sim_host/world/nodes/vehicle_node.hpp"
+#include "sim_host/world/scenario/scenario.hpp"
+#include "sim_host/world/traffic/recording.hpp"
 
 namespace s4tp::faults {
 

@@ -5,7 +5,7 @@
 
 #include "sim_host/faults/lies.hpp"
 #include "sim_host/faults/sender_faults.hpp"
-#include "sim_host/world/random.hpp"
+#include "sim_host/world/traffic/random.hpp"
 
 namespace s4tp::faults {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "firmware/wire/codec.hpp"
 #include "sim_host/faults/lies.hpp"
-#include "sim_host/world/random.hpp"
+#include "sim_host/world/traffic/random.hpp"
 
 namespace s4tp::faults {
 namespace {

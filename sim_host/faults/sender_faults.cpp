@@ -4,7 +4,7 @@
 
 #include "firmware/wire/codec.hpp"
 #include "firmware/wire/e2e.hpp"
-#include "sim_host/world/random.hpp"
+#include "sim_host/world/traffic/random.hpp"
 
 namespace s4tp::faults {
 namespace {

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <optional>
 
-#include "sim_host/world/box.hpp"
+#include "sim_host/world/traffic/box.hpp"
 
 namespace s4tp::metrics {
 namespace {

@@ -8,7 +8,7 @@
 
 #include <vector>
 
-#include "sim_host/world/recording.hpp"
+#include "sim_host/world/traffic/recording.hpp"
 
 namespace s4tp::metrics {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <optional>
 
-#include "sim_host/world/box.hpp"
 #include "sim_host/world/judge/reasons.hpp"
+#include "sim_host/world/traffic/box.hpp"
 
 namespace s4tp::metrics {
 namespace {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "sim_host/metrics/traffic_statistics.hpp"
-#include "sim_host/world/journey.hpp"
+#include "sim_host/world/judge/journey.hpp"
 
 namespace s4tp::metrics {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "sim_host/metrics/time_to_collision.hpp"
-#include "sim_host/world/box.hpp"
+#include "sim_host/world/traffic/box.hpp"
 
 namespace s4tp::metrics {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "sim_host/metrics/comp1.hpp"
 #include "sim_host/metrics/encounters.hpp"
-#include "sim_host/world/recording.hpp"
-#include "sim_host/world/scenario.hpp"
+#include "sim_host/world/scenario/scenario.hpp"
+#include "sim_host/world/traffic/recording.hpp"
 
 namespace s4tp::metrics {
 

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim_host/metrics/confidence.hpp"
+
 namespace s4tp::metrics {
 namespace {
-
-constexpr double kZ = 1.959963984540054;  // two-sided 95 %
 
 /// Tango's statistic: how many standard errors the data (pairs, only first fails, only second fails) lie
 /// above a true difference `delta`.

@@ -4,11 +4,12 @@
 #include <cmath>
 #include <cstddef>
 
+#include "sim_host/metrics/confidence.hpp"
+
 namespace s4tp::metrics {
 
 Interval wilson(double successes, double trials) {
   if (trials <= 0.0) return {};
-  constexpr double kZ = 1.959963984540054;  // two-sided 95 %
   const double n = trials;
   const double p = successes / n;
   const double scale = 1.0 + kZ * kZ / n;

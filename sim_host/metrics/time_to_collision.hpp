@@ -1,7 +1,7 @@
 #pragma once
 /// How long until two cars touch when both go on as they do.
 
-#include "sim_host/world/recording.hpp"
+#include "sim_host/world/traffic/recording.hpp"
 
 namespace s4tp::metrics {
 

@@ -7,8 +7,8 @@
 
 #include "sim_host/metrics/junction_statistics.hpp"
 #include "sim_host/metrics/road_statistics.hpp"
-#include "sim_host/world/box.hpp"
-#include "sim_host/world/journey.hpp"
+#include "sim_host/world/judge/journey.hpp"
+#include "sim_host/world/traffic/box.hpp"
 
 namespace s4tp::metrics {
 namespace {

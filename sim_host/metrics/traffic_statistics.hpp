@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "sim_host/metrics/gap_acceptance.hpp"
-#include "sim_host/world/network.hpp"
-#include "sim_host/world/recording.hpp"
+#include "sim_host/world/map/network.hpp"
+#include "sim_host/world/traffic/recording.hpp"
 
 namespace s4tp::metrics {
 

@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-#include "sim_host/campaign/any_ecu.hpp"
+#include "sim_host/baselines/any_ecu.hpp"
 #include "sim_host/campaign/parameters_file.hpp"
 #include "sim_host/processes/bus_end.hpp"
 #include "sim_host/processes/ecu_process.hpp"
@@ -41,7 +41,7 @@ int main(int argc, char** argv) {
                  "can0, vcan0, slcan:tcp:HOST:PORT, slcan:pty:PATH, slcan:tty:PATH@BAUD")
       ->required();
   app.add_option("--planner", options.planner, "the planner on it (default s4tp)")
-      ->check(CLI::IsMember(campaign::planner_names()));
+      ->check(CLI::IsMember(baselines::planner_names()));
   std::string input;
   app.add_option("--input", input, "second link: track lists and the map come from it and not from the bus");
   std::string key;

@@ -5,11 +5,11 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "firmware/ecu/lockstep_bus.hpp"
 #include "firmware/ecu/reports.hpp"
+#include "firmware/lockstep/lockstep_bus.hpp"
 #include "hal/sim/null_devices.hpp"
 #include "hal/sim/sim_clock.hpp"
-#include "sim_host/campaign/any_ecu.hpp"
+#include "sim_host/baselines/any_ecu.hpp"
 #include "sim_host/processes/bus_end.hpp"
 #include "sim_host/processes/ecu_realtime.hpp"
 #include "sim_host/processes/ecu_reporter.hpp"
@@ -30,19 +30,19 @@ struct Devices {
   EcuReporter reporter;
   telemetry::EcuTap tap{&reporter};
 
-  std::unique_ptr<campaign::AnyEcu> make_ecu(const EcuProcessOptions& options, hal::Can& bus,
-                                             std::ostream& out) {
+  std::unique_ptr<baselines::AnyEcu> make_ecu(const EcuProcessOptions& options, hal::Can& bus,
+                                              std::ostream& out) {
     hal::linux_host::Reason reason;
     const bool told = !options.telemetry.empty();
     if (told && !tap.open(options.telemetry, options.planner, options.bus, options.parameters, reason))
       out << "no telemetry: " << reason.text << std::endl;
-    return campaign::make_ecu(options.planner, options.guarded, options.parameters,
-                              {&bus, &clock, &cycles, &watchdog, &tap}, tap.is_open() ? &tap : nullptr);
+    return baselines::make_ecu(options.planner, options.guarded, options.parameters,
+                               {&bus, &clock, &cycles, &watchdog, &tap}, tap.is_open() ? &tap : nullptr);
   }
 };
 
 /// Waits until a tick opens. \return false: none in `timeout_ms`, however many other frames come
-bool wait_tick(ecu::LockstepBus& bus, hal::linux_host::LinuxCan& can, int timeout_ms) {
+bool wait_tick(lockstep::LockstepBus& bus, hal::linux_host::LinuxCan& can, int timeout_ms) {
   const auto end = steady_clock::now() + std::chrono::milliseconds(timeout_ms);
   for (;;) {
     const auto now = steady_clock::now();
@@ -78,7 +78,7 @@ struct Authentic {
 
 template <class Bus>
 void print_summary(std::ostream& out, const EcuProcessOptions& options, std::uint32_t ticks,
-                   const EcuReporter& reporter, const campaign::AnyEcu& ecu, const Bus& bus) {
+                   const EcuReporter& reporter, const baselines::AnyEcu& ecu, const Bus& bus) {
   out << "ECU: " << ticks << " ticks, " << reporter.plans() << " plans, " << ecu.core().statistics().slips
       << " deadlines missed, " << bus.refused_ticks() << " TICK frames refused\n";
   print_counters(out, "ECU on " + options.bus, bus.counters());
@@ -87,7 +87,7 @@ void print_summary(std::ostream& out, const EcuProcessOptions& options, std::uin
 
 EcuEnd run_in_lock_step(hal::linux_host::LinuxCan& can, const EcuProcessOptions& options, std::ostream& out,
                         const std::atomic<bool>& stop) {
-  ecu::LockstepBus bus(can);
+  lockstep::LockstepBus bus(can);
   Authentic authentic(bus, options);
   hal::Can& top = authentic.over(bus);
   const auto kept = std::make_unique<Devices>();  // tens of KiB

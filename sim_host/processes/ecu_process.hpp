@@ -17,7 +17,7 @@ namespace s4tp::processes {
 struct EcuProcessOptions {
   std::string bus;  ///< its name, for messages
   std::string planner = "s4tp";
-  bool guarded = true;  ///< campaign::make_ecu()
+  bool guarded = true;  ///< baselines::make_ecu()
   Parameters parameters;
   int wait_s = 60;    ///< for the first tick
   int silence_s = 5;  ///< without a tick, after which the drive is over
@@ -42,7 +42,7 @@ enum class EcuEnd {
 /// PROC-014 Planning ends before the next tick begins, so the frames are those of the in-process drive, bit
 /// by bit; with `realtime` it may take its time and miss its deadline. AUTH-034 With keys no command, motion,
 /// track list or map is taken from the bus that no companion verifies, and until the first tick it says its
-/// nonce, too. \throws std::invalid_argument as campaign::make_ecu()
+/// nonce, too. \throws std::invalid_argument as baselines::make_ecu()
 [[nodiscard]] EcuEnd run_ecu(hal::linux_host::LinuxCan& can, const EcuProcessOptions& options,
                              std::ostream& out, const std::atomic<bool>& stop);
 

@@ -30,7 +30,7 @@ std::uint32_t clamp_us(std::uint64_t time_us) {
 
 class Drive {
  public:
-  Drive(campaign::AnyEcu& ecu, TimedBus& bus, hal::linux_host::LinuxCan& can, EcuReporter& reporter,
+  Drive(baselines::AnyEcu& ecu, TimedBus& bus, hal::linux_host::LinuxCan& can, EcuReporter& reporter,
         telemetry::EcuTap& tap, const EcuProcessOptions& options, const std::function<void()>& announce,
         const std::atomic<bool>& stop)
       : ecu_(ecu),
@@ -161,7 +161,7 @@ class Drive {
     }
   }
 
-  campaign::AnyEcu& ecu_;
+  baselines::AnyEcu& ecu_;
   TimedBus& bus_;
   hal::linux_host::LinuxCan& can_;
   EcuReporter& reporter_;
@@ -189,7 +189,7 @@ class Drive {
 
 }  // namespace
 
-RealtimeDrive drive_in_real_time(campaign::AnyEcu& ecu, TimedBus& bus, hal::linux_host::LinuxCan& can,
+RealtimeDrive drive_in_real_time(baselines::AnyEcu& ecu, TimedBus& bus, hal::linux_host::LinuxCan& can,
                                  EcuReporter& reporter, telemetry::EcuTap& tap,
                                  const EcuProcessOptions& options, const std::function<void()>& announce,
                                  std::ostream& out, const std::atomic<bool>& stop) {

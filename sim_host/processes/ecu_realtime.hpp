@@ -11,7 +11,7 @@
 #include <functional>
 #include <ostream>
 
-#include "sim_host/campaign/any_ecu.hpp"
+#include "sim_host/baselines/any_ecu.hpp"
 #include "sim_host/processes/ecu_process.hpp"
 #include "sim_host/processes/ecu_reporter.hpp"
 #include "sim_host/processes/realtime_report.hpp"
@@ -32,7 +32,7 @@ struct RealtimeDrive {
 /// phase-locked to the motion frame; planning never holds it up. Both threads ask for SCHED_FIFO, control
 /// above planning, and the process for locked memory, before the first tick.
 /// \param announce  called on control's thread each time it says that it is there
-[[nodiscard]] RealtimeDrive drive_in_real_time(campaign::AnyEcu& ecu, TimedBus& bus,
+[[nodiscard]] RealtimeDrive drive_in_real_time(baselines::AnyEcu& ecu, TimedBus& bus,
                                                hal::linux_host::LinuxCan& can, EcuReporter& reporter,
                                                telemetry::EcuTap& tap, const EcuProcessOptions& options,
                                                const std::function<void()>& announce, std::ostream& out,

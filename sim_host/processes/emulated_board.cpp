@@ -8,7 +8,7 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "sim_host/world/listed.hpp"
+#include "sim_host/world/scenario/listed.hpp"
 
 namespace s4tp::processes {
 namespace {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "firmware/ecu/lockstep_bus.hpp"
+#include "firmware/lockstep/lockstep_bus.hpp"
 #include "hal/can.hpp"
 #include "hal/linux/linux_can.hpp"
 
@@ -13,7 +13,7 @@ namespace s4tp::processes {
 
 class TimedBus final : public hal::Can {
  public:
-  static constexpr int kQueueFrames = ecu::LockstepBus::kQueueFrames;
+  static constexpr int kQueueFrames = lockstep::LockstepBus::kQueueFrames;
 
   /// \param can  must outlive this
   explicit TimedBus(hal::linux_host::LinuxCan& can) : can_(can) {}
@@ -39,7 +39,7 @@ class TimedBus final : public hal::Can {
   void keep(const hal::CanFrame& frame);
 
   hal::linux_host::LinuxCan& can_;
-  ecu::TickOpener opener_;
+  lockstep::TickOpener opener_;
   hal::CanFrame queue_[kQueueFrames];
   int first_ = 0;
   int size_ = 0;

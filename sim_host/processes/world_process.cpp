@@ -13,7 +13,7 @@
 #include "hal/linux/timer_tick.hpp"
 #include "sim_host/campaign/bus_log.hpp"
 #include "sim_host/processes/bus_end.hpp"
-#include "sim_host/world/tick_echo.hpp"
+#include "sim_host/world/nodes/tick_echo.hpp"
 #include "sim_host/world/world.hpp"
 
 namespace s4tp::processes {

@@ -13,10 +13,10 @@
 #include "hal/linux/linux_can.hpp"
 #include "sim_host/processes/authentic_link.hpp"
 #include "sim_host/processes/realtime_report.hpp"
-#include "sim_host/world/perception.hpp"
-#include "sim_host/world/recording.hpp"
-#include "sim_host/world/scenario.hpp"
-#include "sim_host/world/traffic_engine.hpp"
+#include "sim_host/world/nodes/perception.hpp"
+#include "sim_host/world/scenario/scenario.hpp"
+#include "sim_host/world/traffic/recording.hpp"
+#include "sim_host/world/traffic/traffic_engine.hpp"
 
 namespace s4tp::processes {
 

@@ -8,8 +8,8 @@
 #include "algo/core/parameters.hpp"
 #include "firmware/ecu/ecu_core.hpp"
 #include "firmware/wire/lane_map.hpp"
-#include "sim_host/world/recording.hpp"
-#include "sim_host/world/scenario.hpp"
+#include "sim_host/world/scenario/scenario.hpp"
+#include "sim_host/world/traffic/recording.hpp"
 
 namespace s4tp::recording {
 

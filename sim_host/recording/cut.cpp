@@ -7,7 +7,7 @@
 
 #include "sim_host/recording/rerun.hpp"
 #include "sim_host/recording/ticks.hpp"
-#include "sim_host/world/cut.hpp"
+#include "sim_host/world/scenario/cut.hpp"
 
 namespace s4tp::recording {
 namespace {

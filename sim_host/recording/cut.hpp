@@ -21,7 +21,7 @@ struct CutMade {
   double start_s = 0.0;  ///< since the ECU took over
 };
 
-/// REC-030 A scenario folder (world/cut.hpp) in which the world is that of the recording to the bit until
+/// REC-030 A scenario folder (world/scenario/cut.hpp) in which the world is that of the recording to the bit until
 /// kBefore_s before the moment; from then on whoever drives does. With the planner and parameters of the
 /// drive it goes on as recorded. \param moment_s  since the ECU took over \param folder  new, or empty
 /// \throws std::runtime_error when the recording has no note or does not hold the moment; NoSuchWorld when its

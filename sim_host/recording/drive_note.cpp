@@ -14,9 +14,9 @@
 #include "sim_host/campaign/digest.hpp"
 #include "sim_host/campaign/parameters_file.hpp"
 #include "sim_host/campaign/record_limits.hpp"
-#include "sim_host/world/listed.hpp"
-#include "sim_host/world/perception.hpp"
-#include "sim_host/world/traffic_engine.hpp"
+#include "sim_host/world/nodes/perception.hpp"
+#include "sim_host/world/scenario/listed.hpp"
+#include "sim_host/world/traffic/traffic_engine.hpp"
 
 namespace s4tp::recording {
 namespace {

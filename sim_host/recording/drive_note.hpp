@@ -13,7 +13,7 @@
 #include <string>
 
 #include "algo/core/parameters.hpp"
-#include "sim_host/world/scenario.hpp"
+#include "sim_host/world/scenario/scenario.hpp"
 
 namespace s4tp::recording {
 

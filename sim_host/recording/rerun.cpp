@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "firmware/wire/codec.hpp"
-#include "sim_host/world/perception.hpp"
-#include "sim_host/world/tick_echo.hpp"
-#include "sim_host/world/traffic_engine.hpp"
+#include "sim_host/world/nodes/perception.hpp"
+#include "sim_host/world/nodes/tick_echo.hpp"
+#include "sim_host/world/traffic/traffic_engine.hpp"
 
 namespace s4tp::recording {
 namespace {

@@ -14,7 +14,8 @@
 #include "sim_host/recording/rerun.hpp"
 #include "sim_host/recording/ticks.hpp"
 #include "sim_host/world/ego_road.hpp"
-#include "sim_host/world/traffic_engine.hpp"
+#include "sim_host/world/engine_factory.hpp"
+#include "sim_host/world/traffic/traffic_engine.hpp"
 
 namespace s4tp::recording {
 namespace {

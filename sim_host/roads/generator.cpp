@@ -10,7 +10,7 @@
 #include "sim_host/roads/netconvert.hpp"
 #include "sim_host/roads/road.hpp"
 #include "sim_host/roads/scenario_toml.hpp"
-#include "sim_host/world/scenario.hpp"
+#include "sim_host/world/scenario/scenario.hpp"
 
 namespace s4tp::roads {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "sim_host/world/scenario.hpp"
+#include "sim_host/world/scenario/scenario.hpp"
 
 namespace s4tp::roads {
 

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "sim_host/world/polyline.hpp"
-#include "sim_host/world/random.hpp"
-#include "sim_host/world/traffic_demand.hpp"
+#include "sim_host/world/map/polyline.hpp"
+#include "sim_host/world/scenario/traffic_demand.hpp"
+#include "sim_host/world/traffic/random.hpp"
 
 namespace s4tp::roads {
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "sim_host/roads/road.hpp"
-#include "sim_host/world/network.hpp"
+#include "sim_host/world/map/network.hpp"
 
 namespace s4tp::roads {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "sim_host/world/box.hpp"
-#include "sim_host/world/traffic_driver.hpp"
+#include "sim_host/world/traffic/box.hpp"
+#include "sim_host/world/traffic/traffic_driver.hpp"
 
 namespace s4tp::train {
 namespace {

@@ -11,7 +11,7 @@
 #include "algo/core/trajectory.hpp"
 #include "firmware/ecu/tracker.hpp"
 #include "sim_host/world/branch.hpp"
-#include "sim_host/world/random.hpp"
+#include "sim_host/world/traffic/random.hpp"
 
 namespace s4tp::train {
 

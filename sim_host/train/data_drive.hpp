@@ -16,8 +16,8 @@
 
 #include "algo/core/parameters.hpp"
 #include "sim_host/train/sample.hpp"
-#include "sim_host/world/perception.hpp"
-#include "sim_host/world/scenario.hpp"
+#include "sim_host/world/nodes/perception.hpp"
+#include "sim_host/world/scenario/scenario.hpp"
 
 namespace s4tp::train {
 

@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "algo/satp/input_builder.hpp"
-#include "sim_host/world/traffic_view.hpp"
-#include "sim_host/world/vehicle.hpp"
+#include "sim_host/world/nodes/vehicle.hpp"
+#include "sim_host/world/traffic/traffic_view.hpp"
 
 namespace s4tp::train {
 namespace {

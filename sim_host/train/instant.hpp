@@ -7,7 +7,7 @@
 #include "sim_host/train/meetings.hpp"
 #include "sim_host/train/observer.hpp"
 #include "sim_host/train/sample.hpp"
-#include "sim_host/world/scenario.hpp"
+#include "sim_host/world/scenario/scenario.hpp"
 
 namespace s4tp::train {
 

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "sim_host/train/sample.hpp"
-#include "sim_host/world/journey.hpp"
-#include "sim_host/world/network.hpp"
-#include "sim_host/world/recording.hpp"
+#include "sim_host/world/judge/journey.hpp"
+#include "sim_host/world/map/network.hpp"
+#include "sim_host/world/traffic/recording.hpp"
 
 namespace s4tp::train {
 

@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "sim_host/campaign/episode.hpp"
-#include "sim_host/world/scenario.hpp"
+#include "sim_host/world/scenario/scenario.hpp"
 
 namespace s4tp::view {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "algo/sadrf/field.hpp"
-#include "sim_host/world/recording.hpp"
+#include "sim_host/world/traffic/recording.hpp"
 
 namespace s4tp::view {
 

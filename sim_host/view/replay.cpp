@@ -9,7 +9,7 @@
 #include "sim_host/metrics/metrics.hpp"
 #include "sim_host/view/haze.hpp"
 #include "sim_host/view/plan_words.hpp"
-#include "sim_host/world/box.hpp"
+#include "sim_host/world/traffic/box.hpp"
 
 namespace s4tp::view {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "sim_host/campaign/cell.hpp"
 #include "sim_host/campaign/episode.hpp"
-#include "sim_host/world/scenario.hpp"
+#include "sim_host/world/scenario/scenario.hpp"
 
 namespace s4tp::view {
 

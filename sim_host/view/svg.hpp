@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "sim_host/world/polyline.hpp"
+#include "sim_host/world/map/polyline.hpp"
 
 namespace s4tp::view {
 

@@ -2,12 +2,11 @@
 
 #include <utility>
 
-#include "sim_host/world/box.hpp"
+#include "sim_host/world/traffic/box.hpp"
 
 namespace s4tp::world {
 namespace {
 
-constexpr double kTick_s = 0.01;
 constexpr int kMillisecondsPerTick = 10;
 
 }  // namespace

@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "sim_host/world/ego_road.hpp"
-#include "sim_host/world/recording.hpp"
-#include "sim_host/world/traffic_engine.hpp"
-#include "sim_host/world/vehicle.hpp"
+#include "sim_host/world/nodes/vehicle.hpp"
+#include "sim_host/world/traffic/recording.hpp"
+#include "sim_host/world/traffic/traffic_engine.hpp"
 
 namespace s4tp::world {
 

@@ -1,9 +1,9 @@
 #pragma once
 /// What of an episode never changes, as the ego needs it: shared by the world and its branches.
 
-#include "sim_host/world/locator.hpp"
-#include "sim_host/world/scenario.hpp"
-#include "sim_host/world/vehicle.hpp"
+#include "sim_host/world/nodes/vehicle.hpp"
+#include "sim_host/world/scenario/scenario.hpp"
+#include "sim_host/world/traffic/locator.hpp"
 
 namespace s4tp::world {
 

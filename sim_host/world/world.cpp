@@ -6,19 +6,18 @@
 #include <stdexcept>
 #include <utility>
 
-#include "sim_host/world/box.hpp"
-#include "sim_host/world/cut.hpp"
 #include "sim_host/world/ego_road.hpp"
 #include "sim_host/world/judge/attribution.hpp"
-#include "sim_host/world/traffic_engine.hpp"
-#include "sim_host/world/vehicle_node.hpp"
+#include "sim_host/world/nodes/vehicle_node.hpp"
+#include "sim_host/world/nodes/world_nodes.hpp"
+#include "sim_host/world/scenario/cut.hpp"
+#include "sim_host/world/traffic/box.hpp"
+#include "sim_host/world/traffic/traffic_engine.hpp"
 #include "sim_host/world/world_entry.hpp"
-#include "sim_host/world/world_nodes.hpp"
 
 namespace s4tp::world {
 namespace {
 
-constexpr double kTick_s = 0.01;
 constexpr int kDeadTicks = 200;
 constexpr double kAfterTouch_s = 1.0;
 

@@ -7,11 +7,11 @@
 
 #include "firmware/wire/frame.hpp"
 #include "sim_host/world/branch.hpp"
-#include "sim_host/world/perception.hpp"
-#include "sim_host/world/recording.hpp"
-#include "sim_host/world/scenario.hpp"
-#include "sim_host/world/traffic_engine.hpp"
-#include "sim_host/world/vehicle_node.hpp"
+#include "sim_host/world/nodes/perception.hpp"
+#include "sim_host/world/nodes/vehicle_node.hpp"
+#include "sim_host/world/scenario/scenario.hpp"
+#include "sim_host/world/traffic/recording.hpp"
+#include "sim_host/world/traffic/traffic_engine.hpp"
 
 namespace s4tp::world {
 

@@ -4,13 +4,13 @@
 #include <cmath>
 #include <cstdint>
 
-#include "sim_host/world/box.hpp"
-#include "sim_host/world/vehicle.hpp"
+#include "sim_host/world/engine_factory.hpp"
+#include "sim_host/world/nodes/vehicle.hpp"
+#include "sim_host/world/traffic/box.hpp"
 
 namespace s4tp::world {
 namespace {
 
-constexpr double kTick_s = 0.01;
 constexpr double kClearHeadway_s = 1.5;
 constexpr double kUndisturbed_s = 1.0;  // after entry: a touch within it is the draw's fault
 constexpr int kRedrawsMax = 100;

@@ -5,8 +5,8 @@
 #include <memory>
 #include <vector>
 
-#include "sim_host/world/locator.hpp"
-#include "sim_host/world/traffic_engine.hpp"
+#include "sim_host/world/traffic/locator.hpp"
+#include "sim_host/world/traffic/traffic_engine.hpp"
 #include "sim_host/world/world.hpp"
 
 namespace s4tp::world {

@@ -22,9 +22,10 @@
 
 #include "sim_host/processes/child_process.hpp"
 #include "sim_host/telemetry/live_drive.hpp"
-#include "sim_host/world/scenario.hpp"
+#include "sim_host/world/scenario/scenario.hpp"
 #include "tests/benchmark/dds_subscriber.hpp"
 #include "tests/benchmark/ddsperf.hpp"
+#include "tests/support/test_memory.hpp"
 
 namespace {
 
@@ -167,7 +168,7 @@ struct Options {
 
 /// Drives until the goal or the time limit, and reads all the while.
 std::vector<Row> measure(const Options& options, std::uint32_t domain) {
-  const std::string memory = "/s4tp_dds_bench_" + std::to_string(getpid());
+  const std::string memory = tests::test_memory("dds_bench");
   const fs::path said = options.out / "telemetry.txt";
   DdsSubscriber subscriber(domain);
   NotedDrive drive(memory);

@@ -4,8 +4,8 @@
 #include <stdexcept>
 #include <type_traits>
 
+#include "sim_host/baselines/planner_registry.hpp"
 #include "sim_host/campaign/episode.hpp"
-#include "sim_host/campaign/planner_registry.hpp"
 
 namespace s4tp::benchmark {
 namespace {
@@ -46,9 +46,9 @@ class RecordingPlanner final : public PlanningCycle {
   }
 };
 
-const campaign::RegisterPlanner kRegistered{{"recording", "keeps what its optimizer was asked",
-                                             campaign::ecu_with<RecordingPlanner>,
-                                             campaign::ecu_with<RecordingPlanner>}};
+const baselines::RegisterPlanner kRegistered{{"recording", "keeps what its optimizer was asked",
+                                              baselines::ecu_with<RecordingPlanner>,
+                                              baselines::ecu_with<RecordingPlanner>}};
 
 }  // namespace
 

@@ -13,8 +13,9 @@
 
 #include "sim_host/campaign/driver.hpp"
 #include "sim_host/telemetry/ecu_tap.hpp"
-#include "sim_host/world/scenario.hpp"
+#include "sim_host/world/scenario/scenario.hpp"
 #include "sim_host/world/world.hpp"
+#include "tests/support/test_memory.hpp"
 
 namespace s4tp::tests {
 
@@ -22,7 +23,7 @@ inline const std::string kTelemetry = std::string(S4TP_BINARY_DIR) + "/sim_host/
 
 /// One a test process.
 inline std::string memory_name() {
-  return "/s4tp_dds_test_" + std::to_string(getpid());
+  return test_memory("dds");
 }
 
 inline world::Scenario shipped(const std::string& name) {

@@ -17,9 +17,10 @@
 #include "sim_host/processes/input_link.hpp"
 #include "sim_host/processes/world_process.hpp"
 #include "sim_host/telemetry/watch.hpp"
-#include "sim_host/world/scenario.hpp"
+#include "sim_host/world/scenario/scenario.hpp"
 #include "tests/dds/input_publisher.hpp"
 #include "tests/support/free_port.hpp"
+#include "tests/support/test_memory.hpp"
 
 namespace s4tp::telemetry {
 namespace {
@@ -64,7 +65,7 @@ struct Driven {
 /// The left turn of seed 3 at the pace of the clock, with s4tp_ecu_process and s4tp-telemetry.
 /// \param perception  null: nothing is told over DDS, while all of it is on the bus
 Driven drive(Perception* perception, int most_ticks) {
-  const std::string memory = "/s4tp_input_drive_" + std::to_string(getpid());
+  const std::string memory = tests::test_memory("input_drive");
   const std::string programs = std::string(S4TP_BINARY_DIR) + "/sim_host/";
   const std::string bus_port = test::free_port();
   const std::string link_port = test::free_port();

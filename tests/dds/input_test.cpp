@@ -23,7 +23,7 @@
 #include "sim_host/recording/ticks.hpp"
 #include "sim_host/telemetry/dds_input.hpp"
 #include "sim_host/telemetry/dds_messages.hpp"
-#include "sim_host/world/scenario.hpp"
+#include "sim_host/world/scenario/scenario.hpp"
 #include "sim_host/world/world.hpp"
 #include "tests/dds/input_publisher.hpp"
 #include "tests/support/fake_bus.hpp"

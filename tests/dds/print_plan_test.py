@@ -5,6 +5,7 @@
 """
 
 import os
+import pathlib
 import re
 import subprocess
 import sys
@@ -25,6 +26,7 @@ def main(tool, telemetry, print_plan):
             for process in running:
                 process.terminate()
                 process.wait(timeout=30)
+            pathlib.Path("/dev/shm" + memory).unlink(missing_ok=True)  # whoever is killed leaves it behind
     print(done.stdout)
     plans = re.findall(r"^([\d.]+) s: 31 points, from [\d.]+ m/s at .* m/s at .*\)\. \w+.*\.$", done.stdout, re.MULTILINE)
     times = list(map(float, plans))

@@ -5,8 +5,8 @@
 #include <fstream>
 #include <iterator>
 
-#include "sim_host/world/cut.hpp"
-#include "sim_host/world/scenario.hpp"
+#include "sim_host/world/scenario/cut.hpp"
+#include "sim_host/world/scenario/scenario.hpp"
 #include "tests/fuzz/files.hpp"
 
 using namespace s4tp;

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <memory>
 
-#include "algo/planner/s4tp.h"
+#include "algo/api/s4tp.h"
 #include "tests/fuzz/input.hpp"
 #include "tests/support/c_map.hpp"
 #include "tests/support/lane_maps.hpp"

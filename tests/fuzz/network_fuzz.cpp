@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "sim_host/world/network.hpp"
+#include "sim_host/world/map/network.hpp"
 #include "tests/fuzz/files.hpp"
 
 using namespace s4tp;

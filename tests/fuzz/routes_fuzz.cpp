@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "sim_host/world/random.hpp"
-#include "sim_host/world/route_file.hpp"
-#include "sim_host/world/traffic_flow.hpp"
+#include "sim_host/world/scenario/route_file.hpp"
+#include "sim_host/world/traffic/random.hpp"
+#include "sim_host/world/traffic/traffic_flow.hpp"
 #include "tests/fuzz/files.hpp"
 
 using namespace s4tp;

@@ -5,7 +5,7 @@
 #include <iterator>
 
 #include "sim_host/campaign/parameters_file.hpp"
-#include "sim_host/world/scenario.hpp"
+#include "sim_host/world/scenario/scenario.hpp"
 #include "tests/fuzz/files.hpp"
 
 using namespace s4tp;

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "sim_host/world/sumo/traci_client.hpp"
+#include "sim_host/sumo/traci_client.hpp"
 #include "tests/fuzz/input.hpp"
 
 using namespace s4tp;

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <string>
 
+#include "sim_host/baselines/planner_registry.hpp"
 #include "sim_host/campaign/episode.hpp"
-#include "sim_host/campaign/planner_registry.hpp"
 #include "sim_host/campaign/trace.hpp"
 
 namespace s4tp {
@@ -31,14 +31,14 @@ class Rationed final : public PlanningCycle {
 };
 
 template <int kPercent>
-campaign::PlannerEntry entry() {
-  return {name_of(kPercent), "for this test", campaign::ecu_with<Rationed<kPercent>>,
-          campaign::ecu_with<Rationed<kPercent>>};
+baselines::PlannerEntry entry() {
+  return {name_of(kPercent), "for this test", baselines::ecu_with<Rationed<kPercent>>,
+          baselines::ecu_with<Rationed<kPercent>>};
 }
 
-const campaign::RegisterPlanner kHalf{entry<50>()};
-const campaign::RegisterPlanner kTenth{entry<10>()};
-const campaign::RegisterPlanner kNone{entry<0>()};
+const baselines::RegisterPlanner kHalf{entry<50>()};
+const baselines::RegisterPlanner kTenth{entry<10>()};
+const baselines::RegisterPlanner kNone{entry<0>()};
 
 world::Scenario scenario_of(const std::string& name, const std::string& flavour) {
   return world::load_scenario(std::string(S4TP_SOURCE_DIR) + "/sim_host/scenarios/" + name, flavour);

@@ -11,7 +11,7 @@
 
 #include "firmware/ecu/records.hpp"
 #include "hal/sim/null_devices.hpp"
-#include "sim_host/campaign/any_ecu.hpp"
+#include "sim_host/baselines/any_ecu.hpp"
 #include "sim_host/world/world.hpp"
 #include "tests/support/secoc_rig.hpp"
 
@@ -54,8 +54,8 @@ class Drive {
       world_end->announce();
     }
     bus_.fault = &wire;
-    ecu_ = campaign::make_ecu("s4tp", true, Parameters{},
-                              {&over(ecu_end, *ecu_port_), nullptr, &cycles_, &watchdog_, &plans}, nullptr);
+    ecu_ = baselines::make_ecu("s4tp", true, Parameters{},
+                               {&over(ecu_end, *ecu_port_), nullptr, &cycles_, &watchdog_, &plans}, nullptr);
   }
 
   bool tick() {
@@ -110,7 +110,7 @@ class Drive {
   hal::sim::Bus::Port* stranger_ = bus_.attach();
   hal::sim::NullCycleCounter cycles_;
   hal::sim::NullWatchdog watchdog_;
-  std::unique_ptr<campaign::AnyEcu> ecu_;
+  std::unique_ptr<baselines::AnyEcu> ecu_;
   Frames frames_;
 };
 

@@ -13,8 +13,9 @@
 #include "sim_host/campaign/driver.hpp"
 #include "sim_host/campaign/trace.hpp"
 #include "sim_host/telemetry/watch.hpp"
-#include "sim_host/world/scenario.hpp"
+#include "sim_host/world/scenario/scenario.hpp"
 #include "sim_host/world/world.hpp"
+#include "tests/support/test_memory.hpp"
 
 namespace s4tp::processes {
 namespace {
@@ -29,7 +30,7 @@ struct Bus {
   campaign::Trace inside;  ///< what the board thinks, and tells nobody
   std::unique_ptr<campaign::Driver> board =
       campaign::make_driver("s4tp", true, Parameters{}, &inside, &inside);
-  std::string memory = "/s4tp_twin_test_" + std::to_string(getpid());
+  std::string memory = tests::test_memory("twin");
   std::ostringstream out;
   BoardTwin twin{memory, {"m7"}, out};
 

@@ -126,7 +126,7 @@ TEST(Driver, NamesThePlannersThereAre) {
     (void)make_driver("autopilot", true, Parameters{}, nullptr, nullptr);
     FAIL();
   } catch (const std::invalid_argument& refused) {
-    for (const std::string& name : planner_names()) {
+    for (const std::string& name : baselines::planner_names()) {
       EXPECT_NE(std::string(refused.what()).find(name), std::string::npos) << refused.what();
     }
   }

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "firmware/wire/lane_map.hpp"
-#include "sim_host/world/map_node.hpp"
+#include "sim_host/world/nodes/map_node.hpp"
 #include "tests/support/networks.hpp"
 
 namespace s4tp::world {

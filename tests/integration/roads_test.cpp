@@ -16,9 +16,10 @@
 
 #include "sim_host/roads/generator.hpp"
 #include "sim_host/roads/road.hpp"
-#include "sim_host/world/scenario.hpp"
-#include "sim_host/world/traffic_engine.hpp"
-#include "sim_host/world/traffic_flow.hpp"
+#include "sim_host/world/engine_factory.hpp"
+#include "sim_host/world/scenario/scenario.hpp"
+#include "sim_host/world/traffic/traffic_engine.hpp"
+#include "sim_host/world/traffic/traffic_flow.hpp"
 #include "tests/support/networks.hpp"
 
 namespace s4tp::roads {

@@ -1,5 +1,5 @@
 // These need Debian's sumo and fail without it.
-#include "sim_host/world/sumo/sumo_traffic.hpp"
+#include "sim_host/sumo/sumo_traffic.hpp"
 
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -17,8 +17,9 @@
 
 #include "sim_host/campaign/campaign.hpp"
 #include "sim_host/campaign/episode.hpp"
-#include "sim_host/world/box.hpp"
-#include "sim_host/world/sumo/coupling_floor.hpp"
+#include "sim_host/sumo/coupling_floor.hpp"
+#include "sim_host/world/engine_factory.hpp"
+#include "sim_host/world/traffic/box.hpp"
 #include "sim_host/world/world.hpp"
 
 namespace s4tp::world {

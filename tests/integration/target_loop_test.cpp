@@ -13,7 +13,7 @@
 #include <string>
 
 #include "firmware/wire/codec.hpp"
-#include "sim_host/campaign/any_ecu.hpp"
+#include "sim_host/baselines/any_ecu.hpp"
 #include "sim_host/campaign/bus_log.hpp"
 #include "sim_host/campaign/episode.hpp"
 #include "sim_host/processes/board_console.hpp"

@@ -10,22 +10,19 @@
 #include "firmware/can/frames.hpp"
 #include "hal/sim/bus.hpp"
 #include "hal/sim/null_devices.hpp"
-#include "sim_host/campaign/any_ecu.hpp"
+#include "sim_host/baselines/any_ecu.hpp"
 #include "sim_host/campaign/episode.hpp"
 #include "sim_host/processes/ecu_process.hpp"
 #include "sim_host/processes/world_process.hpp"
 #include "sim_host/world/world.hpp"
 #include "tests/support/bus_pair.hpp"
+#include "tests/support/drive_time.hpp"
 #include "tests/support/fake_kernel.hpp"
 
 namespace s4tp {
 namespace {
 
 constexpr std::uint64_t kSeed = 3;
-
-world::Scenario scenario_named(const std::string& name) {
-  return world::load_scenario(std::filesystem::path(S4TP_SOURCE_DIR) / "sim_host" / "scenarios" / name);
-}
 
 world::Recording drive_on_one_thread(const world::Scenario& scenario) {
   campaign::EpisodeOptions options;
@@ -57,8 +54,8 @@ ThreadedDrive drive_on_two_threads(const world::Scenario& scenario, int late_one
   hal::sim::Bus::Port* const ecu_port = bus.attach();
   hal::sim::NullCycleCounter cycles;
   hal::sim::NullWatchdog watchdog;
-  const auto ecu = campaign::make_ecu("s4tp", true, Parameters{},
-                                      {ecu_port, nullptr, &cycles, &watchdog, nullptr}, nullptr);
+  const auto ecu = baselines::make_ecu("s4tp", true, Parameters{},
+                                       {ecu_port, nullptr, &cycles, &watchdog, nullptr}, nullptr);
   std::atomic<bool> done{false};
   std::atomic<bool> hold{false};
   std::thread planning([&] {
@@ -106,7 +103,7 @@ ThreadedDrive drive_on_two_threads(const world::Scenario& scenario, int late_one
 TEST(Threads, DriveAsOneThreadDoes) {
   int ticks = 0;
   for (const std::string name : {"left_turn", "merge"}) {
-    const world::Scenario scenario = scenario_named(name);
+    const world::Scenario scenario = tests::shipped_for(name);
     const ThreadedDrive drive = drive_on_two_threads(scenario, 0);
     EXPECT_EQ(drive.slips, 0U);
     expect_same_drive(drive.recording, drive_on_one_thread(scenario));
@@ -118,7 +115,7 @@ TEST(Threads, DriveAsOneThreadDoes) {
 // ECU-076 Each seventh cycle begins late and is still busy at its boundary: misses are counted, and the car
 // drives on to an end of its own.
 TEST(Threads, MissedDeadlines) {
-  const ThreadedDrive drive = drive_on_two_threads(scenario_named("left_turn"), 7);
+  const ThreadedDrive drive = drive_on_two_threads(tests::shipped_for("left_turn"), 7);
   EXPECT_GT(drive.slips, 5U);
   EXPECT_NE(drive.recording.ending, world::Ending::kDeadEcu);
   EXPECT_GT(drive.ticks, 1000);
@@ -161,7 +158,7 @@ struct SideBySide {
 
 // PROC-014, PROC-021 Lock-step: the drive of the in-process episode, to the bit.
 TEST(Threads, SideBySideInLockStep) {
-  const world::Scenario scenario = scenario_named("cruise");
+  const world::Scenario scenario = tests::shipped_for("cruise");
   SideBySide both;
   both.run(scenario, false, 200);
   EXPECT_EQ(both.world.unanswered, 0);
@@ -172,7 +169,7 @@ TEST(Threads, SideBySideInLockStep) {
 // report. How well they were on time is this machine's matter.
 TEST(Threads, SideBySideInRealTime) {
   SideBySide both;
-  both.run(scenario_named("left_turn"), true, 5);
+  both.run(tests::shipped_for("left_turn"), true, 5);
   EXPECT_TRUE(both.world.met_ecu);
   EXPECT_GT(both.world.ticks - both.world.unanswered, 10);
   ASSERT_TRUE(both.world.timing);

@@ -1,4 +1,4 @@
-#include "sim_host/world/traffic.hpp"
+#include "sim_host/world/traffic/traffic.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <string>
 #include <tuple>
 
-#include "sim_host/world/box.hpp"
+#include "sim_host/world/traffic/box.hpp"
 
 namespace s4tp::world {
 namespace {

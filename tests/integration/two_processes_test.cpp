@@ -24,6 +24,7 @@
 #include "firmware/wire/codec.hpp"
 #include "firmware/wire/e2e.hpp"
 #include "sim_host/campaign/episode.hpp"
+#include "tests/support/drive_time.hpp"
 #include "tests/support/free_port.hpp"
 
 namespace s4tp {
@@ -98,13 +99,17 @@ fs::path scratch(const std::string& name) {
   return folder.path / name;
 }
 
+/// The scenario of that name, as long as this test needs it.
+fs::path folder_of(const std::string& scenario) {
+  return tests::shipped_folder_for(scenario, scratch("scenarios"));
+}
+
 fs::path in_process(const std::string& scenario, std::uint64_t seed) {
   const fs::path log = scratch("inside.log");
   campaign::EpisodeOptions options;
   options.seed = seed;
   options.log = log;
-  (void)campaign::run_episode(
-      world::load_scenario(fs::path(S4TP_SOURCE_DIR) / "sim_host" / "scenarios" / scenario), options);
+  (void)campaign::run_episode(world::load_scenario(folder_of(scenario)), options);
   return log;
 }
 
@@ -170,9 +175,9 @@ class Cable {
 TEST(TwoProcesses, TcpGivesTheSameFrames) {
   for (const std::string scenario : {"left_turn", "merge", "cruise", "overtake"}) {
     const fs::path log = scratch("tcp.log");
-    Process run("s4tp_tool",
-                {"run", "--bus", "slcan:tcp:127.0.0.1:" + test::free_port(), "--scenario", scenario, "--seed",
-                 "3", "--log", log, "--out", scratch("out"), "--patience", "20"});
+    Process run("s4tp_tool", {"run", "--bus", "slcan:tcp:127.0.0.1:" + test::free_port(), "--scenario",
+                              folder_of(scenario), "--seed", "3", "--log", log, "--out", scratch("out"),
+                              "--patience", "20"});
     EXPECT_LE(run.wait(), 1) << scenario;
     EXPECT_EQ(content(log), content(in_process(scenario, 3))) << scenario;
   }
@@ -185,7 +190,7 @@ TEST(TwoProcesses, TerminalsGiveTheSameFrames) {
   const fs::path log = scratch("pty.log");
   Process ecu("s4tp_ecu_process", {"--bus", "slcan:pty:" + cable.ports[0], "--silence", "5"});
   Process world("s4tp_world_process", {"--bus", "slcan:tty:" + cable.ports[1] + "@2000000", "--scenario",
-                                       "cruise", "--seed", "3", "--log", log, "--patience", "20"});
+                                       folder_of("cruise"), "--seed", "3", "--log", log, "--patience", "20"});
   EXPECT_LE(world.wait(), 1);
   EXPECT_EQ(ecu.wait(), 0);
   EXPECT_EQ(frames_of(log), frames_of(in_process("cruise", 3)));
@@ -221,14 +226,15 @@ std::vector<std::string> plans_of(const fs::path& log) {
 TEST(TwoProcesses, AuthenticDriveHasTheSamePlans) {
   const std::string file = new_key("key");
   ASSERT_EQ(setenv("S4TP_TEST_KEY", content(file).c_str(), 1), 0);
+  const std::vector<std::string> expected = plans_of(in_process("left_turn", 3));
   for (const std::string& key : {file, std::string("env:S4TP_TEST_KEY")}) {
     const fs::path log = scratch("authentic.log");
     Process run("s4tp_tool", {"run", "--bus", "slcan:tcp:127.0.0.1:" + test::free_port(), "--scenario",
-                              "left_turn", "--seed", "3", "--log", log, "--out", scratch("out"), "--patience",
-                              "20", "--authentic", key});
+                              folder_of("left_turn"), "--seed", "3", "--log", log, "--out", scratch("out"),
+                              "--patience", "20", "--authentic", key});
     EXPECT_LE(run.wait(), 1);
     EXPECT_GT(plans_of(log).size(), 50U);
-    EXPECT_EQ(plans_of(log), plans_of(in_process("left_turn", 3)));
+    EXPECT_EQ(plans_of(log), expected);
   }
   EXPECT_EQ(unsetenv("S4TP_TEST_KEY"), 0);
 }
@@ -276,8 +282,8 @@ TEST(TwoProcesses, AForgerOnTheLineChangesNothing) {
   Process ecu("s4tp_ecu_process",
               {"--bus", "slcan:pty:" + cable.ports[0], "--silence", "5", "--authentic", key});
   Process world("s4tp_world_process",
-                {"--bus", "slcan:tty:" + cable.ports[1] + "@2000000", "--scenario", "cruise", "--seed", "3",
-                 "--log", log, "--patience", "20", "--authentic", key});
+                {"--bus", "slcan:tty:" + cable.ports[1] + "@2000000", "--scenario", folder_of("cruise"),
+                 "--seed", "3", "--log", log, "--patience", "20", "--authentic", key});
   EXPECT_LE(world.wait(), 1);
   EXPECT_EQ(ecu.wait(), 0);
   EXPECT_GT(said, 100);  // as many as the pace of the two leaves whole lines

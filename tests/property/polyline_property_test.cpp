@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "sim_host/world/polyline.hpp"
+#include "sim_host/world/map/polyline.hpp"
 
 namespace s4tp::world {
 namespace {

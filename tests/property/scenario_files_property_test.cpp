@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "sim_host/world/map_node.hpp"
+#include "sim_host/world/nodes/map_node.hpp"
 #include "sim_host/world/world.hpp"
 #include "tests/support/networks.hpp"
 

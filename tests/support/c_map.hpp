@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
+#include "algo/api/s4tp.h"
 #include "algo/core/world_state.hpp"
-#include "algo/planner/s4tp.h"
 
 namespace s4tp::test {
 

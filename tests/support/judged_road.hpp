@@ -15,8 +15,8 @@
 #include <functional>
 #include <vector>
 
-#include "sim_host/world/network.hpp"
-#include "sim_host/world/recording.hpp"
+#include "sim_host/world/map/network.hpp"
+#include "sim_host/world/traffic/recording.hpp"
 
 namespace s4tp::world::test {
 

@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "sim_host/world/scenario.hpp"
+#include "sim_host/world/scenario/scenario.hpp"
 
 namespace s4tp::world::test {
 

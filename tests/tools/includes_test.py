@@ -69,6 +69,25 @@ class Includes(unittest.TestCase):
         self.assertEqual(len(findings("algo/scene/x.cpp", '#include "algo/planner/planner.hpp"\n')), 1)
         self.assertEqual(len(findings("algo/cellar/x.cpp", '#include "algo/core/math.hpp"\n')), 1)
 
+    # The world's rooms stand in an order, too: a map knows no cars, and only the whole of it knows SUMO.
+    def test_order_of_the_worlds_rooms_is_kept(self):
+        self.assertEqual(findings("sim_host/world/traffic/x.cpp", '#include "sim_host/world/map/network.hpp"\n'), [])
+        self.assertEqual(len(findings("sim_host/world/map/x.cpp", '#include "sim_host/world/traffic/box.hpp"\n')), 1)
+        self.assertEqual(len(findings("sim_host/world/traffic/x.cpp", '#include "sim_host/world/world.hpp"\n')), 1)
+        self.assertEqual(findings("sim_host/world/x.cpp", '#include "sim_host/sumo/sumo_traffic.hpp"\n'), [])
+        self.assertEqual(len(findings("sim_host/world/traffic/x.cpp", '#include "sim_host/sumo/sumo_traffic.hpp"\n')), 1)
+        self.assertEqual(len(findings("sim_host/sumo/x.cpp", '#include "algo/core/math.hpp"\n')), 1)
+
+    # Planners and what compares them do not include each other: by the registry only, and one way.
+    def test_campaign_knows_planners_by_the_registry_only(self):
+        self.assertEqual(findings("sim_host/campaign/x.cpp", '#include "sim_host/baselines/planner_registry.hpp"\n'), [])
+        self.assertEqual(len(findings("sim_host/campaign/x.cpp", '#include "sim_host/baselines/idm_lane.hpp"\n')), 1)
+        self.assertEqual(len(findings("sim_host/baselines/x.cpp", '#include "sim_host/campaign/campaign.hpp"\n')), 1)
+
+    # What opens ticks for a simulated world is no part of a car's ECU.
+    def test_ecu_knows_no_lockstep(self):
+        self.assertEqual(len(findings("firmware/ecu/x.cpp", '#include "firmware/lockstep/lockstep_bus.hpp"\n')), 1)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -1,4 +1,4 @@
-#include "sim_host/world/box.hpp"
+#include "sim_host/world/traffic/box.hpp"
 
 #include <gtest/gtest.h>
 

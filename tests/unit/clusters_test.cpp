@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "sim_host/metrics/paired.hpp"
-#include "sim_host/world/random.hpp"
+#include "sim_host/world/traffic/random.hpp"
 
 namespace s4tp::metrics {
 namespace {

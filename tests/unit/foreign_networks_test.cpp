@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "sim_host/world/lane_roles.hpp"
-#include "sim_host/world/map_node.hpp"
+#include "sim_host/world/map/lane_roles.hpp"
+#include "sim_host/world/nodes/map_node.hpp"
 #include "tests/support/networks.hpp"
 
 namespace s4tp::world {

@@ -20,6 +20,8 @@
 #include "sim_host/telemetry/web_access.hpp"
 #include "sim_host/telemetry/who_matters.hpp"
 #include "sim_host/view/plan_words.hpp"
+#include "tests/support/drive_time.hpp"
+#include "tests/support/test_memory.hpp"
 
 namespace s4tp::telemetry {
 namespace {
@@ -31,7 +33,7 @@ class Keeper final : public campaign::Onlooker {
     ecu::PlanRecord plan;
     CycleRecord cycle;
   };
-  Keeper() : name_("/s4tp_live_view_test_" + std::to_string(getpid())), watch_(name_) {}
+  Keeper() : name_(tests::test_memory("live_view")), watch_(name_) {}
   void begin(campaign::Trace* trace) override {
     tap_.emplace(trace, trace);
     hal::linux_host::Reason reason;
@@ -174,14 +176,13 @@ TEST(LiveCycle, TellsModeAndFaults) {
 
 // TELE-005 Looked at or not, at the pace of the clock or not, the drive is the same.
 TEST(LiveDrive, IsTheSameDrive) {
-  const world::Scenario scenario =
-      world::load_scenario(std::filesystem::path(S4TP_SOURCE_DIR) / "sim_host/scenarios/cruise");
+  const world::Scenario scenario = tests::shipped_for("cruise", 4.0);
   campaign::EpisodeOptions options;
   options.trace = true;
   const auto begin = std::chrono::steady_clock::now();
   const campaign::EpisodeResult plain = campaign::run_episode(scenario, options);
   const auto middle = std::chrono::steady_clock::now();
-  LiveDrive live("/s4tp_live_drive_test_" + std::to_string(getpid()), "s4tp", options.parameters);
+  LiveDrive live(tests::test_memory("live_drive"), "s4tp", options.parameters);
   options.onlooker = &live;
   const campaign::EpisodeResult shown = campaign::run_episode(scenario, options);
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - middle;

@@ -1,4 +1,4 @@
-#include "firmware/ecu/lockstep_bus.hpp"
+#include "firmware/lockstep/lockstep_bus.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include "firmware/wire/e2e.hpp"
 #include "tests/support/fake_bus.hpp"
 
-namespace s4tp::ecu {
+namespace s4tp::lockstep {
 namespace {
 
 /// As a world sends it: it counts from 1, its counter from 0.
@@ -161,4 +161,4 @@ TEST(LockstepBus, PassesTheBusThrough) {
 }
 
 }  // namespace
-}  // namespace s4tp::ecu
+}  // namespace s4tp::lockstep

@@ -1,4 +1,4 @@
-#include "sim_host/world/map_node.hpp"
+#include "sim_host/world/nodes/map_node.hpp"
 
 #include <gtest/gtest.h>
 

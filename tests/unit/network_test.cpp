@@ -1,4 +1,4 @@
-#include "sim_host/world/network.hpp"
+#include "sim_host/world/map/network.hpp"
 
 #include <gtest/gtest.h>
 

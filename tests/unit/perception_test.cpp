@@ -1,4 +1,4 @@
-#include "sim_host/world/perception.hpp"
+#include "sim_host/world/nodes/perception.hpp"
 
 #include <gtest/gtest.h>
 

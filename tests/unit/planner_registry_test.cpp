@@ -1,6 +1,6 @@
 // Planners that register themselves, and the guard put around them.
 
-#include "sim_host/campaign/planner_registry.hpp"
+#include "sim_host/baselines/planner_registry.hpp"
 
 #include <gtest/gtest.h>
 
@@ -81,7 +81,7 @@ float last_speed_mps(const Answer& answer) {
 
 // Planners linked as objects are all there, s4tp first, and every name makes an ECU with and without guard.
 TEST(PlannerRegistry, EveryPlannerIsThere) {
-  const std::vector<std::string> names = planner_names();
+  const std::vector<std::string> names = baselines::planner_names();
   ASSERT_FALSE(names.empty());
   EXPECT_EQ(names.front(), "s4tp");
   for (const char* const name : {"blind", "constant_speed", "drf_controller", "idm_lane",
@@ -92,7 +92,8 @@ TEST(PlannerRegistry, EveryPlannerIsThere) {
 
 // A name can be taken once only: results could not be told apart.
 TEST(PlannerRegistry, RefusesASecondOfTheSameName) {
-  EXPECT_THROW(RegisterPlanner(planner<Fixed>("s4tp", "an impostor")), std::logic_error);
+  EXPECT_THROW(baselines::RegisterPlanner(baselines::planner<Fixed>("s4tp", "an impostor")),
+               std::logic_error);
 }
 
 // On an empty road the guard changes nothing: the same points, bit by bit.

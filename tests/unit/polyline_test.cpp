@@ -1,4 +1,4 @@
-#include "sim_host/world/polyline.hpp"
+#include "sim_host/world/map/polyline.hpp"
 
 #include <gtest/gtest.h>
 

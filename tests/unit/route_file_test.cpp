@@ -1,4 +1,4 @@
-#include "sim_host/world/route_file.hpp"
+#include "sim_host/world/scenario/route_file.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "sim_host/world/traffic.hpp"
-#include "sim_host/world/traffic_flow.hpp"
+#include "sim_host/world/traffic/traffic.hpp"
+#include "sim_host/world/traffic/traffic_flow.hpp"
 #include "tests/support/networks.hpp"
 
 namespace s4tp::world {

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "algo/api/s4tp.h"
 #include "algo/core/versions.hpp"
 #include "algo/planner/planner.hpp"
-#include "algo/planner/s4tp.h"
 #include "tests/support/c_map.hpp"
 #include "tests/support/lane_maps.hpp"
 

@@ -1,4 +1,4 @@
-#include "sim_host/world/scenario.hpp"
+#include "sim_host/world/scenario/scenario.hpp"
 
 #include <gtest/gtest.h>
 

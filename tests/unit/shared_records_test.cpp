@@ -12,6 +12,8 @@
 #include <string>
 #include <thread>
 
+#include "tests/support/test_memory.hpp"
+
 namespace s4tp::hal::linux_host {
 namespace {
 
@@ -37,7 +39,7 @@ constexpr StreamSpec kStreams[] = {{sizeof(Record), kStateSlots}, {sizeof(Record
 constexpr SharedLayout kLayout{kStreams, 2, 17};
 
 std::string name_of(const char* test) {
-  return "/s4tp_" + std::to_string(getpid()) + test;
+  return tests::test_memory(test);
 }
 
 class SharedRecords : public testing::Test {
@@ -177,6 +179,23 @@ TEST_F(SharedRecords, ADeadWriterIsNoticed) {
   waitpid(child, nullptr, 0);
   EXPECT_TRUE(reader.abandoned());
   shm_unlink(of_child.c_str());
+}
+
+// What a test that was killed leaves in /dev/shm, the next one removes; what belongs to a living process stays.
+TEST(TestMemory, OfTheDeadIsRemoved) {
+  const pid_t child = fork();
+  if (child == 0) _exit(0);
+  waitpid(child, nullptr, 0);
+  const std::string of_dead = "/s4tp_test_gone_" + std::to_string(child);
+  const std::string of_living = tests::test_memory("stays");
+  for (const std::string& name : {of_dead, of_living}) {
+    const int file = shm_open(name.c_str(), O_RDWR | O_CREAT, 0600);
+    ASSERT_GE(file, 0);
+    close(file);
+  }
+  (void)tests::test_memory("next");
+  EXPECT_EQ(shm_unlink(of_dead.c_str()), -1);
+  EXPECT_EQ(shm_unlink(of_living.c_str()), 0);
 }
 
 // SHM-002 The memory is only this user's, and a reader cannot write to it: it dies of trying.

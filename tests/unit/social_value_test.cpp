@@ -1,10 +1,10 @@
-#include "sim_host/world/social_value.hpp"
+#include "sim_host/world/traffic/social_value.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "sim_host/world/traffic.hpp"
+#include "sim_host/world/traffic/traffic.hpp"
 
 namespace s4tp::world {
 namespace {

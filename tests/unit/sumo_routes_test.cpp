@@ -1,11 +1,11 @@
-#include "sim_host/world/sumo/sumo_routes.hpp"
+#include "sim_host/sumo/sumo_routes.hpp"
 
 #include <gtest/gtest.h>
 
 #include <pugixml.hpp>
 #include <string>
 
-#include "sim_host/world/social_value.hpp"
+#include "sim_host/world/traffic/social_value.hpp"
 
 namespace s4tp::world {
 namespace {

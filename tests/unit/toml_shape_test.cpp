@@ -1,13 +1,13 @@
 // TOML documents that would take the parser's stack or its time.
 
-#include "sim_host/world/toml_shape.hpp"
+#include "sim_host/world/scenario/toml_shape.hpp"
 
 #include <gtest/gtest.h>
 
 #include <chrono>
 #include <string>
 
-#include "sim_host/world/toml_table.hpp"
+#include "sim_host/world/scenario/toml_table.hpp"
 #include "tests/support/networks.hpp"
 
 namespace s4tp::world {

@@ -7,7 +7,7 @@
 #include <chrono>
 #include <thread>
 
-#include "sim_host/world/sumo/traci_client.hpp"
+#include "sim_host/sumo/traci_client.hpp"
 
 namespace s4tp::world::traci {
 namespace {

@@ -1,11 +1,11 @@
-#include "sim_host/world/traffic_driver.hpp"
+#include "sim_host/world/traffic/traffic_driver.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "sim_host/world/traffic.hpp"
+#include "sim_host/world/traffic/traffic.hpp"
 
 namespace s4tp::world {
 namespace {

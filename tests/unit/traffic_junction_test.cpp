@@ -1,4 +1,4 @@
-#include "sim_host/world/traffic_junction.hpp"
+#include "sim_host/world/traffic/traffic_junction.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include "sim_host/world/box.hpp"
-#include "sim_host/world/scenario.hpp"
-#include "sim_host/world/traffic.hpp"
+#include "sim_host/world/scenario/scenario.hpp"
+#include "sim_host/world/traffic/box.hpp"
+#include "sim_host/world/traffic/traffic.hpp"
 
 namespace s4tp::world {
 namespace {

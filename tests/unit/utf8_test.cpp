@@ -1,4 +1,4 @@
-#include "sim_host/world/utf8.hpp"
+#include "sim_host/world/scenario/utf8.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <string>
 
 #include "sim_host/campaign/parameters_file.hpp"
-#include "sim_host/world/scenario.hpp"
+#include "sim_host/world/scenario/scenario.hpp"
 #include "tests/support/networks.hpp"
 
 namespace s4tp::world {

@@ -1,4 +1,4 @@
-#include "sim_host/world/vehicle_node.hpp"
+#include "sim_host/world/nodes/vehicle_node.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "sim_host/world/vehicle.hpp"
+#include "sim_host/world/nodes/vehicle.hpp"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,7 @@
 
 #include "firmware/wire/codec.hpp"
 #include "firmware/wire/lane_map.hpp"
-#include "sim_host/world/box.hpp"
+#include "sim_host/world/traffic/box.hpp"
 #include "tests/support/networks.hpp"
 
 namespace s4tp::world {

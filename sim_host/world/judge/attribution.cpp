@@ -5,9 +5,9 @@
 #include <numbers>
 #include <optional>
 
-#include "sim_host/world/box.hpp"
 #include "sim_host/world/judge/evidence.hpp"
 #include "sim_host/world/judge/reasons.hpp"
+#include "sim_host/world/traffic/box.hpp"
 
 namespace s4tp::world {
 namespace {

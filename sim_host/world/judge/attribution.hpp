@@ -19,8 +19,8 @@
 #include <span>
 
 #include "sim_host/world/judge/law.hpp"
-#include "sim_host/world/network.hpp"
-#include "sim_host/world/recording.hpp"
+#include "sim_host/world/map/network.hpp"
+#include "sim_host/world/traffic/recording.hpp"
 
 namespace s4tp::world {
 

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "sim_host/world/box.hpp"
+#include "sim_host/world/traffic/box.hpp"
 
 namespace s4tp::world {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "sim_host/world/traffic_driver.hpp"
+#include "sim_host/world/traffic/traffic_driver.hpp"
 
 namespace s4tp::world {
 namespace {

@@ -12,8 +12,8 @@
 #include <span>
 #include <vector>
 
-#include "sim_host/world/journey.hpp"
-#include "sim_host/world/traffic_view.hpp"
+#include "sim_host/world/judge/journey.hpp"
+#include "sim_host/world/traffic/traffic_view.hpp"
 
 namespace s4tp::world {
 

@@ -1,0 +1,35 @@
+#pragma once
+/// How much of a collision rate with SUMO's traffic is the coupling's own: drives of SUMO's driver that
+/// touched nobody, replayed as an ego SUMO does not drive. Whoever touches that ego does so for no fault of
+/// its own.
+
+#include <cstdint>
+#include <vector>
+
+#include "sim_host/sumo/sumo_traffic.hpp"
+
+namespace s4tp::world {
+
+/// The ego and everybody else, every 10 ms from entry on.
+struct SumoDrive {
+  std::vector<CarState> ego;
+  std::vector<std::vector<CarState>> others;
+  bool touched = false;
+  bool arrived = false;
+};
+
+/// SUMO's own driver on the scenario's mission.
+[[nodiscard]] SumoDrive sumo_drive(const Scenario& scenario, std::uint64_t seed,
+                                   const std::string& driver = {});
+
+struct Replay {
+  bool touched = false;
+  bool stood = false;             ///< the ego, when it was touched first
+  double touched_s = 0.0;         ///< after entry
+  double others_strayed_m = 0.0;  ///< largest distance between one of the others and himself in the drive
+};
+
+[[nodiscard]] Replay replay(const Scenario& scenario, std::uint64_t seed, const SumoDrive& drive,
+                            const EgoCoupling& coupling);
+
+}  // namespace s4tp::world

@@ -1,0 +1,93 @@
+#pragma once
+/// Traffic by SUMO: a child process, driven over TraCI on loopback, ten steps a second.
+///
+/// \code
+///   our ticks    t      t+0.01   ...          t+0.1
+///   SUMO         A ------ one step, made at t ---- B      cars() lies between A and B
+///   the ego      seen at t; SUMO is told where it will be at t+0.1, so that in B everybody stands at one
+///   time
+/// \endcode
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "sim_host/sumo/sumo_process.hpp"
+#include "sim_host/sumo/traci_client.hpp"
+#include "sim_host/world/scenario/scenario.hpp"
+#include "sim_host/world/traffic/traffic_engine.hpp"
+
+namespace s4tp::world {
+
+/// A SUMO that has loaded network and routes and waits for its first step.
+struct SumoSession {
+  std::unique_ptr<SumoProcess> process;
+  std::unique_ptr<traci::Client> client;
+};
+
+/// SUMO-003 \throws std::runtime_error with SUMO's own words when it does not come up
+/// \param input  what it finds at /dev/stdin
+[[nodiscard]] SumoSession start_sumo(const std::vector<std::string>& arguments, const std::string& input);
+
+/// How SUMO is told of an ego it does not drive. The defaults are those that touch least
+/// (docs/sumo_coupling.md); the others are there to be measured against.
+struct EgoCoupling {
+  bool early = true;   ///< in the network from entry on with its speed, not a step later and at first at rest
+  bool ahead = true;   ///< placed where it will be at the step's end, not where it was at its start
+  bool wishes = true;  ///< SUMO's driver in it wishes the lane changes of the mission, so others make room
+  bool on_route = true;     ///< on a lane of its route as long as it is on one, however near another runs
+  int speed_mode = 0;       ///< 0: SUMO takes it for one who goes through junctions whoever comes
+  std::string driver = {};  ///< further attributes of its vehicle type, as XML
+};
+
+class SumoTraffic final : public TrafficEngine {
+ public:
+  SumoTraffic(const Scenario& scenario, const EngineOptions& options, const EgoCoupling& coupling = {});
+  ~SumoTraffic() override;
+
+  void step(const EgoSeen* ego) override;
+  [[nodiscard]] double time_s() const override { return static_cast<double>(ticks_) * 0.01; }
+  [[nodiscard]] std::vector<CarState> cars() const override;
+  [[nodiscard]] std::vector<CarFlags> flags() const override;
+  void clear(LaneId lane, double from_m, double to_m) override;
+  [[nodiscard]] int finished() const override { return finished_; }
+  [[nodiscard]] std::optional<CarState> driven_ego() const override;
+  [[nodiscard]] pid_t process() const { return sumo_.process->id(); }
+  /// The ego as SUMO has it, however it is driven; none before it is there.
+  [[nodiscard]] std::optional<CarState> ego_seen() const;
+
+ private:
+  struct Car {
+    CarState before;  ///< at the step's start
+    CarState after;   ///< at its end
+    bool known_before = false;
+    bool arrived = false;  ///< within the step
+    bool changing_lane = false;
+    std::vector<LaneId> lanes;  ///< its box is on: from the centre's to the one SUMO says, the bumper's
+  };
+
+  [[noreturn]] void fail(const traci::Error& error);
+  void sumo_step(const EgoSeen* ego);
+  void add_ego();
+  void put_ego(const CarState& place);
+  void enter_ego();
+  void observe(Car& car, const traci::Variables& variables);
+  void follow_lanes(Car& car, const std::string& bumper_lane) const;
+  [[nodiscard]] CarState between(const Car& car) const;
+
+  const Scenario& scenario_;
+  EngineOptions options_;
+  EgoCoupling coupling_;
+  std::unordered_map<std::string, LaneId> lane_of_;
+  SumoSession sumo_;
+  std::map<std::string, Car> cars_;  ///< by SUMO's id
+  bool ego_there_ = false;
+  int next_id_ = 1;
+  int finished_ = 0;
+  std::int64_t ticks_ = 0;
+};
+
+}  // namespace s4tp::world

@@ -1,0 +1,16 @@
+#pragma once
+/// Who may simulate the traffic, by name.
+
+#include <string>
+#include <vector>
+
+namespace s4tp::world {
+
+enum class Engine { kBuiltin, kSumo };
+
+/// "builtin", "sumo"
+[[nodiscard]] const std::vector<std::string>& engine_names();
+/// \throws std::invalid_argument naming those there are
+[[nodiscard]] Engine engine_of(const std::string& name);
+
+}  // namespace s4tp::world

@@ -1,0 +1,284 @@
+#include "sim_host/world/traffic/traffic.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "sim_host/world/traffic/box.hpp"
+
+namespace s4tp::world {
+namespace {
+
+constexpr int kDecisionTicks = 10;
+constexpr double kDrawnUntil_s = 240.0;
+constexpr double kComfortableBraking_mps2 = 2.0;  // towards a lower limit ahead
+constexpr double kDistractionShare =
+    0.4;                            // of sigma times acceleration: costs 2 to 3 % of speed, as SUMO's does
+constexpr double kInvites_s = 4.5;  // somebody waiting; he stops a little longer, lest both go at once
+constexpr double kNear_m = 8.0;     // of the line: waiting time counts
+constexpr double kSideGone = 0.75;  // of a change, when the old lane is free again
+
+}  // namespace
+
+double TrafficCar::offset_m() const {
+  const double p = change_done;
+  return change_from_m * (1.0 - p * p * p * (10.0 - 15.0 * p + 6.0 * p * p));
+}
+
+Traffic::Traffic(const Network& network, const std::vector<FlowGroup>& groups, std::uint64_t seed)
+    : road_(std::make_shared<const RoadIndex>(network)), seed_(seed), waiting_(network.lanes.size()) {
+  Random random(seed);
+  plan_ = std::make_shared<const FlowPlan>(draw_flows(network, groups, kDrawnUntil_s, random));
+}
+
+Traffic::Traffic(const Scenario& scenario, std::uint64_t episode, std::uint64_t seed)
+    : Traffic(scenario.network, scenario.flows, seed) {
+  if (!scenario.demands.empty()) {
+    const Mission& mission = scenario.mission;
+    Random random(seed);
+    plan_ = std::make_shared<const FlowPlan>(
+        draw_demand(scenario.network, scenario.demands[episode % scenario.demands.size()],
+                    std::max(kDrawnUntil_s, mission.entry_time_s + mission.time_limit_s), random));
+  }
+}
+
+std::unique_ptr<TrafficEngine> Traffic::clone() const {
+  return std::make_unique<Traffic>(*this);
+}
+
+void Traffic::step(const EgoSeen* ego) {
+  if (ticks_ % kDecisionTicks == 0) {
+    decide(ego == nullptr ? nullptr : &ego->actor);
+  }
+  ++ticks_;
+  for (TrafficCar& car : cars_) {
+    move(car);
+  }
+  std::erase_if(cars_, [](const TrafficCar& car) { return car.lane == kNoLane; });
+}
+
+void Traffic::decide(const Actor* ego) {
+  const TrafficView view(*road_, actors(ego));
+  const std::size_t first = ego != nullptr ? 1 : 0;
+  for (std::size_t i = 0; i < cars_.size(); ++i) {
+    const Actor& self = view.actors()[first + i];
+    cars_[i].acceleration_mps2 = acceleration(cars_[i], self, view);
+    consider_lane_change(cars_[i], self, view);
+  }
+  insert_waiting(ego);
+  if (ego != nullptr) {
+    watch_ego(view.actors().front(), view);
+  }
+}
+
+std::vector<Actor> Traffic::actors(const Actor* ego) const {
+  std::vector<Actor> all;
+  if (ego != nullptr) {
+    all.push_back(*ego);
+    all.back().waited_s = ego_waited_s_;
+    all.back().queues = ego_queues_;
+    all.back().waits_for = ego_waits_for_;
+  }
+  for (const TrafficCar& car : cars_) {
+    all.push_back(actor_of(car));
+  }
+  return all;
+}
+
+/// How long the ego has stood at a line, and for whom it seems to, as others see it.
+void Traffic::watch_ego(const Actor& ego, const TrafficView& view) {
+  Approach approach;
+  approach.self = &ego;
+  approach.driver = &ego_driver_;
+  approach.wanted_mps = ego.lane == kNoLane ? ego.speed_mps : lane(ego.lane).speed_limit_mps;
+  approach.waited_s = ego_waited_s_;
+  approach.leader = view.leader(ego.way, ego.id, ego.length_m);
+  const JunctionChoice choice = choose_at_junction(view, approach);
+  const bool at_line = choice.near && choice.line_m < kNear_m;
+  ego_waited_s_ = !at_line ? 0.0 : ego_waited_s_ + (ego.speed_mps < 1.0 ? kTick_s * kDecisionTicks : 0.0);
+  ego_queues_ = choice.queues;
+  ego_waits_for_ = choice.waits_for;
+}
+
+Actor Traffic::actor_of(const TrafficCar& car) const {
+  Actor actor;
+  actor.id = car.id;
+  actor.lane = car.lane;
+  actor.s_m = car.s_m;
+  actor.speed_mps = car.speed_mps;
+  actor.length_m = car.length_m;
+  actor.guide = &plan_->ways[car.way].guide;
+  actor.committed = car.committed;
+  actor.waited_s = car.waited_s;
+  actor.queues = car.queues;
+  actor.waits_for = car.waits_for;
+  actor.lets_go = car.gave_way_s < kInvites_s ? car.lets_go : kNoCar;
+  if (car.leaving != kNoLane) {
+    actor.also.push_back({car.leaving, -car.s_m});
+  }
+  return actor;
+}
+
+double Traffic::wanted_speed_mps(const TrafficCar& car, const std::vector<WayPart>& way) const {
+  double wanted = car.driver.max_speed_mps;
+  for (const WayPart& part : way) {
+    const double allowed = lane(part.lane).speed_limit_mps * car.driver.speed_factor;
+    wanted = std::min(
+        wanted, std::sqrt(allowed * allowed + 2.0 * kComfortableBraking_mps2 * std::max(0.0, part.start_m)));
+  }
+  return wanted;
+}
+
+double Traffic::follow(TrafficCar& car, const Actor& self, const TrafficView& view, const Leader& leader,
+                       double wanted_mps) {
+  const double free = free_acceleration_mps2(car.driver, car.speed_mps, wanted_mps);
+  if (leader.actor == nullptr) {
+    car.known_leader = car.surprise = kNoCar;
+    car.known_gap_m = std::numeric_limits<double>::infinity();
+    return free;
+  }
+  const int id = leader.actor->id;
+  const bool cut_in = id != car.known_leader && car.known_leader != TrafficCar::kLooking &&
+                      leader.gap_m < car.known_gap_m - 2.0;
+  if (cut_in) {
+    if (car.surprise != id) {
+      car.surprise = id;
+      car.surprise_since_s = time_s();
+    }
+    if (time_s() - car.surprise_since_s < car.driver.reaction_s) {  // until then he follows who was there
+      const Leader known = view.leader(self.way, car.id, car.length_m, id);
+      return known.actor == nullptr ? free
+                                    : following_acceleration_mps2(car.driver, car.speed_mps, wanted_mps,
+                                                                  known.gap_m, known.actor->speed_mps);
+    }
+  }
+  car.known_leader = id;
+  car.known_gap_m = leader.gap_m;
+  car.surprise = kNoCar;
+  return following_acceleration_mps2(car.driver, car.speed_mps, wanted_mps, leader.gap_m,
+                                     leader.actor->speed_mps);
+}
+
+double Traffic::acceleration(TrafficCar& car, const Actor& self, const TrafficView& view) {
+  const double wanted = wanted_speed_mps(car, self.way);
+  const Leader leader = view.leader(self.way, car.id, car.length_m);
+  double result = towards_merging(car, self, view, leader, wanted, follow(car, self, view, leader, wanted));
+  for (const WayPart& part : self.also) {  // the lane being left counts until the car is out of it
+    const Leader old = view.leader({part}, car.id, car.length_m);
+    if (old.actor != nullptr) {
+      result = std::min(result, following_acceleration_mps2(car.driver, car.speed_mps, wanted, old.gap_m,
+                                                            old.actor->speed_mps));
+    }
+  }
+  const WayPart& last = self.way.back();
+  const bool leads_on =
+      lane(last.lane).edge == plan_->ways[car.way].last_edge || self.guide->advice(last.lane).next != kNoLane;
+  if (!leads_on) {
+    const double to_end_m = last.start_m + lane(last.lane).centre.length_m() - 0.5 * car.length_m - 1.0;
+    result = std::min(result, stopping_acceleration_mps2(car.driver, car.speed_mps, wanted, to_end_m));
+  }
+  const JunctionChoice choice = choose_at_junction(
+      view, {&self, &car.driver, wanted, car.waited_s, car.gave_way_s, car.lets_go, car.committed, leader});
+  car.lets_go = choice.lets_go;
+  car.queues = choice.queues;
+  car.waits_for = choice.waits_for;
+  car.committed = car.committed || choice.goes_first;
+  car.gave_way_s += choice.lets_go != kNoCar ? kTick_s * kDecisionTicks : 0.0;
+  const double ordinary_stop_m = car.speed_mps * car.speed_mps / (2.0 * car.driver.deceleration_mps2) +
+                                 car.speed_mps * kTick_s * kDecisionTicks;
+  if (choice.near && choice.stop && choice.line_m > -0.5 &&
+      (choice.line_m >= ordinary_stop_m * 0.5 || car.speed_mps < 2.0)) {
+    result = std::min(result, stopping_acceleration_mps2(car.driver, car.speed_mps, wanted, choice.line_m));
+  } else if (choice.near && choice.line_m < ordinary_stop_m + 0.5) {
+    car.committed = true;
+  }
+  car.waited_s = choice.near && choice.line_m < kNear_m && car.speed_mps < 1.0
+                     ? car.waited_s + kTick_s * kDecisionTicks
+                     : (choice.near ? car.waited_s : 0.0);
+  if (lane(car.lane).in_junction) {
+    car.committed = false;
+    car.waited_s = 0.0;
+    car.gave_way_s = 0.0;
+  }
+  if (choice.hazard != car.hazard) {
+    car.hazard_since_s = car.hazard == TrafficCar::kLooking ? time_s() - car.driver.reaction_s : time_s();
+    car.hazard = choice.hazard;
+  }
+  if (car.hazard >= 0 && time_s() - car.hazard_since_s >= car.driver.reaction_s) {
+    result = std::min(result, stopping_acceleration_mps2(car.driver, car.speed_mps, wanted, choice.hazard_m));
+  }
+  result -= kDistractionShare * car.driver.imperfection * car.driver.acceleration_mps2 *
+            distraction(seed_, car.id, time_s());
+  return std::clamp(result, -car.driver.emergency_mps2, car.driver.acceleration_mps2);
+}
+
+void Traffic::move(TrafficCar& car) {
+  car.speed_mps = std::max(0.0, car.speed_mps + car.acceleration_mps2 * kTick_s);
+  car.s_m += car.speed_mps * kTick_s;
+  if (car.change_done < 1.0) {
+    car.change_done = std::min(1.0, car.change_done + kTick_s * std::min(1.0 / 3.0, car.speed_mps / 15.0));
+    if (car.change_done > kSideGone) {
+      car.leaving = kNoLane;
+    }
+  }
+  const double length_m = lane(car.lane).centre.length_m();
+  if (car.s_m < length_m) {
+    return;
+  }
+  const LaneId next = plan_->ways[car.way].guide.advice(car.lane).next;
+  if (next != kNoLane) {
+    car.s_m -= length_m;
+    car.lane = next;
+    car.leaving = kNoLane;
+  } else if (lane(car.lane).edge == plan_->ways[car.way].last_edge) {
+    car.lane = kNoLane;
+    ++finished_;
+  } else {
+    car.s_m = length_m;
+    car.speed_mps = 0.0;
+  }
+}
+
+void Traffic::clear(LaneId lane, double from_m, double to_m) {
+  std::erase_if(cars_, [&](const TrafficCar& car) {
+    return (car.lane == lane || car.leaving == lane) && car.s_m + 0.5 * car.length_m > from_m &&
+           car.s_m - 0.5 * car.length_m < to_m;
+  });
+}
+
+std::vector<CarFlags> Traffic::flags() const {
+  std::vector<CarFlags> all;
+  all.reserve(cars_.size());
+  for (const TrafficCar& car : cars_) {
+    all.push_back({car.id, car.change_done < 1.0, car.speed_mps < 0.1});
+  }
+  return all;
+}
+
+std::vector<CarState> Traffic::cars() const {
+  std::vector<CarState> states;
+  states.reserve(cars_.size());
+  for (const TrafficCar& car : cars_) {
+    const PolylinePose pose = lane(car.lane).centre.at(car.s_m);
+    const double p = car.change_done;
+    const double rate = p < 1.0 ? std::min(1.0 / 3.0, car.speed_mps / 15.0) : 0.0;
+    const double sideways_mps = -car.change_from_m * 30.0 * p * p * (1.0 - p) * (1.0 - p) * rate;
+    const double along_mps = std::max(car.speed_mps, 0.1);
+    const double offset_m = car.offset_m();
+    CarState state;
+    state.id = car.id;
+    state.centre = {pose.point.x - offset_m * std::sin(pose.heading_rad),
+                    pose.point.y + offset_m * std::cos(pose.heading_rad)};
+    state.heading_rad = wrap_angle(pose.heading_rad + std::atan2(sideways_mps, along_mps));
+    state.speed_mps = car.speed_mps;
+    state.acceleration_mps2 = car.speed_mps > 0.0 ? car.acceleration_mps2 : 0.0;
+    state.yaw_rate_radps = car.speed_mps * pose.curvature_1pm;
+    state.length_m = car.length_m;
+    state.width_m = car.width_m;
+    state.lane = car.lane;
+    states.push_back(state);
+  }
+  return states;
+}
+
+}  // namespace s4tp::world

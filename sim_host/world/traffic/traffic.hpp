@@ -1,0 +1,113 @@
+#pragma once
+/// The built-in traffic: drivers who follow, change lanes on their route, accept gaps at junctions, and react
+/// to the ego as to any car. Decisions at 10 Hz from one common instant, motion at 100 Hz.
+///
+/// Drivers are honest, not superhuman: something unexpected (a car cutting in, a car entering without right
+/// of way) is acted upon only after a reaction time of 0.5 to 1 s and with at most 4.5 to 9 m/s^2; inside a
+/// junction nobody brakes for crossing traffic.
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "sim_host/world/scenario/scenario.hpp"
+#include "sim_host/world/traffic/recording.hpp"
+#include "sim_host/world/traffic/traffic_engine.hpp"
+#include "sim_host/world/traffic/traffic_flow.hpp"
+#include "sim_host/world/traffic/traffic_junction.hpp"
+#include "sim_host/world/traffic/traffic_view.hpp"
+
+namespace s4tp::world {
+
+/// One car of the traffic; its box centre is at `s_m` along the lane, `offset_m` to the left of it.
+struct TrafficCar {
+  static constexpr int kLooking = -2;  ///< attentive just now: whoever is there is no surprise
+
+  int id = 0;  ///< 1 + the index of its departure: no draw, and nobody's delay, changes it
+  std::size_t way = 0;
+  Driver driver;
+  LaneId lane = kNoLane;
+  double s_m = 0.0;
+  double speed_mps = 0.0;
+  double acceleration_mps2 = 0.0;
+  double length_m = 5.0;
+  double width_m = 1.8;
+
+  LaneId leaving = kNoLane;    ///< lane being left during a change
+  double change_from_m = 0.0;  ///< offset at the start of the change
+  double change_done = 1.0;    ///< 0 .. 1
+  double next_change_s = 0.0;  ///< no wish before
+
+  bool committed = false;
+  double waited_s = 0.0;
+  double gave_way_s = 0.0;  ///< standing or braking out of courtesy, at this junction
+  int lets_go = kNoCar;
+  bool queues = false;  ///< this and the next: JunctionChoice's
+  std::vector<int> waits_for;
+  int known_leader = kNoCar;  ///< whom he follows
+  double known_gap_m = 0.0;
+  int surprise = kNoCar;  ///< who appeared unexpectedly, and since when
+  double surprise_since_s = 0.0;
+  int hazard = kNoCar;
+  double hazard_since_s = 0.0;
+
+  [[nodiscard]] double offset_m() const;
+};
+
+class Traffic final : public TrafficEngine {
+ public:
+  /// WORLD-021 The same network, groups and seed give the same traffic to the bit. WORLD-022 Whoever enters
+  /// late shifts nobody else's id, order or draws: who does not meet him drives on to the bit.
+  Traffic(const Network& network, const std::vector<FlowGroup>& groups, std::uint64_t seed);
+  /// \param episode  chooses among the scenario's route files
+  Traffic(const Scenario& scenario, std::uint64_t episode, std::uint64_t seed);
+
+  void step(const EgoSeen* ego) override;
+  [[nodiscard]] std::unique_ptr<TrafficEngine> clone() const override;
+  [[nodiscard]] double time_s() const override { return static_cast<double>(ticks_) * 0.01; }
+  [[nodiscard]] std::vector<CarState> cars() const override;
+  [[nodiscard]] std::vector<CarFlags> flags() const override;
+  void clear(LaneId lane, double from_m, double to_m) override;
+  [[nodiscard]] int finished() const override { return finished_; }
+
+  [[nodiscard]] const std::vector<TrafficCar>& details() const { return cars_; }
+
+ private:
+  void decide(const Actor* ego);
+  [[nodiscard]] std::vector<Actor> actors(const Actor* ego) const;
+  [[nodiscard]] Actor actor_of(const TrafficCar& car) const;
+  [[nodiscard]] double wanted_speed_mps(const TrafficCar& car, const std::vector<WayPart>& way) const;
+  [[nodiscard]] double follow(TrafficCar& car, const Actor& self, const TrafficView& view,
+                              const Leader& leader, double wanted_mps);
+  [[nodiscard]] double acceleration(TrafficCar& car, const Actor& self, const TrafficView& view);
+  void consider_lane_change(TrafficCar& car, const Actor& self, const TrafficView& view);
+  [[nodiscard]] double towards_merging(const TrafficCar& car, const Actor& self, const TrafficView& view,
+                                       const Leader& leader, double wanted_mps, double result) const;
+  [[nodiscard]] double lane_change_gain(const TrafficCar& car, const TrafficView& view,
+                                        const WayPart& beside) const;
+  [[nodiscard]] bool safe_beside(const TrafficCar& car, const WayPart& beside, const TrafficView& view,
+                                 bool urgent) const;
+  void watch_ego(const Actor& ego, const TrafficView& view);
+  [[nodiscard]] const Driver& driver_of(int id) const;
+  [[nodiscard]] bool somebody_comes(const TrafficView& view, const TrafficCar& car) const;
+  void insert_waiting(const Actor* ego);
+  void move(TrafficCar& car);
+  [[nodiscard]] const NetworkLane& lane(LaneId id) const { return road_->lane(id); }
+
+  std::shared_ptr<const RoadIndex> road_;  ///< what never changes is shared with the copies
+  std::shared_ptr<const FlowPlan> plan_;
+  std::uint64_t seed_;
+  std::vector<TrafficCar> cars_;                  ///< by id
+  std::vector<std::deque<std::size_t>> waiting_;  ///< departures, by lane
+  std::size_t next_departure_ = 0;
+  int finished_ = 0;
+  std::int64_t ticks_ = 0;
+  double ego_waited_s_ = 0.0;
+  bool ego_queues_ = false;
+  std::vector<int> ego_waits_for_;
+  Driver ego_driver_;  ///< what others take the ego's driver to be
+};
+
+}  // namespace s4tp::world

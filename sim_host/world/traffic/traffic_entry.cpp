@@ -1,0 +1,85 @@
+/// How the built-in traffic comes into the network: at its time, when there is room, surprising nobody.
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "sim_host/world/traffic/traffic.hpp"
+
+namespace s4tp::world {
+namespace {
+
+constexpr double kMinimumBehind_m = 2.5;          // to somebody before whom a car appears
+constexpr double kComfortableBraking_mps2 = 2.0;  // asked of whoever is behind, and of oneself
+
+}  // namespace
+
+/// Whether a car that appeared amid its lane would be too close before somebody.
+bool Traffic::somebody_comes(const TrafficView& view, const TrafficCar& car) const {
+  const Leader behind = view.follower(car.lane, car.s_m, -1, car.length_m);
+  return behind.actor != nullptr && behind.gap_m < kMinimumBehind_m + behind.actor->speed_mps *
+                                                                          behind.actor->speed_mps /
+                                                                          (2.0 * kComfortableBraking_mps2);
+}
+
+void Traffic::insert_waiting(const Actor* ego) {
+  while (next_departure_ < plan_->departures.size() &&
+         plan_->departures[next_departure_].time_s <= time_s()) {
+    const Departure& departure = plan_->departures[next_departure_];
+    waiting_[static_cast<std::size_t>(departure.lane)].push_back(next_departure_++);
+  }
+  if (std::all_of(waiting_.begin(), waiting_.end(), [](const auto& lane) { return lane.empty(); })) {
+    return;
+  }
+  const TrafficView view(*road_, actors(ego));  // who has just committed himself must not be surprised
+  for (std::size_t id = 0; id < waiting_.size(); ++id) {
+    if (waiting_[id].empty()) {
+      continue;
+    }
+    const std::size_t index = waiting_[id].front();
+    const Departure& departure = plan_->departures[index];
+    TrafficCar car;
+    car.id = static_cast<int>(index) + 1;
+    car.way = departure.way;
+    car.driver = departure.driver;
+    car.lane = static_cast<LaneId>(id);
+    car.length_m = departure.length_m;
+    car.width_m = departure.width_m;
+    const bool at_start = departure.s_m < 0.0;
+    car.s_m = at_start ? 0.5 * car.length_m + 0.1 : departure.s_m;
+    if (!at_start && somebody_comes(view, car)) {
+      continue;
+    }
+    const std::vector<WayPart> way = view.way_from(car.lane, car.s_m, &plan_->ways[car.way].guide);
+    double wanted = wanted_speed_mps(car, way);
+    for (const WayPart& part : way) {  // slow enough to stop at a junction's line
+      if (lane(part.lane).in_junction) {
+        wanted = std::min(wanted, std::sqrt(2.0 * 2.5 * std::max(0.1, part.start_m - 0.5 * car.length_m)));
+        break;
+      }
+    }
+    if (surprises_at_junction(view, way)) {
+      continue;
+    }
+    const Leader leader = view.leader(way, -1, car.length_m);
+    car.speed_mps = std::min(wanted, departure.speed_mps);
+    if (leader.actor != nullptr) {
+      if (leader.gap_m < 40.0) {
+        car.speed_mps = std::min(car.speed_mps, std::max(leader.actor->speed_mps, 1.0));
+      }
+      if (leader.gap_m < car.driver.min_gap_m + 0.5 * car.driver.headway_s * car.speed_mps ||
+          following_acceleration_mps2(car.driver, car.speed_mps, wanted, leader.gap_m,
+                                      leader.actor->speed_mps) < -kComfortableBraking_mps2) {
+        continue;
+      }
+    }
+    car.known_leader = car.hazard = TrafficCar::kLooking;  // nothing there at the start is a surprise
+    car.next_change_s = time_s() + 1.0;
+    const auto place =
+        std::find_if(cars_.begin(), cars_.end(), [&](const TrafficCar& other) { return other.id > car.id; });
+    cars_.insert(place, std::move(car));
+    waiting_[id].pop_front();
+  }
+}
+
+}  // namespace s4tp::world

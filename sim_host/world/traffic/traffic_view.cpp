@@ -1,0 +1,170 @@
+#include "sim_host/world/traffic/traffic_view.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace s4tp::world {
+namespace {
+
+constexpr double kSight_m = 120.0;
+constexpr std::size_t kWayPartsMax = 10;
+constexpr int kLanesBack = 3;
+constexpr double kSideBySide_m = 2.3;  // two car widths and half a metre: no longer in each other's way
+
+bool meet(const NetworkLane& a, const NetworkLane& b) {
+  return std::any_of(a.successors.begin(), a.successors.end(), [&](LaneId next) {
+    return std::find(b.successors.begin(), b.successors.end(), next) != b.successors.end();
+  });
+}
+
+double apart_m(const Polyline& a, const Polyline& b) {
+  const double shorter = std::min(a.length_m(), b.length_m());
+  for (double s = 0.0; s < shorter; s += 0.5) {
+    if (std::abs(b.project(a.at(s).point).d_m) > kSideBySide_m) {
+      return s;
+    }
+  }
+  return shorter;
+}
+
+Rule turned(Rule rule) {
+  if (rule == Rule::kFirstCome) {
+    return rule;
+  }
+  return rule == Rule::kFirstYields ? Rule::kFirstHasPriority : Rule::kFirstYields;
+}
+
+}  // namespace
+
+RoadIndex::RoadIndex(const Network& network)
+    : network_(network), meetings_(network.lanes.size()), siblings_(network.lanes.size()) {
+  for (const NetworkConflict& c : network.conflicts) {
+    const bool merging = meet(lane(c.first), lane(c.second));
+    meetings_[static_cast<std::size_t>(c.first)].push_back(
+        {c.second, c.rule, c.first_entry_m, c.first_exit_m, c.second_entry_m, c.second_exit_m, merging});
+    meetings_[static_cast<std::size_t>(c.second)].push_back({c.first, turned(c.rule), c.second_entry_m,
+                                                             c.second_exit_m, c.first_entry_m, c.first_exit_m,
+                                                             merging});
+  }
+  for (const NetworkLane& from : network.lanes) {
+    for (const LaneId one : from.successors) {
+      for (const LaneId other : from.successors) {
+        if (one != other) {
+          siblings_[static_cast<std::size_t>(one)].push_back(
+              {other, apart_m(lane(other).centre, lane(one).centre)});
+        }
+      }
+    }
+  }
+}
+
+TrafficView::TrafficView(const RoadIndex& road, std::vector<Actor> actors)
+    : road_(road), actors_(std::move(actors)), occupants_(road.network().lanes.size()) {
+  for (std::size_t i = 0; i < actors_.size(); ++i) {
+    Actor& actor = actors_[i];
+    if (actor.lane == kNoLane) {
+      continue;
+    }
+    actor.way = way_from(actor.lane, actor.s_m, actor.guide);
+    occupants_[static_cast<std::size_t>(actor.lane)].push_back({i, actor.s_m});
+    for (const WayPart& part : actor.also) {
+      occupants_[static_cast<std::size_t>(part.lane)].push_back({i, -part.start_m});
+    }
+  }
+}
+
+std::vector<WayPart> TrafficView::way_from(LaneId lane, double s_m, const RouteGuide* guide) const {
+  std::vector<WayPart> way;
+  double start_m = -s_m;
+  while (lane != kNoLane && start_m < kSight_m && way.size() < kWayPartsMax) {
+    way.push_back({lane, start_m});
+    start_m += road_.lane(lane).centre.length_m();
+    lane = guide != nullptr ? guide->advice(lane).next : kNoLane;
+  }
+  return way;
+}
+
+Leader TrafficView::leader(const std::vector<WayPart>& way, int self, double length_m, int unseen) const {
+  Leader nearest;
+  const auto consider = [&](const Occupant& occupant, double start_m) {
+    const Actor& actor = actors_[occupant.actor];
+    const double ahead_m = start_m + occupant.s_m;
+    const double gap_m = ahead_m - 0.5 * (length_m + actor.length_m);
+    if (actor.id != self && actor.id != unseen && ahead_m > 0.0 && gap_m < nearest.gap_m) {
+      nearest = {&actor, gap_m, false};
+    }
+  };
+  const bool inside = !way.empty() && road_.lane(way.front().lane).in_junction;
+  for (const WayPart& part : way) {
+    for (const Occupant& occupant : occupants(part.lane)) {
+      consider(occupant, part.start_m);
+    }
+    for (const Sibling& sibling : road_.siblings(part.lane)) {
+      for (const Occupant& occupant : occupants(sibling.lane)) {
+        if (occupant.s_m - 0.5 * actors_[occupant.actor].length_m < sibling.apart_m) {
+          consider(occupant, part.start_m);
+        }
+      }
+    }
+    merging_leader(part, self, unseen, inside, length_m, nearest);
+  }
+  return nearest;
+}
+
+/// Who is already inside the junction and reaches the common lane before us is followed at the distance he
+/// will have; but a driver inside a junction himself has no eyes for the ego coming from the side.
+void TrafficView::merging_leader(const WayPart& part, int self, int unseen, bool inside, double length_m,
+                                 Leader& nearest) const {
+  const double own_end_m = part.start_m + road_.lane(part.lane).centre.length_m();
+  for (const Meeting& meeting : road_.meetings(part.lane)) {
+    if (!meeting.merging) {
+      continue;
+    }
+    for (const Actor& actor : actors_) {
+      if (actor.id == self || actor.id == unseen || actor.way.empty() ||
+          !road_.lane(actor.lane).in_junction || (inside && actor.id == 0)) {
+        continue;
+      }
+      for (const WayPart& theirs : actor.way) {
+        const double their_end_m = theirs.start_m + road_.lane(theirs.lane).centre.length_m();
+        const double ahead_m = own_end_m - their_end_m;
+        const double gap_m = ahead_m - 0.5 * (length_m + actor.length_m);
+        if (theirs.lane == meeting.other && (ahead_m > 0.0 || (ahead_m == 0.0 && actor.id < self)) &&
+            gap_m < nearest.gap_m) {
+          nearest = {&actor, gap_m, true};
+        }
+      }
+    }
+  }
+}
+
+Leader TrafficView::follower(LaneId lane, double s_m, int self, double length_m) const {
+  struct Reach {
+    LaneId lane = kNoLane;
+    double start_m = 0.0;  ///< how far the place lies ahead of the lane's start
+    int back = 0;
+  };
+  Leader nearest;
+  std::vector<Reach> open{{lane, s_m, 0}};
+  while (!open.empty()) {
+    const Reach here = open.back();
+    open.pop_back();
+    for (const Occupant& occupant : occupants(here.lane)) {
+      const Actor& actor = actors_[occupant.actor];
+      const double behind_m = here.start_m - occupant.s_m;
+      const double gap_m = behind_m - 0.5 * (length_m + actor.length_m);
+      if (actor.id != self && behind_m >= 0.0 && gap_m < nearest.gap_m) {
+        nearest = {&actor, gap_m, false};
+      }
+    }
+    for (const LaneId before : road_.lane(here.lane).predecessors) {
+      if (here.back < kLanesBack && here.start_m < kSight_m) {
+        open.push_back({before, here.start_m + road_.lane(before).centre.length_m(), here.back + 1});
+      }
+    }
+  }
+  return nearest;
+}
+
+}  // namespace s4tp::world
