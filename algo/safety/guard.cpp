@@ -148,8 +148,7 @@ bool Guard::passes_threat(const EgoPath& path, const Sight& sight, const Threat&
   if (!zone.merging && when.from_s > out_s) return true;
   if (zone.merging) {
     const bool unseen = threat.agent == kUnseen;
-    const float its_half_m =
-        unseen ? kUsualHalfLengthM : 0.5F * scene_->agents[threat.agent].track.length_m;
+    const float its_half_m = unseen ? kUsualHalfLengthM : 0.5F * scene_->agents[threat.agent].track.length_m;
     // Along the common lane: our centre's way and its centre's way to where the zone ends.
     const float half_m = 0.5F * parameters_->vehicle.length_m + its_half_m;
     const float its_to_exit_m = when.to_exit_m - (its_half_m - kUsualHalfLengthM);

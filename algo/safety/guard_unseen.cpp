@@ -6,8 +6,8 @@
 namespace s4tp::safety {
 namespace {
 
-using occupancy::kNoWayM;
 using occupancy::kNeverS;
+using occupancy::kNoWayM;
 using occupancy::LaneReach;
 
 constexpr float kLengthM = 5.0F;  // of whom we expect: a car, as the map node takes it for its zones
@@ -51,8 +51,9 @@ void Guard::look_beyond(const LaneReach (&reach)[kMaxTracks]) {
       const float length_m = distance(from, to);
       const Cut edge = cut(known, from, to);
       // Where it ends known, whatever rounding says, it has come in.
-      const bool comes_in = !is_known(known, from) &&
-                            (is_known(known, to) || (edge.in_m > 0.0F && edge.in_m < min(edge.out_m, length_m)));
+      const bool comes_in =
+          !is_known(known, from) &&
+          (is_known(known, to) || (edge.in_m > 0.0F && edge.in_m < min(edge.out_m, length_m)));
       if (comes_in) expect_from(index, start_m + clamp(edge.in_m, 0.0F, length_m), reach);
       start_m = start_m + length_m;
     }

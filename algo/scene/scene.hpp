@@ -150,9 +150,9 @@ class SceneBuilder {
   std::uint8_t spare_id(const TrackList& tracks);
 
   BoundedVector<Past, kMaxTracks> past_;
-  KnownGround listed_;             ///< as the newest list has it
-  KnownGround kept_;               ///< as far as all had room, at ...
-  std::uint32_t kept_ms_ = 0;      ///< ... the last time somebody had none
+  KnownGround listed_;         ///< as the newest list has it
+  KnownGround kept_;           ///< as far as all had room, at ...
+  std::uint32_t kept_ms_ = 0;  ///< ... the last time somebody had none
   History ego_history_;
   std::uint32_t last_ms_ = 0;
   std::uint32_t last_list_ms_ = 0;

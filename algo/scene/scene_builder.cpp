@@ -192,22 +192,19 @@ void SceneBuilder::add_past(const Track& track, bool nameless, std::uint32_t lis
   past.nameless = nameless;
   past.seen_ms = list_time_ms;
   if (past_.push(past)) return;
-  const auto away_m = [&](const Past& one) {
-    const float seconds = 1e-3F * static_cast<float>(elapsed_ms(one.seen_ms, list_time_ms));
-    return distance(coasted(one.track, seconds), listed_.centre);
-  };
-  int furthest = 0;
-  for (int i = 1; i < past_.size(); ++i) {
-    if (away_m(past_[i]) > away_m(past_[furthest])) furthest = i;
+  float furthest_m = distance(position(track.centre), listed_.centre);
+  int furthest = -1;  // the new one itself
+  for (int i = 0; i < past_.size(); ++i) {
+    const float seconds = 1e-3F * static_cast<float>(elapsed_ms(past_[i].seen_ms, list_time_ms));
+    const float away_m = distance(coasted(past_[i].track, seconds), listed_.centre);
+    if (away_m <= furthest_m) continue;
+    furthest = i;
+    furthest_m = away_m;
   }
-  if (away_m(past_[furthest]) > away_m(past)) {
-    const Past dropped = past_[furthest];
-    past_[furthest] = past;
-    past = dropped;
-  }
+  if (furthest >= 0) past_[furthest] = past;
   if (kept_ms_ != list_time_ms) kept_ = KnownGround{};
   kept_ms_ = list_time_ms;
-  kept_.radius_m = min(kept_.radius_m, away_m(past));
+  kept_.radius_m = min(kept_.radius_m, furthest_m);
   ++kept_.left_out;
 }
 

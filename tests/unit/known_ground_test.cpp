@@ -29,8 +29,8 @@ class Lists {
 TrackList queue(int count, float first_m, int first_id = 1) {
   TrackList list;
   for (int i = 0; i < count; ++i)
-    (void)list.push(car(static_cast<std::uint8_t>(first_id + i), 11.5F + first_m + 10.0F * static_cast<float>(i),
-                        0.0F, 0.0F, 0.0F));
+    (void)list.push(car(static_cast<std::uint8_t>(first_id + i),
+                        11.5F + first_m + 10.0F * static_cast<float>(i), 0.0F, 0.0F, 0.0F));
   return list;
 }
 

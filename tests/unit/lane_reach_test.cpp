@@ -56,8 +56,9 @@ TEST(LaneReach, WhoIsOnNoLaneMayBeOnOneThatWasLeftOut) {
   EXPECT_NEAR(reach_of(cross.map, vehicle).to_start_m(in), 50.0F, 0.02F);
   EXPECT_NEAR(reach_of(cross.map, vehicle).to_start_m(ahead), 50.0F + cross.map.lanes[in].length_m, 0.02F);
   // Straight it were 30 m nearer to the end of the western arm than by the way through the junction.
-  EXPECT_GT(reach_of(cross.map, vehicle).to_start_m(cross.out[CrossJunction::kWest]),
-            distance(position(vehicle.track.centre), cross.map.lanes[cross.out[CrossJunction::kWest]].points[0]));
+  EXPECT_GT(
+      reach_of(cross.map, vehicle).to_start_m(cross.out[CrossJunction::kWest]),
+      distance(position(vehicle.track.centre), cross.map.lanes[cross.out[CrossJunction::kWest]].points[0]));
 }
 
 // OCC-003 100 m of two lanes, and a third behind the left one: from the right lane at 40 m it is 60 m, by a

@@ -59,7 +59,8 @@ TEST(PlanWords, NamesWhoIsNotToldOf) {
   BlockingReason& blocking = cycle.record.explanation.blocking;
   blocking.verdict.agent = safety::kUnseen;
   cycle.record.explanation.tracks_left_out = 4;
-  EXPECT_EQ(in_words(cycle), "Waiting: somebody we are not told of can be there in 3.2 s, we would need 4.1 s.");
+  EXPECT_EQ(in_words(cycle),
+            "Waiting: somebody we are not told of can be there in 3.2 s, we would need 4.1 s.");
   EXPECT_NE(in_numbers(cycle).find("zone, 40.0 m wanted, somebody we are not told of, there in 3.2 s"),
             std::string::npos);
   EXPECT_NE(in_numbers(cycle).find("not told of: 4 vehicles, 0 lanes"), std::string::npos);
