@@ -298,6 +298,12 @@ struct Traffic {
     float free_m = kEntryM - 0.7F - ego.s_m;
     float s_m = chance(0.3F) ? between(80.0F, kEntryM) : between(20.0F, 110.0F);
     float speed_mps = chance(0.3F) ? 0.0F : between(0.0F, kTopMps);
+    if (sight_m < KnownGround::kEverywhereM && chance(0.7F)) {  // just left out, and fast
+      const float across_m = 100.0F - ego.s_m;
+      const float edge_m = std::sqrt(std::max(0.0F, sight_m * sight_m - across_m * across_m));
+      s_m = 100.0F - edge_m - between(0.0F, 10.0F);
+      speed_mps = between(10.0F, kLimitMps);
+    }
     for (int i = 0; i < crossing; ++i) {
       Lawful other;
       other.motion.s_m = s_m;
