@@ -51,7 +51,7 @@ const char* s4tp_status_name(s4tp_status status);
 
 /* ---- Versions --------------------------------------------------------------------------------------- */
 
-#define S4TP_API_VERSION 4  ///< of this header; compare with s4tp_get_versions().api once at start
+#define S4TP_API_VERSION 5  ///< of this header; compare with s4tp_get_versions().api once at start
 
 typedef struct s4tp_versions {
   uint8_t api;         ///< of the library linked
@@ -135,10 +135,13 @@ typedef struct s4tp_track {
   float width_m;            ///< 0.3 .. 3
 } s4tp_track;
 
-/// All vehicles around us at one instant. A vehicle missing from a list is coasted for 0.5 s, then dropped.
+/// All vehicles around us at one instant. A vehicle missing from a list is coasted for a second, then dropped.
 typedef struct s4tp_tracks {
   uint32_t time_ms;  ///< vehicle time of the list: at most 500 ms from now_ms, not before the last one's
-  int32_t count;     ///< 0 .. S4TP_MAX_TRACKS
+  int32_t count;     ///< 0 .. S4TP_MAX_TRACKS; of more vehicles the nearest
+  int32_t
+      left_out;  ///< how many more there are, 0 or more: API-017 somebody legal may be anywhere beyond the
+                 ///< furthest of `items`, and the plan reckons with that
   s4tp_track items[S4TP_MAX_TRACKS];
 } s4tp_tracks;
 
@@ -188,6 +191,7 @@ typedef struct s4tp_conflict {
 /// The lanes within about 150 m. A lane keeps its slot while it stays in the map.
 typedef struct s4tp_lane_map {
   s4tp_lane lanes[S4TP_MAX_LANES];
+  int32_t lanes_left_out;  ///< how many more there are, 0 or more: who is on no lane may be on one of those
   int32_t conflict_count;  ///< 0 .. S4TP_MAX_CONFLICTS
   s4tp_conflict conflicts[S4TP_MAX_CONFLICTS];
 } s4tp_lane_map;
@@ -264,6 +268,9 @@ typedef struct s4tp_explanation {
   uint8_t dominating_track;                ///< id of the vehicle whose risk is largest, or S4TP_NOBODY
   uint8_t dominating_step;                 ///< and the plan's point where it is
   uint8_t id_clashes;                      ///< vehicles whose ids were not their own: kept, under other ids
+  uint8_t tracks_left_out;                 ///< vehicles beyond what list and planner have room for
+  uint8_t lanes_left_out;                  ///< of the map
+  uint8_t unseen;                          ///< 1: somebody we are not told of keeps us from going further
   uint16_t work[S4TP_STAGE_COUNT];         ///< work units used: scene, candidates, predict, rank, exact risk,
                                            ///< optimize, check, explain
 } s4tp_explanation;

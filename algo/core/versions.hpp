@@ -5,8 +5,8 @@
 
 namespace s4tp {
 
-inline constexpr std::uint8_t kApiVersion = 4;         ///< planner.hpp and s4tp.h
-inline constexpr std::uint8_t kWireVersion = 5;        ///< s4tp.dbc; checked against the DBC at build time
+inline constexpr std::uint8_t kApiVersion = 5;         ///< planner.hpp and s4tp.h
+inline constexpr std::uint8_t kWireVersion = 6;        ///< s4tp.dbc; checked against the DBC at build time
 inline constexpr std::uint8_t kParametersVersion = 5;  ///< parameters.def
 inline constexpr std::uint8_t kWeightsVersion = 1;     ///< weight_image.hpp
 

@@ -30,7 +30,10 @@ struct Track {
   float width_m = 0.0F;            ///< 0.3 .. 3
 };
 
-using TrackList = BoundedVector<Track, kMaxTracks>;
+/// The vehicles of one list.
+struct TrackList : BoundedVector<Track, kMaxTracks> {
+  std::uint8_t left_out = 0;  ///< how many more there are, none of them nearer than the furthest of these
+};
 
 using LaneIndex = std::int8_t;
 inline constexpr LaneIndex kNoLaneIndex = -1;

@@ -41,6 +41,17 @@ void LaneReach::measure(const LaneMap& map, const Agent& agent, bool changes) {
   for (int i = 0; i < agent.paths.size(); ++i) {
     for (const PathLane& part : agent.paths[i].lanes) offer(part.lane, part.start_s_m - agent.frenet[i].s_m);
   }
+  if (agent.paths.empty() && map.lanes_left_out > 0) {
+    bool led_into[kMaxLanes] = {};
+    for (const Lane& lane : map.lanes) {
+      for (const LaneIndex successor : lane.successors) {
+        if (lane.present && has_lane(map, successor)) led_into[successor] = true;
+      }
+    }
+    for (LaneIndex lane = 0; lane < kMaxLanes; ++lane) {
+      if (!led_into[lane]) offer(lane, distance(position(agent.track.centre), map.lanes[lane].points[0]));
+    }
+  }
   // A shorter way found later is followed again: rounds bound how often.
   for (int round = 0; round < kMostRounds && count > 0; ++round) {
     LaneIndex now[kMaxLanes];

@@ -1,7 +1,8 @@
 #pragma once
 /// How far a vehicle is from every lane, by the shortest legal way (method.md 4.9): successors, lane changes,
 /// whatever way is likely. OCC-003 Each lane that successors and lane changes lead to is reached, by the
-/// shortest way there is.
+/// shortest way there is. OCC-004 Where the map left lanes out, whoever is on none of the others may be on one
+/// of those: it may come, straight from where it is, into each lane that no other leads into.
 ///
 /// \code
 ///   ====[car]======> lane 3 ------> lane 7 (junction) ---->     to lane 7: what is left of lane 3
@@ -19,7 +20,8 @@ inline constexpr float kNoWayM = 300.0F;
 
 class LaneReach {
  public:
-  /// Measures from the centre of the agent's box. An agent on no lane reaches none.
+  /// Measures from the centre of the agent's box. An agent on no lane reaches none,
+  /// or what OCC-004 says.
   /// \note bounded work: each of the map's lanes is looked at a few times
   /// \param changes  false: without lane changes, along the lanes it is in or changes to already
   void measure(const LaneMap& map, const Agent& agent, bool changes = true);

@@ -39,6 +39,10 @@ static_assert(same(Intent::kAccelerate, S4TP_INTENT_ACCELERATE) && same(Intent::
               same(Intent::kFollow, S4TP_INTENT_FOLLOW) && same(Intent::kPrevious, S4TP_INTENT_PREVIOUS));
 static_assert(same(Rejection::kLeftOut, S4TP_REJECTION_COUNT - 1));
 
+std::uint8_t at_most_255(std::int32_t count) {
+  return static_cast<std::uint8_t>(count < 255 ? count : 255);
+}
+
 Track core_track(const s4tp_track& from) {
   Track to;
   to.id = from.id;
@@ -144,7 +148,8 @@ EgoState core_ego(const s4tp_ego& from) {
 }
 
 bool copy_tracks(const s4tp_tracks& from, TrackList& to) {
-  if (from.count < 0 || from.count > S4TP_MAX_TRACKS) return false;
+  if (from.count < 0 || from.count > S4TP_MAX_TRACKS || from.left_out < 0) return false;
+  to.left_out = at_most_255(from.left_out);
   for (std::int32_t i = 0; i < from.count; ++i) {
     if (!to.push(core_track(from.items[i]))) return false;
   }
@@ -158,6 +163,8 @@ bool copy_map(const s4tp_lane_map& from, LaneMap& to) {
   for (const Lane& lane : to.lanes) {
     if (lane.present && !links_exist(to, lane)) return false;
   }
+  if (from.lanes_left_out < 0) return false;
+  to.lanes_left_out = at_most_255(from.lanes_left_out);
   to.conflicts.clear();
   if (from.conflict_count < 0 || from.conflict_count > S4TP_MAX_CONFLICTS) return false;
   for (std::int32_t i = 0; i < from.conflict_count; ++i) {
@@ -211,6 +218,9 @@ void copy_back(const Explanation& from, s4tp_explanation& to) {
   to.dominating_track = from.dominating_track;
   to.dominating_step = from.dominating_step;
   to.id_clashes = from.id_clashes;
+  to.tracks_left_out = from.tracks_left_out;
+  to.lanes_left_out = from.lanes_left_out;
+  to.unseen = from.blocking.unseen() ? 1 : 0;
   for (int i = 0; i < kStageCount; ++i) to.work[i] = from.work[i];
 }
 

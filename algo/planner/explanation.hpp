@@ -25,9 +25,11 @@ struct CostBreakdown {
 /// The motion that would have gone furthest, had the guard not refused it.
 struct BlockingReason {
   safety::Verdict verdict;   ///< why it was; safe: nothing was refused
-  std::uint8_t track = 255;  ///< track id of who is in its way; 255: nobody
+  std::uint8_t track = 255;  ///< track id of who is in its way; 255: nobody that has one
   Manoeuvre manoeuvre = Manoeuvre::kKeep;
   float way_m = 0.0F;  ///< it would have driven within the horizon
+  /// CORE-037 Whether in its way is somebody we are not told of, but have to reckon with.
+  [[nodiscard]] bool unseen() const { return verdict.agent == safety::kUnseen; }
 };
 
 /// The stages of a cycle, in the order the data flows.
@@ -62,11 +64,13 @@ struct Explanation {
   RiskProfile risk{};
   std::uint8_t dominating_track = 255;  ///< track id of the vehicle whose risk is largest; 255: nobody
   std::uint8_t dominating_step = 0;
-  BlockingReason blocking;               ///< in our lane
-  BlockingReason beside;                 ///< in the lanes beside
-  std::uint8_t leader_track = 255;       ///< track id of who drives ahead on the way chosen; 255: nobody
-  float leader_gap_m = 0.0F;             ///< bumper to bumper
-  std::uint8_t id_clashes = 0;           ///< vehicles whose ids were not their own (CORE-035)
+  BlockingReason blocking;           ///< in our lane
+  BlockingReason beside;             ///< in the lanes beside
+  std::uint8_t leader_track = 255;   ///< track id of who drives ahead on the way chosen; 255: nobody
+  float leader_gap_m = 0.0F;         ///< bumper to bumper
+  std::uint8_t id_clashes = 0;       ///< vehicles whose ids were not their own (CORE-035)
+  std::uint8_t tracks_left_out = 0;  ///< vehicles known to be about that neither list nor scene has room for
+  std::uint8_t lanes_left_out = 0;   ///< of the map
   std::uint16_t work[kStageCount] = {};  ///< units used per stage
   std::uint32_t parameters_crc = 0;
 };

@@ -118,6 +118,8 @@ Status PlanningCycle::plan(const PlannerInput& input, Plan& plan, Explanation& e
       build_drivable(input.map, drivable_);
       set_lateral_offsets(parameters_, scene_);
       explanation.id_clashes = scene_.id_clashes;
+      explanation.tracks_left_out = scene_.known.left_out;
+      explanation.lanes_left_out = input.map != nullptr ? input.map->lanes_left_out : std::uint8_t{0};
       count(explanation, Stage::kScene, scene_.agents.size());
     }
     start_ = plan_start(input.ego, input.now_ms, running_, start_ms_, parameters_);

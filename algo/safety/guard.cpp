@@ -29,11 +29,6 @@ constexpr float kEndShare =
 constexpr float kEndRoundingM = 0.01F;
 constexpr float kUsualHalfLengthM = 2.5F;  // of the boxes the map node takes for its zones
 
-/// What a zone's ends lie further apart for this vehicle, each.
-float longer_m(const Agent& agent) {
-  return 0.5F * agent.track.length_m - kUsualHalfLengthM;
-}
-
 }  // namespace
 
 /// A plan seen along its path.
@@ -151,21 +146,25 @@ bool Guard::passes_threat(const EgoPath& path, const Sight& sight, const Threat&
   const float out_s = own.time_at_s(zone.exit_s_m, cap_mps);
   if (when.until_s < in_s) return true;  // it is certain to have left
   if (!zone.merging && when.from_s > out_s) return true;
-  const Agent& agent = scene_->agents[threat.agent];
   if (zone.merging) {
+    const bool unseen = threat.agent == kUnseen;
+    const float its_half_m = unseen ? kUsualHalfLengthM : 0.5F * scene_->agents[threat.agent].track.length_m;
     // Along the common lane: our centre's way and its centre's way to where the zone ends.
-    const float half_m = 0.5F * (parameters_->vehicle.length_m + agent.track.length_m);
-    const float its_to_exit_m = when.to_exit_m - longer_m(agent);
+    const float half_m = 0.5F * parameters_->vehicle.length_m + its_half_m;
+    const float its_to_exit_m = when.to_exit_m - (its_half_m - kUsualHalfLengthM);
     const bool ahead = when.to_entry_m <= 0.0F && zone.exit_s_m - own.s_m[0] > its_to_exit_m;
     if (ahead) {
-      const float stop_m =
-          occupancy::stopping_way_m(agent.track.speed_mps, parameters_->law.braking_max_mps2);
+      const float its_mps = unseen ? 0.0F : scene_->agents[threat.agent].track.speed_mps;
+      const float stop_m = occupancy::stopping_way_m(its_mps, parameters_->law.braking_max_mps2);
       const float behind_s_m = zone.exit_s_m - its_to_exit_m + stop_m - half_m;
       if (own.stop_s_m(parameters_->guard.braking_mps2) <= behind_s_m - parameters_->guard.margin_m)
         return true;
     } else {
       const float respond_s = max(in_s, 0.0F) + parameters_->law.duty_response_s;
-      const Pace fastest = fastest_legal(*scene_, agent, zone, *parameters_);
+      const Pace fastest =
+          unseen ? fastest_legal(*scene_, threat.lane, scene_->map->lanes[threat.lane].speed_limit_mps, zone,
+                                 *parameters_)
+                 : fastest_legal(*scene_, scene_->agents[threat.agent], zone, *parameters_);
       const float its_mps = occupancy::speed_after_mps(fastest, respond_s + lead_s_);
       const auto gap_m = [&](float time_s) {
         return its_to_exit_m - occupancy::way_after_m(fastest, time_s + lead_s_) -

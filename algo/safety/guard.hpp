@@ -10,7 +10,10 @@
 /// of a zone any more leaves it no later than it was to. GUARD-008 Merging leaves room, in both orders.
 /// GUARD-009 A lane change leaves who is behind room to brake. GUARD-010 Whoever drives only what passes, and
 /// else the last fail-safe, touches nobody who keeps to the law. GUARD-011 Who entered a group by right may
-/// stand in it, short of one that comes after all, where nobody comes who cannot stop for it.
+/// stand in it, short of one that comes after all, where nobody comes who cannot stop for it. GUARD-012 Beyond
+/// the known ground (scene.hpp) there may be anybody: on each lane that leads in from there somebody comes at the
+/// limit's speed, in a lane we change into as well; on our way out of it somebody stands. Whoever is nearer in
+/// that lane and stays out of a zone, leads us, or follows us, is in its way.
 ///
 /// \code
 ///   plan    ----+------------------------>
@@ -29,6 +32,9 @@
 
 namespace s4tp::safety {
 
+/// Stands for whoever may be beyond the known ground, where others have the index of an agent.
+inline constexpr std::uint8_t kUnseen = 254;
+
 /// Why a plan is refused.
 enum class Cause : std::uint8_t {
   kNone = 0,  ///< it is not
@@ -42,7 +48,7 @@ enum class Cause : std::uint8_t {
 
 struct Verdict {
   Cause cause = Cause::kNone;
-  std::uint8_t agent = 255;      ///< who is in the way; 255: nobody
+  std::uint8_t agent = 255;      ///< who is in the way, or kUnseen; 255: nobody
   float from_s = 0.0F;           ///< kZone: how soon it can be there
   float needed_s = 0.0F;         ///< kZone: until when we are there
   bool stops_short = false;      ///< the fail-safe stands in a group entered by right, short of who comes
@@ -94,7 +100,8 @@ class Guard {
   /// A vehicle that may be in a zone of the path.
   struct Threat {
     std::uint8_t zone = 0;
-    std::uint8_t agent = 0;
+    std::uint8_t agent = 0;  ///< or kUnseen: the one that comes first
+    LaneIndex lane = kNoLaneIndex;
     ZoneOccupancy when;
   };
   /// Somebody in the lane of the path, ahead or behind.
@@ -129,6 +136,13 @@ class Guard {
   void look_at_path(int path_index);
   void find_groups(const EgoPath& path, Sight& sight) const;
   void find_threats(const EgoPath& path, const occupancy::LaneReach (&reach)[kMaxTracks], Sight& sight) const;
+  // guard_unseen.cpp
+  void look_beyond(const occupancy::LaneReach (&reach)[kMaxTracks]);
+  void expect_from(LaneIndex lane, float s_m, const occupancy::LaneReach (&reach)[kMaxTracks]);
+  void expect_ahead(const EgoPath& path, Sight& sight) const;
+  [[nodiscard]] bool held_back(const Sight& sight, int zone, const ConflictZone& ground,
+                               const occupancy::LaneReach& straight_on,
+                               const occupancy::LaneReach (&reach)[kMaxTracks], ZoneOccupancy& when) const;
   [[nodiscard]] bool is_behind(const ZoneOccupancy (&when)[kMaxTracks], int index) const;
   [[nodiscard]] bool is_latched(std::uint8_t track, LaneIndex lane) const;
   [[nodiscard]] bool passes_group(const EgoPath& path, const Sight& sight, const ZoneGroup& group,

@@ -31,6 +31,7 @@ void Guard::look(const Scene& scene, const TrajectoryPoint& start, float lead_s,
     look_at_path(path);
     find_threats(scene.ego_paths[path], reach, sights_[path]);
   }
+  if (scene.known.left_out > 0) look_beyond(reach);
 }
 
 void Guard::look_at_path(int path_index) {
@@ -135,7 +136,8 @@ void Guard::find_threats(const EgoPath& path, const occupancy::LaneReach (&reach
     }
     for (int i = 0; i < count; ++i) {
       if (when[i].claim != Claim::kMayCome || is_behind(when, i)) continue;
-      const Threat threat{static_cast<std::uint8_t>(z), static_cast<std::uint8_t>(i), when[i]};
+      const Threat threat{static_cast<std::uint8_t>(z), static_cast<std::uint8_t>(i), scene_->agents[i].lane,
+                          when[i]};
       if (!sight.threats.push(threat)) sight.too_many = true;
     }
   }

@@ -65,13 +65,16 @@ bool stands_in_sight(const Scene& scene, const Agent& agent, const Parameters& p
 
 }  // namespace
 
+Pace fastest_legal(const Scene& scene, LaneIndex lane, float seen_mps, const ConflictZone& zone,
+                   const Parameters& parameters) {
+  float limit_mps = scene.map->lanes[zone.other_lane].speed_limit_mps;
+  if (lane != kNoLaneIndex) limit_mps = max(limit_mps, scene.map->lanes[lane].speed_limit_mps);
+  return {seen_mps, parameters.law.gain_mps2, max(parameters.law.over_limit * limit_mps, seen_mps)};
+}
+
 Pace fastest_legal(const Scene& scene, const Agent& agent, const ConflictZone& zone,
                    const Parameters& parameters) {
-  const Lane& there = scene.map->lanes[zone.other_lane];
-  float limit_mps = there.speed_limit_mps;
-  if (agent.lane != kNoLaneIndex) limit_mps = max(limit_mps, scene.map->lanes[agent.lane].speed_limit_mps);
-  const float now_mps = seen_mps(agent);
-  return {now_mps, parameters.law.gain_mps2, max(parameters.law.over_limit * limit_mps, now_mps)};
+  return fastest_legal(scene, agent.lane, seen_mps(agent), zone, parameters);
 }
 
 ZoneOccupancy zone_occupancy(const Scene& scene, const Agent& agent, const occupancy::LaneReach& reach,

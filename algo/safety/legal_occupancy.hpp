@@ -46,6 +46,10 @@ struct ZoneOccupancy {
 [[nodiscard]] occupancy::Pace fastest_legal(const Scene& scene, const Agent& agent, const ConflictZone& zone,
                                             const Parameters& parameters);
 
+/// The same for one that was last seen at `seen_mps` on `lane`, or on none.
+[[nodiscard]] occupancy::Pace fastest_legal(const Scene& scene, LaneIndex lane, float seen_mps,
+                                            const ConflictZone& zone, const Parameters& parameters);
+
 /// \param reach  measured for the agent
 /// \param lead_s  plan start after the scene's time
 [[nodiscard]] ZoneOccupancy zone_occupancy(const Scene& scene, const Agent& agent,

@@ -65,6 +65,25 @@ struct EgoPath {
   BoundedVector<ConflictZone, kMaxPathZones> zones;
 };
 
+/// The ground on which nobody is missing. CORE-036 It reaches as far as the furthest vehicle of a list that
+/// left some out, and no further than those the scene has no room for: the nearest of all, missing ones among
+/// them, are kept. Sensors that see less far than the map, or past whom they cannot see, do not bound it.
+///
+/// \code
+///        . - ~ - .      centre: our box, at the list's time
+///      '   [1] [2] '    radius: to the furthest of the list
+///     | [us]        [16]      [?]  left out
+///      .    [3]    .
+///        ' - _ - '
+/// \endcode
+struct KnownGround {
+  static constexpr float kEverywhereM = 1e4F;
+  Point centre;
+  float radius_m = kEverywhereM;
+  std::uint16_t age_ms = 0;   ///< of the list
+  std::uint8_t left_out = 0;  ///< how many are known to be beyond it
+};
+
 /// Everything one planning cycle knows of the world.
 struct Scene {
   std::uint32_t time_ms = 0;  ///< the instant all poses are given for
@@ -74,6 +93,7 @@ struct Scene {
   BoundedVector<Agent, kMaxTracks> agents;  ///< the first `watched` are the relevant ones
   int watched = 0;                          ///< <= kMaxAgents, predicted with interaction
   const LaneMap* map = nullptr;             ///< valid during the cycle only
+  KnownGround known;
   float waited_s = 0.0F;        ///< how long we have stood at the junction we are at or in (CORE-033)
   std::uint8_t id_clashes = 0;  ///< CORE-035 vehicles of the last list whose ids were not their own
   bool list_refused = false;    ///< CORE-008 the list lies over 500 ms from the scene, or before the last one
@@ -121,6 +141,8 @@ class SceneBuilder {
   void note_standing(std::int32_t passed_ms, Scene& scene);
   void advance_time(std::uint32_t time_ms);
   void take_list(const TrackList& tracks, std::uint32_t list_time_ms);
+  /// Of the newest list, where a vehicle that had no room is remembered for as long as a missing one.
+  [[nodiscard]] KnownGround known_ground(std::uint32_t time_ms) const;
   int find_past(const Track& track, std::uint32_t list_time_ms) const;
   /// Whether a vehicle that the newest list lacks would be where that list has another one.
   [[nodiscard]] bool in_anothers_place(int index) const;
@@ -128,6 +150,9 @@ class SceneBuilder {
   std::uint8_t spare_id(const TrackList& tracks);
 
   BoundedVector<Past, kMaxTracks> past_;
+  KnownGround listed_;         ///< as the newest list has it
+  KnownGround kept_;           ///< as far as all had room, at ...
+  std::uint32_t kept_ms_ = 0;  ///< ... the last time somebody had none
   History ego_history_;
   std::uint32_t last_ms_ = 0;
   std::uint32_t last_list_ms_ = 0;

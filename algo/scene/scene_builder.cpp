@@ -110,6 +110,8 @@ void SceneBuilder::reset() {
   last_list_ms_ = 0;
   id_clashes_ = 0;
   last_spare_id_ = 0;
+  listed_ = KnownGround{};
+  kept_ = KnownGround{};
   started_ = false;
   waited_ms_ = 0;
   ego_lane_ = kNoLaneIndex;
@@ -185,22 +187,49 @@ std::uint8_t SceneBuilder::spare_id(const TrackList& tracks) {
 }
 
 void SceneBuilder::add_past(const Track& track, bool nameless, std::uint32_t list_time_ms) {
-  if (past_.full()) {
-    int oldest = 0;
-    for (int i = 1; i < past_.size(); ++i) {
-      if (elapsed_ms(past_[i].seen_ms, past_[oldest].seen_ms) > 0) oldest = i;
-    }
-    if (past_[oldest].seen_ms == list_time_ms) return;  // a list has no more vehicles than there is room for
-    past_.swap_remove(oldest);
-  }
   Past past;
   past.track = track;
   past.nameless = nameless;
   past.seen_ms = list_time_ms;
-  (void)past_.push(past);
+  if (past_.push(past)) return;
+  float furthest_m = distance(position(track.centre), listed_.centre);
+  int furthest = -1;  // the new one itself
+  for (int i = 0; i < past_.size(); ++i) {
+    const float seconds = 1e-3F * static_cast<float>(elapsed_ms(past_[i].seen_ms, list_time_ms));
+    const float away_m = distance(coasted(past_[i].track, seconds), listed_.centre);
+    if (away_m <= furthest_m) continue;
+    furthest = i;
+    furthest_m = away_m;
+  }
+  if (furthest >= 0) past_[furthest] = past;
+  if (kept_ms_ != list_time_ms) kept_ = KnownGround{};
+  kept_ms_ = list_time_ms;
+  kept_.radius_m = min(kept_.radius_m, furthest_m);
+  ++kept_.left_out;
+}
+
+KnownGround SceneBuilder::known_ground(std::uint32_t time_ms) const {
+  KnownGround known = listed_;
+  if (kept_.left_out > 0 && elapsed_ms(kept_ms_, time_ms) <= kMissingMs) {
+    known.radius_m = min(known.radius_m, kept_.radius_m);
+    const int left_out = known.left_out + kept_.left_out;
+    known.left_out = static_cast<std::uint8_t>(left_out < 255 ? left_out : 255);
+  }
+  const std::int32_t age_ms = elapsed_ms(last_list_ms_, time_ms);
+  known.age_ms = bounded_ms(age_ms > 0 ? age_ms : 0);
+  return known;
 }
 
 void SceneBuilder::take_list(const TrackList& tracks, std::uint32_t list_time_ms) {
+  listed_.left_out = tracks.left_out;
+  listed_.radius_m = KnownGround::kEverywhereM;
+  if (tracks.left_out > 0) {
+    listed_.radius_m = 0.0F;
+    for (const Track& track : tracks) {
+      if (sound(track))
+        listed_.radius_m = max(listed_.radius_m, distance(position(track.centre), listed_.centre));
+    }
+  }
   // An id that stands twice belongs to nobody: what is known of it is given up, and those who bear it are
   // other vehicles in each list.
   bool clashes[kMaxTracks] = {};
@@ -271,6 +300,7 @@ Status SceneBuilder::build(std::uint32_t time_ms, const EgoState& ego, const Tra
   scene.ego = EgoState{};
   scene.waited_s = 0.0F;
   scene.list_refused = false;
+  scene.known = KnownGround{};
   if (!sound(ego)) {
     reset();
     scene.ego_history = History{};
@@ -284,8 +314,14 @@ Status SceneBuilder::build(std::uint32_t time_ms, const EgoState& ego, const Tra
   const std::int32_t list_age_ms = elapsed_ms(list_time_ms, time_ms);
   const bool in_time = list_age_ms <= kCoastMs && list_age_ms >= -kCoastMs;
   scene.list_refused = !in_time || (!first && since_last_ms < 0);
-  if (in_time && (first || since_last_ms > 0)) take_list(tracks, list_time_ms);
+  if (in_time && (first || since_last_ms > 0)) {
+    const float to_centre_m = 0.5F * parameters.vehicle.length_m - parameters.vehicle.rear_overhang_m;
+    const float since_m = 1e-3F * static_cast<float>(list_age_ms) * ego.speed_mps;
+    listed_.centre = offset_point(ego.rear_axle, to_centre_m - since_m, 0.0F);
+    take_list(tracks, list_time_ms);
+  }
   scene.id_clashes = id_clashes_;
+  scene.known = known_ground(time_ms);
   started_ = true;
 
   const LaneTable table(map);

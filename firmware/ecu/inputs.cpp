@@ -193,6 +193,7 @@ void Inputs::take_tracks() {
   }
   tracks_.clear();
   for (int i = 0; i < list.count; ++i) static_cast<void>(tracks_.push(to_track(list.items[i])));
+  tracks_.left_out = list.left_out;
   tracks_ms_ = list_ms;
   tracks_age_.renew();
 }

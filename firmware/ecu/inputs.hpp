@@ -57,6 +57,7 @@ class Inputs {
 
   /// ECU-063 The newest whole list. A list not newer than the one before, from the future or more than 1 s
   /// old is refused. No vehicle is dropped for its numbers: they are brought to their bounds (ECU-062).
+  /// How many the list left out goes along.
   [[nodiscard]] const TrackList& tracks() const { return tracks_; }
   [[nodiscard]] std::uint32_t tracks_ms() const { return tracks_ms_; }
 

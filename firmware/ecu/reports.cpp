@@ -86,6 +86,9 @@ void Reporter::plan(hal::Can& can, std::uint32_t sequence, std::uint32_t digest,
   reason.dominating_track = explanation.dominating_track;
   reason.dominating_step = at_most<std::uint8_t>(explanation.dominating_step, 31);
   reason.id_clashes = at_most<std::uint8_t>(explanation.id_clashes, 31);
+  reason.tracks_left_out = at_most<std::uint8_t>(explanation.tracks_left_out, 31);
+  reason.lanes_left_out = at_most<std::uint8_t>(explanation.lanes_left_out, 31);
+  reason.unseen = explanation.blocking.unseen() ? 1 : 0;
   send(can, reason, reason_);
 }
 

@@ -32,7 +32,8 @@ class Reporter {
   void status(hal::Can& can, const StatusReport& report);         ///< ECU-066 every 100 ms
   void statistics(hal::Can& can, const CycleStatistics& cycles);  ///< ECU-067 every 1000 ms
   void version(hal::Can& can);                                    ///< ECU-068 every 1000 ms
-  /// ECU-069 When a plan takes effect: its digest, and why it was chosen.
+  /// ECU-069 When a plan takes effect: its digest, and why it was chosen. ECU-101 How many vehicles and lanes
+  /// it was not told of (31: or more), and whether one of those is what keeps it from going further.
   void plan(hal::Can& can, std::uint32_t sequence, std::uint32_t digest, const Explanation& explanation);
 
  private:

@@ -1,6 +1,7 @@
 #pragma once
 /// The track list on the wire: a header (TrackList) and two members a track (TrackPose, TrackMotion), all of
 /// one generation. WIRE-020 A list counts only when whole; until then the previous one stands and ages.
+/// The nearest vehicles to our box's centre come into it: whoever is left out is no nearer than the furthest.
 /// WIRE-023 Whole means that the header's digest fits all members, too: against corruption, not forgery.
 
 #include <cstdint>
@@ -27,7 +28,7 @@ struct Track {
 struct Tracks {
   std::uint16_t vehicle_time_ms = 0;
   std::uint8_t count = 0;
-  std::uint8_t left_out = 0;
+  std::uint8_t left_out = 0;  ///< how many more are seen; 31: or more
   Track items[kMaxTracks];
 };
 

@@ -10,6 +10,7 @@ namespace s4tp::view {
 namespace {
 
 constexpr int kNobody = 255;
+constexpr int kUnseen = -2;  // has no track
 constexpr float kRestMps = 0.3F;
 constexpr float kNoticeableMps = 0.7F;  // within the horizon
 constexpr float kNoticeableM = 2.0F;    // as much further the rejected motion must have gone
@@ -47,6 +48,7 @@ const char* kind_of(const Track& track) {
 
 /// "the car from the left", seen from where the plan starts.
 std::string name_of(const campaign::CycleTrace& cycle, int id) {
+  if (id == kUnseen) return "somebody we are not told of";
   const Track* const track = find_track(cycle, id);
   if (track == nullptr) return "somebody";
   const Pose& ours = start_of(cycle).rear_axle;
@@ -113,6 +115,11 @@ Reason about(Doing doing, Because because, int track = kNobody) {
   return {doing, because, track == kNobody ? -1 : track};
 }
 
+Reason about(Doing doing, const BlockingReason& blocking) {
+  if (blocking.unseen()) return {doing, because_of(blocking.verdict), kUnseen};
+  return about(doing, because_of(blocking.verdict), blocking.track);
+}
+
 /// What a drive under way is about.
 Reason driving_reason(const campaign::CycleTrace& cycle, Doing doing) {
   const Explanation& e = cycle.record.explanation;
@@ -124,7 +131,7 @@ Reason driving_reason(const campaign::CycleTrace& cycle, Doing doing) {
   const bool near =
       e.leader_track != kNobody && e.leader_gap_m < 8.0F + kFollowingS * start_of(cycle).speed_mps;
   if (held) {
-    return about(doing, because_of(e.blocking.verdict), e.blocking.track);
+    return about(doing, e.blocking);
   }
   if (near && (doing != Doing::kDriving || e.chosen.intent == Intent::kFollow))
     return about(doing, Because::kLeader, e.leader_track);
@@ -169,11 +176,13 @@ std::string giving_way(const std::string& who, const safety::Verdict& verdict) {
 std::string because_words(const campaign::CycleTrace& cycle, const Reason& reason,
                           const safety::Verdict& verdict) {
   const Explanation& e = cycle.record.explanation;
-  const std::string who = name_of(cycle, reason.track < 0 ? kNobody : reason.track);
+  const bool unseen = reason.track == kUnseen;
+  const std::string who = name_of(cycle, reason.track < 0 && !unseen ? kNobody : reason.track);
   switch (reason.because) {
     case Because::kNothing:
       return "";
     case Because::kLeader:
+      if (unseen) return who + " may stand ahead";
       return reason.track == e.leader_track
                  ? format("%s is %.0f m away", who.c_str(), std::max(e.leader_gap_m, 0.0F))
                  : who + " leaves no more room";
@@ -228,6 +237,7 @@ std::string blocking_text(const campaign::CycleTrace& cycle, const BlockingReaso
                             kCauses[static_cast<int>(verdict.cause)], blocking.way_m);
   if (blocking.track != kNobody)
     line += format(", track %d (%s)", blocking.track, name_of(cycle, blocking.track).c_str());
+  if (blocking.unseen()) line += ", somebody we are not told of";
   if (verdict.cause == safety::Cause::kZone)
     line += format(", there in %.1f s, we leave in %.1f s", verdict.from_s, verdict.needed_s);
   return line;
@@ -252,7 +262,7 @@ Reason reason_of(const campaign::CycleTrace& cycle) {
     case Status::kNoLane:
       return about(doing, Because::kNoLane);
     case Status::kNoSafePlan:
-      return about(doing, Because::kNoSafeWay, cycle.record.explanation.blocking.track);
+      return {doing, Because::kNoSafeWay, about(doing, cycle.record.explanation.blocking).track};
     case Status::kStaleTracks:
       return about(doing, Because::kNobodySeen);
     default:
@@ -275,12 +285,10 @@ std::string in_words(const campaign::CycleTrace& cycle) {
   words += ".";
   // Behind somebody slower a passenger wonders why he is not passed.
   const bool follows = reason.because == Because::kLeader && reason.doing == Doing::kDriving;
-  if (follows && !e.beside.verdict.safe() && e.beside.track != kNobody &&
+  if (follows && !e.beside.verdict.safe() && (e.beside.track != kNobody || e.beside.unseen()) &&
       e.beside.way_m > way_m(cycle.record.plan.trajectory) + kNoticeableM) {
     words += std::string(" No change to the ") + manoeuvre_name(e.beside.manoeuvre) + ": " +
-             because_words(cycle, about(reason.doing, because_of(e.beside.verdict), e.beside.track),
-                           e.beside.verdict) +
-             ".";
+             because_words(cycle, about(reason.doing, e.beside), e.beside.verdict) + ".";
   }
   return words;
 }
@@ -302,6 +310,8 @@ std::string in_numbers(const campaign::CycleTrace& cycle) {
                   e.candidate_count, rejected(e, Rejection::kInfeasible), rejected(e, Rejection::kRefused),
                   rejected(e, Rejection::kLeftOut), e.left_out);
   lines += blocking_text(cycle, e.blocking, "in our lane") + blocking_text(cycle, e.beside, "beside");
+  if (e.tracks_left_out + e.lanes_left_out > 0)
+    lines += format("\n  not told of: %d vehicles, %d lanes", e.tracks_left_out, e.lanes_left_out);
   if (e.dominating_track != kNobody)
     lines += format("\n  risk:      track %d (%s) at +%.1f s", e.dominating_track,
                     name_of(cycle, e.dominating_track).c_str(), 0.1 * (e.dominating_step + 1));

@@ -38,7 +38,7 @@ enum class Because {
 struct Reason {
   Doing doing = Doing::kDriving;
   Because because = Because::kNothing;
-  int track = -1;  ///< id of who it is about; -1: nobody
+  int track = -1;  ///< id of who it is about; -1: nobody, -2: somebody we are not told of
   friend bool operator==(const Reason&, const Reason&) = default;
 };
 [[nodiscard]] Reason reason_of(const campaign::CycleTrace& cycle);

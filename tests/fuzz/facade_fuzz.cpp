@@ -38,7 +38,7 @@ bool documented(const s4tp_ego& ego) {
 }
 
 bool documented(const s4tp_tracks& tracks) {
-  if (tracks.count < 0 || tracks.count > S4TP_MAX_TRACKS) return false;
+  if (tracks.count < 0 || tracks.count > S4TP_MAX_TRACKS || tracks.left_out < 0) return false;
   return std::all_of(tracks.items, tracks.items + tracks.count, [](const s4tp_track& track) {
     return std::abs(track.x_m) < 100'000.0F && std::abs(track.y_m) < 100'000.0F &&
            within(track.heading_rad, -kPi, kPi) && within(track.speed_mps, 0.0F, 60.0F) &&
@@ -320,6 +320,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                                 &plan.fail_safe_braking_mps2};
       *numbers[bytes.below(7)] = bytes.take<float>();
     }
+    tracks.left_out = bytes.byte() % 8 == 1 ? bytes.take<std::int16_t>() : 0;
+    map->lanes_left_out = bytes.byte() % 8 == 1 ? bytes.take<std::int16_t>() : 0;
   }
   return 0;
 }

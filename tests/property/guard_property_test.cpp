@@ -12,11 +12,13 @@ using namespace test;  // NOLINT: the map builders are the language of these tes
 
 constexpr float kDriveS = 20.0F;
 
-/// Drives one scene of that seed.
-bool holds(Priority priority, bool merging, int crossing, bool leader, unsigned seed) {
+/// Drives one scene of that seed. With a sight that ends, only those who were left out before count.
+bool holds(Priority priority, bool merging, int crossing, bool leader, unsigned seed,
+           float sight_m = KnownGround::kEverywhereM) {
   Traffic traffic(priority, merging, seed);
+  traffic.sight_m = sight_m;
   traffic.place(crossing, leader);
-  return traffic.run(kDriveS);
+  return traffic.run(kDriveS) || (sight_m < KnownGround::kEverywhereM && !traffic.touched_left_out);
 }
 
 unsigned any_seed() {
@@ -54,6 +56,41 @@ TEST(GuardProperty, WhoCannotGiveWayIsNotDrivenInto) {
 // GUARD-010 Into the lane of one who has priority there.
 TEST(GuardProperty, AMergeTouchesNobody) {
   EXPECT_TRUE(rc::check([] { RC_ASSERT(holds(Priority::kFirstYields, true, 1, false, any_seed())); }));
+}
+
+/// From "nothing is known but who leads us" to "everybody is gone before they come".
+float any_sight_m() {
+  const float sight_m = static_cast<float>(*rc::gen::inRange(20, 100));
+  RC_LOG() << "known within " << sight_m << " m\n";
+  return sight_m;
+}
+
+// GUARD-012 The same with whoever is further away left out of the lists: across those who have priority, ...
+TEST(GuardProperty, NobodyWithPriorityWhoIsLeftOutIsCutOff) {
+  EXPECT_TRUE(rc::check([] {
+    const int count = *rc::gen::inRange(1, 3);
+    RC_ASSERT(holds(Priority::kFirstYields, false, count, false, any_seed(), any_sight_m()));
+  }));
+}
+
+// GUARD-012 ... those who owe us the way, ...
+TEST(GuardProperty, WhoIsLeftOutAndCannotGiveWayIsNotDrivenInto) {
+  EXPECT_TRUE(rc::check([] {
+    const int count = *rc::gen::inRange(1, 3);
+    RC_ASSERT(holds(Priority::kFirstHasPriority, false, count, false, any_seed(), any_sight_m()));
+  }));
+}
+
+// GUARD-012 ... into their lane, ...
+TEST(GuardProperty, AMergeTouchesNobodyWhoIsLeftOut) {
+  EXPECT_TRUE(
+      rc::check([] { RC_ASSERT(holds(Priority::kFirstYields, true, 1, false, any_seed(), any_sight_m())); }));
+}
+
+// GUARD-012 ... and behind one who was left out ahead.
+TEST(GuardProperty, NobodyAheadWhoIsLeftOutIsRunInto) {
+  EXPECT_TRUE(rc::check(
+      [] { RC_ASSERT(holds(Priority::kFirstHasPriority, false, 0, true, any_seed(), any_sight_m())); }));
 }
 
 }  // namespace

@@ -35,6 +35,7 @@ inline constexpr float kExitM = 104.0F;
 struct Lawful {
   Mover motion;
   bool leads = false;  ///< in our own lane
+  bool was_left_out = false;
   float known_s = 0.0F;
   float stood_s = 0.0F;
   // Random and bang-bang.
@@ -63,6 +64,8 @@ struct Traffic {
   std::vector<Lawful> others;
   float time_s = 0.0F;
   float waited_s = 0.0F;
+  bool touched_left_out = false;              ///< somebody who was left out before, when run() answers false
+  float sight_m = KnownGround::kEverywhereM;  ///< who is further away is left out of lists
   bool merging = false;
   bool committed = false;       ///< the plan in force goes through the zone
   float ego_entered_s = -1.0F;  ///< when it came into the zone
@@ -79,11 +82,27 @@ struct Traffic {
     return road.scene.ego_paths[0].zones[0].priority != Priority::kFirstHasPriority;
   }
 
+  [[nodiscard]] Point place_of(const Lawful& other) const {
+    return position(
+        state_on(road.map, other.leads ? road.ours : road.theirs, other.motion.s_m, 0.0F).rear_axle);
+  }
+  [[nodiscard]] Point own_place() const {
+    return position(state_on(road.map, road.ours, ego.s_m, 0.0F).rear_axle);
+  }
+  [[nodiscard]] bool left_out(const Lawful& other) const {
+    return distance(place_of(other), own_place()) > sight_m;
+  }
+
   /// The scene as the planner is told it.
   void observe() {
     Scene& scene = road.scene;
     scene.agents.clear();
-    for (const Lawful& other : others) {
+    scene.known = {own_place(), sight_m, 0, std::uint8_t{sight_m < KnownGround::kEverywhereM}};
+    for (Lawful& other : others) {
+      if (left_out(other)) {
+        other.was_left_out = true;
+        continue;
+      }
       Agent& agent = add_vehicle(scene, road.map, other.leads ? road.ours : road.theirs, other.motion.s_m,
                                  other.motion.speed_mps);
       // Beyond the zone of a merge it is in our lane.
@@ -138,7 +157,8 @@ struct Traffic {
     for (Lawful& other : others) {
       if (other.leads) continue;
       // The guard takes one that stands in the zone itself to stay where it is, too.
-      if (other.stood_s >= 0.7F && waited_s >= 0.7F && other.motion.acceleration_mps2 < 0.5F)
+      if (!left_out(other) && other.stood_s >= 0.7F && waited_s >= 0.7F &&
+          other.motion.acceleration_mps2 < 0.5F)
         other.stays = true;
       if (!we_yield() || other.to_entry_m() <= 0.0F || !other.can_be_asked()) continue;
       other.owed_mps2 = 2.0F;
@@ -229,7 +249,8 @@ struct Traffic {
       if (slower_mps * slower_mps >= 8.0F * (gap_m - 0.05F * slower_mps - 0.1F) || gap_m < 0.3F)
         wanted_mps2 = std::min(wanted_mps2, braking ? -8.0F : -4.0F);
     }
-    motion.drive(wanted_mps2, kTickS, kTopMps);
+    // Whoever is left out keeps to the limit.
+    motion.drive(wanted_mps2, kTickS, left_out(other) ? kLimitMps : kTopMps);
   }
 
   void tick() {
@@ -249,7 +270,7 @@ struct Traffic {
       if (!we_yield() && !other.leads && room_m > 0.0F && its_mps * its_mps <= 8.0F * room_m)
         other.owed_mps2 = 4.0F;
       drive_other(other, in_front[i]);
-      other.known_s += kTickS;
+      if (!left_out(other)) other.known_s += kTickS;
       other.stood_s = other.motion.speed_mps < 0.3F ? other.stood_s + kTickS : 0.0F;
     }
     ego.drive(ahead.front(), kTickS, kTopMps);
@@ -277,6 +298,12 @@ struct Traffic {
     float free_m = kEntryM - 0.7F - ego.s_m;
     float s_m = chance(0.3F) ? between(80.0F, kEntryM) : between(20.0F, 110.0F);
     float speed_mps = chance(0.3F) ? 0.0F : between(0.0F, kTopMps);
+    if (sight_m < KnownGround::kEverywhereM && chance(0.7F)) {  // just left out, and fast
+      const float across_m = 100.0F - ego.s_m;
+      const float edge_m = std::sqrt(std::max(0.0F, sight_m * sight_m - across_m * across_m));
+      s_m = 100.0F - edge_m - between(0.0F, 10.0F);
+      speed_mps = between(10.0F, kLimitMps);
+    }
     for (int i = 0; i < crossing; ++i) {
       Lawful other;
       other.motion.s_m = s_m;
@@ -294,6 +321,10 @@ struct Traffic {
       free_m = std::min(free_m, ahead_of_us.motion.s_m - ego.s_m - 5.5F + its_way_m);
       others.push_back(ahead_of_us);
     }
+    for (Lawful& other : others) {
+      if (left_out(other)) other.motion.speed_mps = std::min(other.motion.speed_mps, kLimitMps);
+    }
+    free_m = std::min(free_m, sight_m - 5.5F);
     // It takes 0.45 s until we brake with 6 m/s^2.
     const float most_mps = std::sqrt(2.7F * 2.7F + 12.0F * std::max(free_m, 0.0F)) - 2.7F;
     ego.speed_mps = chance(0.3F) ? 0.0F : std::min(most_mps, between(0.0F, kTopMps));
@@ -308,7 +339,9 @@ struct Traffic {
       for (int i = 0; i < 2; ++i) {
         tick();
         for (const Lawful& other : others) {
-          if (touches(other)) return false;
+          if (!touches(other)) continue;
+          touched_left_out = other.was_left_out;
+          return false;
         }
       }
       if (ahead.size() < 4) ahead.resize(100, -6.0F);

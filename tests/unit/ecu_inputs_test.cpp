@@ -30,6 +30,7 @@ class Bench {
     wire::Tracks tracks;
     tracks.vehicle_time_ms = at_ms;
     tracks.count = count;
+    tracks.left_out = left_out;
     for (int i = 0; i < count; ++i)
       tracks.items[i] = {static_cast<std::uint8_t>(i + 1), 1.0F, 2.0F, 0.5F, 60.0F, -12.7F, 0.0F, 0.2F, 0.1F};
     track_sender.start(tracks);
@@ -46,6 +47,7 @@ class Bench {
 
   Inputs inputs;
   std::uint32_t stamp_ms = 1000;
+  std::uint8_t left_out = 0;  ///< of lists
   wire::E2eSender motion_sender;
   wire::E2eSender pose_sender;
   wire::TrackListSender track_sender;
@@ -127,6 +129,18 @@ TEST(Inputs, TakesOnlyNewPlausibleLists) {
   EXPECT_EQ(bench.inputs.rejected_frames(), rejected + 3);
   tick(bench.stamp_ms, 1);
   EXPECT_EQ(bench.inputs.tracks().size(), 1);
+}
+
+// ECU-063 How many a list left out goes along with it, and no further.
+TEST(Inputs, KnowsHowManyAListLeftOut) {
+  Bench bench;
+  for (const std::uint8_t left_out : {std::uint8_t{0}, std::uint8_t{3}, std::uint8_t{0}}) {
+    bench.motion(10.0F);
+    bench.left_out = left_out;
+    bench.list(static_cast<std::uint16_t>(bench.stamp_ms), 2);
+    bench.inputs.close_tick();
+    EXPECT_EQ(bench.inputs.tracks().left_out, left_out);
+  }
 }
 
 // A damaged frame changes nothing and is counted.

@@ -42,6 +42,25 @@ TEST(LaneReach, EveryTurnCountsWhateverIsLikely) {
   EXPECT_EQ(reach.to_start_m(cross.connection[CrossJunction::kWest][CrossJunction::kLeft]), kNoWayM);
 }
 
+// OCC-004 On no lane of the map, 50 m from where the western arm's lane begins: where the map left lanes out it may
+// come by one of those into that lane and all that follow, but into no lane that others lead to; else nowhere.
+TEST(LaneReach, WhoIsOnNoLaneMayBeOnOneThatWasLeftOut) {
+  CrossJunction cross = cross_junction();
+  const LaneIndex in = cross.in[CrossJunction::kEast];
+  const LaneIndex ahead = cross.connection[CrossJunction::kEast][CrossJunction::kStraight];
+  Agent vehicle;
+  const Point start = cross.map.lanes[in].points[0];
+  vehicle.track.centre = {start.x_m - 30.0F, start.y_m - 40.0F, 1.0F};
+  EXPECT_EQ(reach_of(cross.map, vehicle).to_start_m(in), kNoWayM);
+  cross.map.lanes_left_out = 1;
+  EXPECT_NEAR(reach_of(cross.map, vehicle).to_start_m(in), 50.0F, 0.02F);
+  EXPECT_NEAR(reach_of(cross.map, vehicle).to_start_m(ahead), 50.0F + cross.map.lanes[in].length_m, 0.02F);
+  // Straight it were 30 m nearer to the end of the western arm than by the way through the junction.
+  EXPECT_GT(
+      reach_of(cross.map, vehicle).to_start_m(cross.out[CrossJunction::kWest]),
+      distance(position(vehicle.track.centre), cross.map.lanes[cross.out[CrossJunction::kWest]].points[0]));
+}
+
 // OCC-003 100 m of two lanes, and a third behind the left one: from the right lane at 40 m it is 60 m, by a
 // change on the way; not from 95 m, where 5 m are too little for a change.
 TEST(LaneReach, ALaneChangeIsAWay) {

@@ -52,6 +52,22 @@ TEST(PlanWords, FreeRoadNeedsNoReason) {
   EXPECT_EQ(in_words(plan(0.0F, 0.0F)), "Waiting.");
 }
 
+// CORE-037 Whoever is not told of is called so: on ground we share, ahead, in the lane beside, and in the numbers.
+TEST(PlanWords, NamesWhoIsNotToldOf) {
+  campaign::CycleTrace cycle = plan(0.0F, 0.0F);
+  hold_up(cycle, safety::Cause::kZone, 255, 3.2F, 4.1F);
+  BlockingReason& blocking = cycle.record.explanation.blocking;
+  blocking.verdict.agent = safety::kUnseen;
+  cycle.record.explanation.tracks_left_out = 4;
+  EXPECT_EQ(in_words(cycle),
+            "Waiting: somebody we are not told of can be there in 3.2 s, we would need 4.1 s.");
+  EXPECT_NE(in_numbers(cycle).find("zone, 40.0 m wanted, somebody we are not told of, there in 3.2 s"),
+            std::string::npos);
+  EXPECT_NE(in_numbers(cycle).find("not told of: 4 vehicles, 0 lanes"), std::string::npos);
+  blocking.verdict.cause = safety::Cause::kLeader;
+  EXPECT_EQ(in_words(cycle), "Waiting: somebody we are not told of may stand ahead.");
+}
+
 // Giving way: who, when he can be there, and how long we would need.
 TEST(PlanWords, WaitingForACrossingCar) {
   campaign::CycleTrace cycle = plan(0.0F, 0.0F);

@@ -184,6 +184,7 @@ TEST_F(CFacade, AnswersInvalidInputWithMinimumRisk) {
   with_map("negative link", [](s4tp_lane_map& m) { m.lanes[0].right = -2; });
   with_map("conflict count", [](s4tp_lane_map& m) { m.conflict_count = S4TP_MAX_CONFLICTS + 1; });
   with_map("negative count", [](s4tp_lane_map& m) { m.conflict_count = -1; });
+  with_map("negative number of lanes left out", [](s4tp_lane_map& m) { m.lanes_left_out = -1; });
   with_map("conflict of nobody", [](s4tp_lane_map& m) { m.conflicts[0].first = S4TP_NO_LANE_INDEX; });
   with_map("priority", [](s4tp_lane_map& m) { m.conflicts[0].priority = 3; });
   with_map("exit before entry", [](s4tp_lane_map& m) { m.conflicts[0].first_exit_m = -100.0F; });
@@ -193,6 +194,9 @@ TEST_F(CFacade, AnswersInvalidInputWithMinimumRisk) {
   expect_invalid("too many vehicles");
   tracks.count = -1;
   expect_invalid("negative number of vehicles");
+  tracks = good_tracks;
+  tracks.left_out = -1;
+  expect_invalid("negative number of vehicles left out");
   tracks = good_tracks;
   tracks.items[0].speed_mps = kNaN;
   expect_invalid("NaN vehicle");
@@ -221,6 +225,24 @@ TEST_F(CFacade, AnswersInvalidInputWithMinimumRisk) {
   input.ego.speed_mps = -1.0F;
   EXPECT_EQ(plan_now(), S4TP_INVALID_INPUT);
   EXPECT_EQ(plan.kind, static_cast<std::uint32_t>(S4TP_PLAN_MINIMUM_RISK));
+}
+
+// API-017: a list of nobody that left 300 out vouches for no ground at all: at 8 m/s no plan is safe, and the
+// explanation says for whom. The same list, nobody left out: we drive. Of 300 the explanation tells 255.
+TEST_F(CFacade, WhomTheListLeftOutIsReckonedWith) {
+  tracks.count = 0;
+  EXPECT_EQ(plan_now(), S4TP_OK);
+  EXPECT_EQ(why.tracks_left_out, 0);
+  EXPECT_EQ(why.unseen, 0);
+  input.now_ms += 100;
+  input.start_ms += 100;
+  tracks.time_ms += 100;
+  tracks.left_out = 300;
+  map.lanes_left_out = 7;
+  EXPECT_EQ(plan_now(), S4TP_NO_SAFE_PLAN);
+  EXPECT_EQ(why.tracks_left_out, 255);
+  EXPECT_EQ(why.lanes_left_out, 7);
+  EXPECT_EQ(why.unseen, 1);
 }
 
 // API-016, CORE-013: 8 m/s at x = -30. A broken vehicle in the list: the stop begins where we are, 0.8 m on

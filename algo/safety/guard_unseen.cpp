@@ -1,0 +1,166 @@
+// Whoever may be beyond the known ground, as the guard sees it before it judges plans.
+#include "algo/core/inline.hpp"
+#include "algo/safety/guard.hpp"
+#include "algo/trajectory/along_path.hpp"
+
+namespace s4tp::safety {
+namespace {
+
+using occupancy::kNeverS;
+using occupancy::kNoWayM;
+using occupancy::LaneReach;
+
+constexpr float kLengthM = 5.0F;  // of whom we expect: a car, as the map node takes it for its zones
+
+bool is_known(const KnownGround& known, Point place) {
+  return distance(place, known.centre) < known.radius_m;
+}
+
+/// Where a line cuts the known ground's edge [m from `from`]; in > out: it does not.
+struct Cut {
+  float in_m = 1.0F;
+  float out_m = 0.0F;
+};
+Cut cut(const KnownGround& known, Point from, Point to) {
+  const float length_m = distance(from, to);
+  if (!(length_m > 0.0F)) return {};
+  const Point along = (1.0F / length_m) * (to - from);
+  const Point offset = from - known.centre;
+  const float middle_m = -dot(offset, along);
+  const float half_square = square(known.radius_m) - square(cross(along, offset));
+  if (!(half_square > 0.0F)) return {};
+  const float half_m = sqrt(half_square);
+  return {middle_m - half_m, middle_m + half_m};
+}
+
+}  // namespace
+
+void Guard::look_beyond(const LaneReach (&reach)[kMaxTracks]) {
+  const KnownGround& known = scene_->known;
+  const LaneMap& map = *scene_->map;
+  for (int path = 0; path < scene_->ego_paths.size(); ++path)
+    expect_ahead(scene_->ego_paths[path], sights_[path]);
+  bool led_into[kMaxLanes] = {};
+  for (LaneIndex index = 0; index < kMaxLanes; ++index) {
+    const Lane& lane = map.lanes[index];
+    if (!usable(lane)) continue;
+    float start_m = 0.0F;
+    for (int i = 1; i < lane.point_count; ++i) {
+      const Point from = lane.points[i - 1];
+      const Point to = lane.points[i];
+      const float length_m = distance(from, to);
+      const Cut edge = cut(known, from, to);
+      // Where it ends known, whatever rounding says, it has come in.
+      const bool comes_in =
+          !is_known(known, from) &&
+          (is_known(known, to) || (edge.in_m > 0.0F && edge.in_m < min(edge.out_m, length_m)));
+      if (comes_in) expect_from(index, start_m + clamp(edge.in_m, 0.0F, length_m), reach);
+      start_m = start_m + length_m;
+    }
+    const bool ends_known = is_known(known, lane.points[lane.point_count - 1]);
+    for (const LaneIndex next : lane.successors) {
+      if (next < 0 || next >= kMaxLanes || !usable(map.lanes[next])) continue;
+      // A gap between two lanes may lie on the edge.
+      const bool gap = !ends_known && is_known(known, map.lanes[next].points[0]);
+      if (gap) expect_from(next, 0.0F, reach);
+      led_into[next] = true;
+    }
+  }
+  if (map.lanes_left_out == 0) return;
+  for (LaneIndex index = 0; index < kMaxLanes; ++index) {
+    const Lane& lane = map.lanes[index];
+    if (led_into[index] || !usable(lane) || !is_known(known, lane.points[0])) continue;
+    // By a lane we do not know, straight from the edge.
+    expect_from(index, distance(lane.points[0], known.centre) - known.radius_m, reach);
+  }
+}
+
+void Guard::expect_from(LaneIndex lane, float s_m, const LaneReach (&reach)[kMaxTracks]) {
+  const float limit_mps = scene_->map->lanes[lane].speed_limit_mps;
+  Agent somebody;
+  somebody.track.speed_mps = limit_mps;
+  somebody.track.length_m = kLengthM;
+  somebody.age_ms = scene_->known.age_ms;
+  somebody.lane = lane;
+  LanePath way;
+  (void)way.lanes.push({lane, 0.0F});
+  (void)somebody.paths.push(way);
+  somebody.frenet[0].s_m = s_m;
+  LaneReach anyhow;
+  LaneReach straight_on;
+  anyhow.measure(*scene_->map, somebody);
+  straight_on.measure(*scene_->map, somebody, false);
+  for (int p = 0; p < scene_->ego_paths.size(); ++p) {
+    const EgoPath& path = scene_->ego_paths[p];
+    Sight& sight = sights_[p];
+    for (int z = 0; z < path.zones.size(); ++z) {
+      const ConflictZone& zone = path.zones[z];
+      Threat threat{static_cast<std::uint8_t>(z), kUnseen, lane,
+                    zone_occupancy(*scene_, somebody, zone.merging ? straight_on : anyhow, zone, lead_s_,
+                                   *parameters_)};
+      if (threat.when.claim != Claim::kMayCome) continue;
+      threat.when.until_s = kNeverS;  // another one may follow
+      if (held_back(sight, z, zone, straight_on, reach, threat.when)) continue;
+      int known = 0;
+      while (known < sight.threats.size() &&
+             !(sight.threats[known].zone == threat.zone && sight.threats[known].agent == kUnseen))
+        ++known;
+      if (known == sight.threats.size()) {
+        if (!sight.threats.push(threat)) sight.too_many = true;
+      } else if (threat.when.from_s < sight.threats[known].when.from_s) {
+        sight.threats[known] = threat;
+      }
+    }
+    // In a lane we change into, behind us: where nobody is between.
+    const float to_start_m = straight_on.to_start_m(path.path.lanes[0].lane);
+    if (!sight.changes || to_start_m >= kNoWayM) continue;
+    const float since_s = lead_s_ + 1e-3F * static_cast<float>(scene_->known.age_ms);
+    const InLane behind{kUnseen, -to_start_m + 0.5F * kLengthM + limit_mps * since_s, limit_mps};
+    if (-to_start_m > path.frenet.s_m + centre_m_) continue;
+    const bool nearer = sight.behind.size() == 1 && sight.behind[0].agent == kUnseen &&
+                        behind.bumper_s_m > sight.behind[0].bumper_s_m;
+    if (nearer) sight.behind[0] = behind;
+    if (sight.behind.empty()) (void)sight.behind.push(behind);
+  }
+}
+
+bool Guard::held_back(const Sight& sight, int zone, const ConflictZone& ground, const LaneReach& straight_on,
+                      const LaneReach (&reach)[kMaxTracks], ZoneOccupancy& when) const {
+  for (int i = 0; i < scene_->agents.size(); ++i) {
+    const LaneIndex lane = scene_->agents[i].lane;
+    if (lane == kNoLaneIndex || straight_on.to_start_m(lane) >= kNoWayM) continue;
+    const float ahead_m = straight_on.to_start_m(lane) - reach[i].to_start_m(lane);
+    const float to_entry_m = reach[i].to_start_m(ground.other_lane) + ground.other_entry_m;
+    if (ahead_m <= 0.0F || to_entry_m <= 0.0F || to_entry_m >= when.to_entry_m) continue;
+    if ((sight.staying_out[zone] >> i & 1U) != 0) return true;
+    for (const Threat& threat : sight.threats) {
+      if (threat.zone == zone && threat.agent == i) when.from_s = max(when.from_s, threat.when.from_s);
+    }
+  }
+  return false;
+}
+
+void Guard::expect_ahead(const EgoPath& path, Sight& sight) const {
+  if (sight.leader != 255) return;
+  const KnownGround& known = scene_->known;
+  const float centre_s_m = path.frenet.s_m + centre_m_;
+  for (const PathLane& part : path.path.lanes) {
+    const Lane& lane = scene_->map->lanes[part.lane];
+    float start_s_m = part.start_s_m;
+    for (int i = 1; i < lane.point_count; ++i) {
+      const Point from = lane.points[i - 1];
+      const Point to = lane.points[i];
+      const float length_m = distance(from, to);
+      if (start_s_m + length_m > centre_s_m && !is_known(known, to)) {
+        const float edge_s_m = start_s_m + clamp(cut(known, from, to).out_m, 0.0F, length_m);
+        sight.leader_stop_s_m = max(edge_s_m, centre_s_m) - 0.5F * kLengthM;
+        sight.leader = kUnseen;
+        sight.leader_mps = 0.0F;
+        return;
+      }
+      start_s_m = start_s_m + length_m;
+    }
+  }
+}
+
+}  // namespace s4tp::safety

@@ -1,0 +1,42 @@
+// What the ECU's reports say of a plan.
+
+#include "firmware/ecu/reports.hpp"
+
+#include <gtest/gtest.h>
+
+#include "firmware/can/frames.hpp"
+#include "firmware/wire/codec.hpp"
+#include "tests/support/fake_bus.hpp"
+
+namespace s4tp::ecu {
+namespace {
+
+wire::PlanReason sent(const Explanation& explanation) {
+  hal::linux_host::FakeBus bus;
+  Reporter reporter;
+  reporter.plan(bus, 1, 2, explanation);
+  wire::PlanReason reason;
+  EXPECT_TRUE(wire::decode(to_wire(bus.sent.back()), reason));
+  return reason;
+}
+
+// ECU-101 Four vehicles and 200 lanes were left out, of which 31 can be said; what holds us up is one of them, then
+// it is vehicle 7, then nobody.
+TEST(Reports, SayWhomThePlanWasNotToldOf) {
+  Explanation explanation;
+  explanation.tracks_left_out = 4;
+  explanation.lanes_left_out = 200;
+  explanation.blocking.verdict.cause = safety::Cause::kZone;
+  explanation.blocking.verdict.agent = safety::kUnseen;
+  EXPECT_EQ(sent(explanation).tracks_left_out, 4);
+  EXPECT_EQ(sent(explanation).lanes_left_out, 31);
+  EXPECT_EQ(sent(explanation).unseen, 1);
+  explanation.blocking.verdict.agent = 3;
+  explanation.blocking.track = 7;
+  EXPECT_EQ(sent(explanation).unseen, 0);
+  EXPECT_EQ(sent(Explanation{}).unseen, 0);
+  EXPECT_EQ(sent(Explanation{}).tracks_left_out, 0);
+}
+
+}  // namespace
+}  // namespace s4tp::ecu
