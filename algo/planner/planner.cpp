@@ -123,7 +123,10 @@ Status PlanningCycle::plan(const PlannerInput& input, Plan& plan, Explanation& e
     start_ = plan_start(input.ego, input.now_ms, running_, start_ms_, parameters_);
     if (status == Status::kOk && scene_.list_refused) status = Status::kStaleTracks;
     if (status == Status::kOk) {
-      guard_.look(scene_, start_, 0.001F * static_cast<float>(start_ms_ - scene_.time_ms), parameters_);
+      {
+        const StageScope scope(probe, Stage::kCheck);
+        guard_.look(scene_, start_, 0.001F * static_cast<float>(start_ms_ - scene_.time_ms), parameters_);
+      }
       predict(explanation);
       rank(input.degraded != 0, explanation);
       status = choose(explanation);
