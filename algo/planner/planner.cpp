@@ -55,6 +55,11 @@ bool others_valid(const PlannerInput& input) {
   return true;
 }
 
+/// What a decode takes beyond work::kDecode. \param steps  of agents' modes, the network's among them
+std::int32_t work_of(const PredictionSet& prediction, int steps) {
+  return work::kDecodeAgent * prediction.agents.size() + work::kDecodeStep * steps;
+}
+
 }  // namespace
 
 Status PlanningCycle::init(const Parameters& parameters) {
@@ -97,6 +102,7 @@ Status PlanningCycle::plan(const PlannerInput& input, Plan& plan, Explanation& e
   conditioned_.set.agents.clear();
   risk_outdated_ = false;
   refining_ = false;
+  work_.begin(allowance.cycle);
 
   const bool running_valid = valid(running_, parameters_);
   if (!running_valid) running_ = Plan{};  // whole: its fail-safe is believed no more than its points
@@ -119,6 +125,7 @@ Status PlanningCycle::plan(const PlannerInput& input, Plan& plan, Explanation& e
       set_lateral_offsets(parameters_, scene_);
       explanation.id_clashes = scene_.id_clashes;
       count(explanation, Stage::kScene, scene_.agents.size());
+      work_.spend(Stage::kScene, work::kScene + work::kSceneAgent * scene_.agents.size());
     }
     start_ = plan_start(input.ego, input.now_ms, running_, start_ms_, parameters_);
     if (status == Status::kOk && scene_.list_refused) status = Status::kStaleTracks;
@@ -209,6 +216,8 @@ void PlanningCycle::predict(Explanation& explanation) {
   arena_.predictor.hypotheses(hypotheses);
   beliefs_.observe(scene_, hypotheses);
   arena_.predictor.decode(nullptr, allowance.prediction, marginal_);
+  marginal_work_ = work_of(marginal_, arena_.predictor.work());
+  work_.spend(Stage::kPredict, work::kEncode + decode_work());
   if (weights_.present()) trust_.remember(scene_, marginal_, start_ms_);
   arena_.predictor.constant_velocity(constant_velocity_);
   count(explanation, Stage::kPredict, arena_.predictor.work());
@@ -226,10 +235,13 @@ Status PlanningCycle::choose(Explanation& explanation) {
   int best = -1;
   int second = -1;
   int held = -1;  // whose trajectory, prediction and risk the buffers hold
+  bool held_safe = false;
   for (int i = decisions_.size() - 1; i >= 0; --i) {  // the likely winner last: it is then held already
     const int index = decisions_[i].candidate;
+    decisions_to_come_ = i + 1;
     held = index;
-    if (!evaluate(index, explanation)) continue;
+    held_safe = evaluate(index, explanation);
+    if (!held_safe) continue;
     ++explanation.decisions;
     if (best < 0 || costs_[index].total() <= costs_[best].total()) {
       second = best;
@@ -240,6 +252,13 @@ Status PlanningCycle::choose(Explanation& explanation) {
     }
   }
   if (best < 0) return Status::kNoSafePlan;
+  decisions_to_come_ = 0;
+  // Whom there is no work left to predict again gives way to the one that is at hand, if that may be driven.
+  if (best != held && held_safe && work_.left() < decode_work()) {
+    second = best;
+    best = held;
+    best_risk_ = explanation.risk;
+  }
   if (best != held && !hold(best, explanation)) return Status::kNoSafePlan;
   explanation.risk = best_risk_;
   refine(candidates_[best], explanation);
@@ -275,6 +294,7 @@ bool PlanningCycle::hold(int index, Explanation& explanation) {
     const int before = arena_.predictor.work();
     arena_.predictor.decode(&chosen_, allowance.prediction, conditioned_.set);
     count(explanation, Stage::kPredict, arena_.predictor.work() - before);
+    work_.spend(Stage::kPredict, work::kDecode + work_of(conditioned_.set, arena_.predictor.work() - before));
   }
   {
     const StageScope scope(probe, Stage::kCheck);
@@ -293,7 +313,13 @@ bool PlanningCycle::can_evaluate_risk(const Explanation& explanation) const {
 
 void PlanningCycle::evaluate_risk(const PredictionSet& prediction, const Trajectory& trajectory,
                                   Explanation& explanation, RiskProfile& profile) {
-  exact_risk(scene_, drivable_, prediction, constant_velocity_, trajectory, parameters_, profile);
+  // The others to come get as much.
+  const int to_come = decisions_to_come_ > 1 ? decisions_to_come_ : 1;
+  const std::int32_t left = work_.left() - (to_come - 1) * decode_work();
+  WorkMeter meter{to_int(static_cast<float>(left / to_come), 0, allowance.exact_risk)};
+  const std::int32_t before = meter.left;
+  exact_risk(scene_, drivable_, prediction, constant_velocity_, trajectory, parameters_, profile, meter);
+  work_.spend(Stage::kExactRisk, before - meter.left);
   count(explanation, Stage::kExactRisk, 1);
 }
 
@@ -314,7 +340,9 @@ const RefinementProblem* PlanningCycle::last_refinement() const {
 }
 
 void PlanningCycle::refine(const Candidate& candidate, Explanation& explanation) {
-  const int passes = to_int(parameters_.refinement.passes, 0, allowance.optimizer_iterations);
+  const std::int32_t affordable_passes = (work_.left() - work::kRefinement) / kPassWork;
+  const int most = affordable_passes < allowance.optimizer_iterations ? affordable_passes : allowance.optimizer_iterations;
+  const int passes = most > 0 ? to_int(parameters_.refinement.passes, 0, most) : 0;
   // In the field the exact risk decides.
   const bool can_decide = can_evaluate_risk(explanation);
   const int evaluations = can_decide && parameters_.scoring.risk > 0.0F ? allowance.field_evaluations : 0;
@@ -326,6 +354,7 @@ void PlanningCycle::refine(const Candidate& candidate, Explanation& explanation)
     result = arena_.optimizer.refine(lines_[candidate.path], candidate.start_s_m, surroundings(), parameters_,
                                      {passes, evaluations}, chosen_, refined_);
     count(explanation, Stage::kOptimize, result.passes);
+    work_.spend(Stage::kOptimize, passes > 0 ? work::kRefinement + kPassWork * passes_spent(result.passes, result.failed_trials) : 0);
   }
   if (!result.improved) return;
   {

@@ -186,10 +186,11 @@ bool shape_longitudinal(const Scene& scene, const Trial& trial, const ReferenceL
 /// Finds a lateral length with which the candidate can be driven, or else steers. \return false: neither
 bool make_feasible(const ReferenceLine& line, const TrajectoryPoint& start, const Plan& running,
                    std::uint32_t start_ms, const Parameters& parameters, Course& course, Candidate& candidate,
-                   Trajectory& trajectory) {
+                   Trajectory& trajectory, int& roll_outs) {
   for (int i = 0; i < course.attempts; ++i) {
     shape_lateral(line, start, course.where, course.lateral_length_m, candidate);
     if (candidate.intent != Intent::kPrevious && overshoots(candidate)) break;  // longer goes further out
+    ++roll_outs;
     roll_out(line, candidate, start, running, start_ms, parameters, trajectory);
     if (feasible(trajectory, parameters)) return true;
     if (candidate.intent == Intent::kPrevious) break;
@@ -197,6 +198,7 @@ bool make_feasible(const ReferenceLine& line, const TrajectoryPoint& start, cons
   }
   if (candidate.intent != Intent::kPrevious) course.attempts = 1;
   candidate.steered = true;
+  ++roll_outs;
   roll_out(line, candidate, start, running, start_ms, parameters, trajectory);
   return feasible(trajectory, parameters);
 }
@@ -246,11 +248,13 @@ void generate_candidates(const Scene& scene, const TrajectoryPoint& start, const
         if (!shape_longitudinal(scene, kTrials[k], line, course, start, running, start_ms, lead_s, aim,
                                 parameters, candidate))
           continue;
-        if (candidates.size() >= most && !candidates.full()) {
+        const bool done = visitor.roll_outs + kStretches >= kMaxRollOuts;
+        if (done || (candidates.size() >= most && !candidates.full())) {
           ++left_out;
           continue;
         }
-        if (!make_feasible(line, start, running, start_ms, parameters, course, candidate, trajectory))
+        if (!make_feasible(line, start, running, start_ms, parameters, course, candidate, trajectory,
+                           visitor.roll_outs))
           continue;
         const Reach reach = reach_of(candidate, trajectory);
         if (candidate.intent != Intent::kPrevious && has_twin(reaches, candidates.size(), reach)) continue;

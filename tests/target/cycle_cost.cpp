@@ -1,6 +1,8 @@
 /// What a planning cycle costs in scenes made to be dear (cost_scene.hpp), in SysTick counts of each stage. Reads
 /// a script, a command a line:
 ///   scene GENOME     measures it: prints the most of its cycles, row by row; a search goes on from it
+///   charges          prints what each cycle was charged, stage by stage, beside what it took
+///   uncapped         without the allowances of work: what they are there for
 ///   search SEED N    measures N scenes more, and prints the dearest of each row
 /// Exit code: 0, or 2 when the script cannot be read.
 
@@ -16,12 +18,23 @@ namespace {
 
 constexpr std::uint32_t kProgress = 200;  // scenes from one report to the next
 
+Planner planner;
+bool charges = false;  // prints them
+
 class Meter final : public Probe {
  public:
   void stage_begin(Stage stage) override { counter_.stage_begin(stage); }
   void stage_end(Stage stage) override { counter_.stage_end(stage); }
   void cycle_done(const Scene& scene, const PredictionSet& prediction, const RiskProfile& risk) override {
     counter_.cycle_done(scene, prediction, risk);
+    if (charges) {
+      Text text;
+      text << "charged";
+      for (int i = 0; i < kStageCount; ++i)
+        text << " " << planner.work().spent(static_cast<Stage>(i)) << "/" << counter_.row(i).last;
+      text << " all " << counter_.row(kStageCount).last << " agents " << std::int32_t{scene.agents.size()} << "\n";
+      print(text.c_str());
+    }
     for (int i = 0; i < StageCounter::kRows; ++i) {
       const std::uint32_t last = counter_.row(i).last;
       if (last > cost.rows[i]) cost.rows[i] = last;
@@ -33,7 +46,6 @@ class Meter final : public Probe {
   StageCounter counter_;
 };
 
-Planner planner;
 test::CostScene scene;  // not on the small stack
 Plan plan;
 Explanation explanation;
@@ -114,6 +126,15 @@ bool obey(const char* line, int size) {
     for (const std::uint32_t row : cost.rows) text << " " << row;
     text << "\n";
     print(text.c_str());
+    return true;
+  }
+  if (starts_with(line, "uncapped")) {
+    constexpr std::int32_t kBoundless = 100'000'000;
+    planner.allowance.cycle = planner.allowance.ranking = planner.allowance.exact_risk = kBoundless;
+    return true;
+  }
+  if (starts_with(line, "charges")) {
+    charges = true;
     return true;
   }
   if (!starts_with(line, "search ")) return size == 0 || line[0] == '#';
