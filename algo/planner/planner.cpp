@@ -133,6 +133,7 @@ Status PlanningCycle::plan(const PlannerInput& input, Plan& plan, Explanation& e
       {
         const StageScope scope(probe, Stage::kCheck);
         guard_.look(scene_, start_, 0.001F * static_cast<float>(start_ms_ - scene_.time_ms), parameters_);
+        work_.spend(Stage::kCheck, work::kGuard + work::kGuardAgent * scene_.agents.size());
       }
       predict(explanation);
       rank(input.degraded != 0, explanation);
@@ -217,7 +218,7 @@ void PlanningCycle::predict(Explanation& explanation) {
   beliefs_.observe(scene_, hypotheses);
   arena_.predictor.decode(nullptr, allowance.prediction, marginal_);
   marginal_work_ = work_of(marginal_, arena_.predictor.work());
-  work_.spend(Stage::kPredict, work::kEncode + decode_work());
+  work_.spend(Stage::kPredict, work::kEncode + work::kEncodeAgent * scene_.agents.size() + decode_work());
   if (weights_.present()) trust_.remember(scene_, marginal_, start_ms_);
   arena_.predictor.constant_velocity(constant_velocity_);
   count(explanation, Stage::kPredict, arena_.predictor.work());

@@ -9,11 +9,11 @@ namespace {
 constexpr float kJoinM = 0.5F;
 
 // Work (WorkMeter's units).
-constexpr std::int32_t kSectionWork = 3;      // of a cross-section
+constexpr std::int32_t kSectionWork = 2;      // of a cross-section
 constexpr std::int32_t kStripsPerUnit = 4;    // lanes that are not here
 constexpr std::int32_t kSegmentsPerUnit = 2;  // segments that are not
 constexpr std::int32_t kHullWork = 8;
-constexpr std::int32_t kCoveredWork = 3;
+constexpr std::int32_t kCoveredWork = 2;
 
 bool apart(const Bounds& a, const Bounds& b, float margin_m) {
   return a.low_x_m > b.high_x_m + margin_m || b.low_x_m > a.high_x_m + margin_m ||

@@ -14,9 +14,9 @@ constexpr int kStations = kHorizonSteps / kSpacing + 1 + kExtension;
 static_assert(kHorizonSteps % kSpacing == 0);
 
 // Work (WorkMeter's units).
-constexpr std::int32_t kPlacingWork = 40;  // stations, and the strips near them
-constexpr std::int32_t kAlongWork = 5;     // for a point of the trajectory
-constexpr std::int32_t kAcrossWork = 10;   // to integrate a cross-section twice
+constexpr std::int32_t kPlacingWork = 25;  // stations, and the strips near them
+constexpr std::int32_t kAlongWork = 3;     // for a point of the trajectory
+constexpr std::int32_t kAcrossWork = 6;    // to integrate a cross-section twice
 constexpr std::int32_t kMostSectionWork = 600;
 
 /// A place on the path with what the road costs across it, for a field as narrow as at its car and as wide as

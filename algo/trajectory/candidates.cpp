@@ -29,6 +29,7 @@ constexpr int kMaxStops = 3;
 
 constexpr float kStretch = 1.7F;  // a lateral motion that is infeasible is tried longer, three times
 constexpr int kStretches = 4;
+constexpr int kSteeredRollOuts = 3;  // a steered one takes as long
 constexpr float kAlikeM = 0.05F;          // two roll-outs nearer than this at half time and end are one
 constexpr float kStopShortOfEndM = 1.0F;  // before the end of a road
 constexpr float kDriveShare = 0.85F;      // of the strongest drive: some is left to follow the plan with
@@ -198,7 +199,7 @@ bool make_feasible(const ReferenceLine& line, const TrajectoryPoint& start, cons
   }
   if (candidate.intent != Intent::kPrevious) course.attempts = 1;
   candidate.steered = true;
-  ++roll_outs;
+  roll_outs += kSteeredRollOuts;
   roll_out(line, candidate, start, running, start_ms, parameters, trajectory);
   return feasible(trajectory, parameters);
 }
@@ -248,7 +249,7 @@ void generate_candidates(const Scene& scene, const TrajectoryPoint& start, const
         if (!shape_longitudinal(scene, kTrials[k], line, course, start, running, start_ms, lead_s, aim,
                                 parameters, candidate))
           continue;
-        const bool done = visitor.roll_outs + kStretches >= kMaxRollOuts;
+        const bool done = visitor.roll_outs + kStretches + kSteeredRollOuts > kMaxRollOuts;
         if (done || (candidates.size() >= most && !candidates.full())) {
           ++left_out;
           continue;
