@@ -228,8 +228,11 @@ std::uint8_t PlanningCycle::track_id(int agent) const {
   return agent >= 0 && agent < scene_.agents.size() ? scene_.agents[agent].track.id : kNobody;
 }
 
-float PlanningCycle::crash_cost(const PredictionSet& prediction) const {
-  return kCrashCost * expected_collisions(scene_, prediction, chosen_, parameters_);
+float PlanningCycle::crash_cost(const PredictionSet& prediction, Stage stage) {
+  WorkMeter meter;
+  const float expected = expected_collisions(scene_, prediction, chosen_, parameters_, meter);
+  work_.spend(stage, -meter.left);
+  return kCrashCost * expected;
 }
 
 Status PlanningCycle::choose(Explanation& explanation) {
@@ -332,7 +335,7 @@ bool PlanningCycle::evaluate(int index, Explanation& explanation) {
   if (allowance.decisions <= 0 || !can_evaluate_risk(explanation)) return true;
   evaluate_risk(conditioned_.set, chosen_, explanation, explanation.risk);
   costs_[index].risk = parameters_.scoring.risk * risk_integral(explanation.risk, parameters_) +
-                       crash_cost(conditioned_.set) + hard_[index];
+                       crash_cost(conditioned_.set, Stage::kExactRisk) + hard_[index];
   return true;
 }
 

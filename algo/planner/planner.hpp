@@ -130,7 +130,7 @@ class PlanningCycle {
   void evaluate_risk(const PredictionSet& prediction, const Trajectory& trajectory, Explanation& explanation,
                      RiskProfile& profile);
   /// Price of the touches that are to be expected.
-  [[nodiscard]] float crash_cost(const PredictionSet& prediction) const;
+  [[nodiscard]] float crash_cost(const PredictionSet& prediction, Stage stage);
   /// Drives the fail-safe of the plan in force.
   void give_up(Status status, Plan& plan);
   void refine(const Candidate& candidate, Explanation& explanation);

@@ -70,7 +70,7 @@ class PlanningCycle::Ranking final : public CandidateVisitor {
     const bool stays = planner_.keeps_plan_ && key == planner_.plan_key_;
     const int places = stays ? kMaxCandidates : planner_.shortlisted();
     if (!decisions.open_to(key, cost.total(), places)) return;
-    cost.risk = planner_.crash_cost(planner_.marginal_) + planner_.hard_[index];
+    cost.risk = planner_.crash_cost(planner_.marginal_, Stage::kRank) + planner_.hard_[index];
     if (!decisions.open_to(key, cost.total(), places)) return;
     if (work_.left <= 0) {
       explanation_.rejections[index] = Rejection::kLeftOut;

@@ -22,7 +22,7 @@ constexpr std::int32_t kSliceWork = 4;        // ... of them
 constexpr std::int32_t kMostSlicesWork = kSlicesWork + kSliceWork * kMaxSlices;
 constexpr std::int32_t kPairWork = 2;         // whether two boxes share ground
 constexpr std::int32_t kSamplesWork = 50;     // our field at the samples of a box
-constexpr std::int32_t kPairSamplesWork = 4;  // whether another box covers them
+constexpr std::int32_t kPairSamplesWork = 5;  // whether another box covers them
 
 float radius(float length_m, float width_m) {
   return 0.5F * (length_m + width_m);
