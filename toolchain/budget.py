@@ -52,6 +52,8 @@ def rows_of_log(arguments):
 def rows_of_scenes(arguments):
     """The most of any scene; with --search of those found, too."""
     script = arguments.scenes.read_text(encoding="utf-8")
+    if arguments.fresh:
+        script = ""
     kept = len(re.findall("^scene", script, re.MULTILINE))
     if arguments.uncapped:
         script = "uncapped\n" + script
@@ -87,7 +89,8 @@ def main():
     source.add_argument("--scenes", type=pathlib.Path)
     parser.add_argument("--uncapped", action="store_true", help="without the allowances of work")
     parser.add_argument("--search", type=int, nargs=2, metavar=("SEED", "EVALUATIONS"))
-    parser.add_argument("--keep", action="store_true")
+    parser.add_argument("--fresh", action="store_true", help="not from the kept scenes on")
+    parser.add_argument("--keep", action="store_true", help="write the dearest scenes of each row to the file")
     parser.add_argument("--build", type=pathlib.Path)
     arguments = parser.parse_args()
     rows, code = rows_of_log(arguments) if arguments.log else rows_of_scenes(arguments)

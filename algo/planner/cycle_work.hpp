@@ -28,6 +28,7 @@ inline constexpr std::int32_t kDecodeStep = 4;      ///< by the kinematic predic
 inline constexpr std::int32_t kCandidates = 2'500;
 inline constexpr std::int32_t kRollOut = 200;
 inline constexpr std::int32_t kScore = 160;
+inline constexpr std::int32_t kTouches = 900;     ///< to count them with one exact risk, at most
 inline constexpr std::int32_t kRefinement = 3'800;  ///< to state the optimizer's problem
 inline constexpr std::int32_t kEnd = 1'000;         ///< the explanation
 inline constexpr std::int32_t kGuard = 500;

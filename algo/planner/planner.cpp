@@ -319,7 +319,7 @@ void PlanningCycle::evaluate_risk(const PredictionSet& prediction, const Traject
                                   Explanation& explanation, RiskProfile& profile) {
   // The others to come get as much.
   const int to_come = decisions_to_come_ > 1 ? decisions_to_come_ : 1;
-  const std::int32_t left = work_.left() - (to_come - 1) * decode_work();
+  const std::int32_t left = work_.left() - (to_come - 1) * decode_work() - to_come * work::kTouches;
   WorkMeter meter{to_int(static_cast<float>(left / to_come), 0, allowance.exact_risk)};
   const std::int32_t before = meter.left;
   exact_risk(scene_, drivable_, prediction, constant_velocity_, trajectory, parameters_, profile, meter);

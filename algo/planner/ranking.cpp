@@ -115,7 +115,7 @@ std::int32_t PlanningCycle::decode_work() const {
 
 int PlanningCycle::affordable() const {
   int count = shortlisted();
-  while (count > 1 && work_.left() < count * (decode_work() + kLeastExactWork)) --count;
+  while (count > 1 && work_.left() < count * (decode_work() + kLeastExactWork + work::kTouches)) --count;
   return count;
 }
 

@@ -20,6 +20,10 @@ constexpr std::int32_t kTheirFieldWork = 8;   // to make another's field
 constexpr std::int32_t kSlicesWork = 14;      // a field over a box by slices, and for each ...
 constexpr std::int32_t kSliceWork = 4;        // ... of them
 constexpr std::int32_t kMostSlicesWork = kSlicesWork + kSliceWork * kMaxSlices;
+/// For a box among so many, by its centre.
+constexpr std::int32_t centre_work(int boxes) {
+  return 1 + boxes / 3;
+}
 constexpr std::int32_t kPairWork = 2;         // whether two boxes share ground
 constexpr std::int32_t kSamplesWork = 50;     // our field at the samples of a box
 constexpr std::int32_t kPairSamplesWork = 5;  // whether another box covers them
@@ -79,11 +83,32 @@ int add_run(const CostBoxes& boxes, const Indices& indices, int from, Point poin
   return i;
 }
 
+/// What part of a box's risk is its own (own_part()), by what is at its centre alone.
+float own_part_at_centre(const CostBoxes& boxes, int index) {
+  const CostBox& one = boxes[index];
+  float others = 0.0F;
+  float mine = 0.0F;
+  for (int i = 0; i < boxes.size();) {
+    const int agent = boxes[i].agent;
+    float cost = 0.0F;
+    for (; i < boxes.size() && boxes[i].agent == agent; ++i) {
+      if (covers(boxes[i], position(one.box.centre))) cost += boxes[i].cost;
+    }
+    if (agent < one.agent) others = max(others, cost);
+    if (agent == one.agent) mine = cost;
+    if (agent >= one.agent) break;
+  }
+  return max(mine - others, 0.0F) / max(mine, 1e-6F);
+}
+
 /// What part of a box's risk is its own: M is the largest of any vehicle's, so that a vehicle pays only for
-/// what it adds to those before it. 4 x 4 sub-samples, weighted by the field; all of it where there is no work left.
+/// what it adds to those before it. 4 x 4 sub-samples, weighted by the field; by its centre where there is no work left.
 float own_part(const Field& field, const CostBoxes& boxes, int index, WorkMeter& work) {
   if (index == 0 || boxes[index].agent == boxes[0].agent) return 1.0F;  // nobody before it
-  if (!work.allows(kSamplesWork + (kPairWork + kPairSamplesWork) * boxes.size())) return 1.0F;
+  if (!work.allows(kSamplesWork + (kPairWork + kPairSamplesWork) * boxes.size())) {
+    work.spend(centre_work(boxes.size()));
+    return own_part_at_centre(boxes, index);
+  }
   work.spend(kPairWork * boxes.size());
   const CostBox& one = boxes[index];
   const float reach_m = radius(one.box.length_m, one.box.width_m);
@@ -224,7 +249,7 @@ StepInputs step_inputs(const Scene& scene, const Futures& futures, const Traject
 }
 
 std::int32_t least_work(int futures) {
-  return kStepWork + (kFutureWork + kTheirFieldWork + 2 * kLinesWork) * futures;
+  return kStepWork + (kFutureWork + kTheirFieldWork + 2 * kLinesWork + centre_work(futures)) * futures;
 }
 
 StepRisk risk_at(const StepInputs& inputs, int step, CostBoxes& boxes, WorkMeter& work) {

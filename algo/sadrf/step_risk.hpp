@@ -37,8 +37,8 @@ struct StepRisk {
 };
 
 /// Both sides at step `step` + 1 of the trajectory.
-/// CORE-074 Where `work` does not allow more, a box is integrated by two lines, and pays in full for ground that
-/// others cover, too: least_work() is then what a step takes at most.
+/// CORE-074 Where `work` does not allow more, a box is integrated by two lines, and what others cover of it
+/// is read at its centre: least_work() is then what a step takes at most.
 /// \param boxes  scratch, too large to be made anew at every step
 [[nodiscard]] StepRisk risk_at(const StepInputs& inputs, int step, CostBoxes& boxes, WorkMeter& work);
 [[nodiscard]] std::int32_t least_work(int futures);

@@ -12,6 +12,10 @@
 namespace s4tp {
 namespace {
 
+// A decode for a plan is taken to cost what the one without plan did; of vehicles that the network is not trusted with it may
+// drive more ways than that.
+constexpr std::int32_t kMoreWays = 4 * work::kDecodeStep * kMaxAgents * kMaxAgentWork;
+
 /// A scene of up to sixteen vehicles that mostly come to one place.
 test::Genome random_genome(unsigned seed) {
   std::mt19937 random(seed);
@@ -49,9 +53,9 @@ TEST(CycleWork, StaysWithinTheAllowance) {
   int beyond = 0;
   EXPECT_TRUE(rc::check([&](unsigned seed) {
     const test::Genome genome = random_genome(seed);
-    RC_ASSERT(dearest_cycle(*planner, genome) <= kCycleWork);
+    RC_ASSERT(dearest_cycle(*planner, genome) <= kCycleWork + kMoreWays);
     RC_ASSERT(planner->work().spent(Stage::kExactRisk) <= kMaxExactRisk * kExactWork);
-    if (dearest_cycle(*boundless, genome) > kCycleWork) ++beyond;
+    if (dearest_cycle(*boundless, genome) > kCycleWork + kMoreWays) ++beyond;
   }));
   EXPECT_GT(beyond, 0);
 }
