@@ -345,7 +345,8 @@ const RefinementProblem* PlanningCycle::last_refinement() const {
 
 void PlanningCycle::refine(const Candidate& candidate, Explanation& explanation) {
   const std::int32_t affordable_passes = (work_.left() - work::kRefinement) / kPassWork;
-  const int most = affordable_passes < allowance.optimizer_iterations ? affordable_passes : allowance.optimizer_iterations;
+  const int most =
+      affordable_passes < allowance.optimizer_iterations ? affordable_passes : allowance.optimizer_iterations;
   const int passes = most > 0 ? to_int(parameters_.refinement.passes, 0, most) : 0;
   // In the field the exact risk decides.
   const bool can_decide = can_evaluate_risk(explanation);
@@ -358,7 +359,9 @@ void PlanningCycle::refine(const Candidate& candidate, Explanation& explanation)
     result = arena_.optimizer.refine(lines_[candidate.path], candidate.start_s_m, surroundings(), parameters_,
                                      {passes, evaluations}, chosen_, refined_);
     count(explanation, Stage::kOptimize, result.passes);
-    work_.spend(Stage::kOptimize, passes > 0 ? work::kRefinement + kPassWork * passes_spent(result.passes, result.failed_trials) : 0);
+    work_.spend(
+        Stage::kOptimize,
+        passes > 0 ? work::kRefinement + kPassWork * passes_spent(result.passes, result.failed_trials) : 0);
   }
   if (!result.improved) return;
   {

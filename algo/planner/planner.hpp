@@ -41,13 +41,13 @@ struct WorkAllowance {
   int candidates =
       kMaxCandidates;  ///< candidates tried; of none there is no plan but the minimum-risk manoeuvre
   int prediction =
-      kMaxPredictionWork;         ///< agent-mode-steps of one prediction; whom it leaves out just keeps going
+      kMaxPredictionWork;  ///< agent-mode-steps of one prediction; whom it leaves out just keeps going
   /// CORE-076 Of the whole cycle, WorkMeter's units: what stages that are not cut have taken, fewer decisions, less
   /// exact risks and fewer passes of the optimizer make up for.
   std::int32_t cycle = kCycleWork;
-  std::int32_t ranking = kRankWork;   ///< of it for the ranking's risks; whom they leave out is not chosen
+  std::int32_t ranking = kRankWork;      ///< of it for the ranking's risks; whom they leave out is not chosen
   std::int32_t exact_risk = kExactWork;  ///< of it for each exact risk
-  int decisions = kMaxDecisions;  ///< conditioned predictions; without one the best ranked is chosen
+  int decisions = kMaxDecisions;         ///< conditioned predictions; without one the best ranked is chosen
   /// CORE-073 Exact risks, first of all one for each decision; beyond, the ranking's risk stands, and what is
   /// told is that of the plan before its last changes.
   int exact_risks = kMaxExactRisk;

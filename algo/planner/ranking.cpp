@@ -81,7 +81,8 @@ class PlanningCycle::Ranking final : public CandidateVisitor {
                                                                  planner_.constant_velocity_, rolled_out,
                                                                  parameters, work_);
     if (decisions.open_to(key, cost.total(), places)) {
-      cost.risk += parameters.scoring.risk * rank_risk_of_road(planner_.drivable_, rolled_out, parameters, work_);
+      cost.risk +=
+          parameters.scoring.risk * rank_risk_of_road(planner_.drivable_, rolled_out, parameters, work_);
       decisions.offer(key, index, cost.total());
     }
     planner_.work_.spend(Stage::kRank, before - work_.left);

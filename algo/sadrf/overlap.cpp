@@ -6,10 +6,10 @@
 namespace s4tp {
 namespace {
 
-constexpr float kDeeperM = 0.3F;     // boxes that touch from the start count once this much deeper
-constexpr float kRoundingM = 0.01F;  // more than what rounding can change in a distance within reach
+constexpr float kDeeperM = 0.3F;       // boxes that touch from the start count once this much deeper
+constexpr float kRoundingM = 0.01F;    // more than what rounding can change in a distance within reach
 constexpr std::int32_t kLookWork = 2;  // WorkMeter's units
-constexpr float kShareKept = 0.5F;   // of a gap that was below the margin from the start
+constexpr float kShareKept = 0.5F;     // of a gap that was below the margin from the start
 
 /// Our boxes along a trajectory, made as they are needed, for looks at many futures.
 class OwnBoxes {
@@ -126,7 +126,8 @@ float expected_collisions(const Scene& scene, const PredictionSet& prediction, c
   for (const AgentPrediction& predicted : prediction.agents) {
     const Track& track = scene.agents[predicted.agent].track;
     for (const Mode& mode : predicted.modes) {
-      if (first_collision(own, mode, track, kHorizonSteps, 0.0F, looks) >= 0) expected = expected + mode.probability;
+      if (first_collision(own, mode, track, kHorizonSteps, 0.0F, looks) >= 0)
+        expected = expected + mode.probability;
     }
   }
   work.spend(kLookWork * looks);

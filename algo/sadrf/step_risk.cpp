@@ -13,12 +13,12 @@ constexpr float kWorthSlope = 20.0F;  // for a second, a hundredth of a metre of
 
 // Work (WorkMeter's units).
 constexpr std::int32_t kUnbounded = 1'000'000'000;  // evaluations of the field are counted (WorkAllowance)
-constexpr std::int32_t kStepWork = 10;        // our field and box
-constexpr std::int32_t kFutureWork = 2;       // to see that it is out of reach on both sides
-constexpr std::int32_t kLinesWork = 10;       // a field over a box by lines
-constexpr std::int32_t kTheirFieldWork = 8;   // to make another's field
-constexpr std::int32_t kSlicesWork = 14;      // a field over a box by slices, and for each ...
-constexpr std::int32_t kSliceWork = 4;        // ... of them
+constexpr std::int32_t kStepWork = 10;              // our field and box
+constexpr std::int32_t kFutureWork = 2;             // to see that it is out of reach on both sides
+constexpr std::int32_t kLinesWork = 10;             // a field over a box by lines
+constexpr std::int32_t kTheirFieldWork = 8;         // to make another's field
+constexpr std::int32_t kSlicesWork = 14;            // a field over a box by slices, and for each ...
+constexpr std::int32_t kSliceWork = 4;              // ... of them
 constexpr std::int32_t kMostSlicesWork = kSlicesWork + kSliceWork * kMaxSlices;
 /// For a box among so many, by its centre.
 constexpr std::int32_t centre_work(int boxes) {
@@ -123,8 +123,7 @@ float own_part(const Field& field, const CostBoxes& boxes, int index, WorkMeter&
     if (i > index) continue;
     const float both_m = reach_m + radius(other.box.length_m, other.box.width_m);
     const Point offset = position(other.box.centre) - position(one.box.centre);
-    if (dot(offset, offset) > square(both_m) ||
-        separation(one.box, one.ahead, other.box, other.ahead) > 0.0F)
+    if (dot(offset, offset) > square(both_m) || separation(one.box, one.ahead, other.box, other.ahead) > 0.0F)
       continue;
     (void)before.push(static_cast<std::uint8_t>(i));
   }

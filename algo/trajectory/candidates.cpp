@@ -29,7 +29,7 @@ constexpr int kMaxStops = 3;
 
 constexpr float kStretch = 1.7F;  // a lateral motion that is infeasible is tried longer, three times
 constexpr int kStretches = 4;
-constexpr int kSteeredRollOuts = 3;  // a steered one takes as long
+constexpr int kSteeredRollOuts = 3;       // a steered one takes as long
 constexpr float kAlikeM = 0.05F;          // two roll-outs nearer than this at half time and end are one
 constexpr float kStopShortOfEndM = 1.0F;  // before the end of a road
 constexpr float kDriveShare = 0.85F;      // of the strongest drive: some is left to follow the plan with

@@ -61,7 +61,8 @@ void cross(LaneMap& map, int first, int second, float from, float to, int rule) 
 void make_road(Genes genes, LaneMap& map) {
   const int ours = 1 + genes.below(5);
   const int opposite = genes.below(4);
-  const int segments = 1 + genes.below(kMaxLanes / (ours + opposite) < 10 ? kMaxLanes / (ours + opposite) : 10);
+  const int segments =
+      1 + genes.below(kMaxLanes / (ours + opposite) < 10 ? kMaxLanes / (ours + opposite) : 10);
   const int points = 2 + genes.below(kMaxLanePoints - 1);
   const float length_m = genes.real(20.0F, 300.0F) / static_cast<float>(segments);
   const float width_m = genes.real(2.5F, 4.0F);
@@ -271,8 +272,8 @@ void CostScene::make(const Genome& genome) {
   for (int i = 0; i < tracks; ++i) {
     Track track;
     track.id = static_cast<std::uint8_t>(i);
-    make_track(Genes(genome.genes + kMapGenes + kEgoGenes + i * kTrackGenes), map_, input_.ego.rear_axle, focus,
-               track);
+    make_track(Genes(genome.genes + kMapGenes + kEgoGenes + i * kTrackGenes), map_, input_.ego.rear_axle,
+               focus, track);
     (void)input_.tracks.push(track);
   }
   input_.now_ms = input_.tracks_ms = kBeginMs;

@@ -32,7 +32,8 @@ class Meter final : public Probe {
       text << "charged";
       for (int i = 0; i < kStageCount; ++i)
         text << " " << planner.work().spent(static_cast<Stage>(i)) << "/" << counter_.row(i).last;
-      text << " all " << counter_.row(kStageCount).last << " agents " << std::int32_t{scene.agents.size()} << "\n";
+      text << " all " << counter_.row(kStageCount).last << " agents " << std::int32_t{scene.agents.size()}
+           << "\n";
       print(text.c_str());
     }
     for (int i = 0; i < StageCounter::kRows; ++i) {

@@ -546,8 +546,8 @@ TEST(Candidates, RollOutsAreCounted) {
     onlooker.roll_outs = i == 0 ? 0 : kMaxRollOuts - 12;
     ReferenceLines lines;
     CandidateList list;
-    generate_candidates(roads.scene, roads.start, Plan{}, kNow, Parameters{}, kMaxCandidates, lines, list, missing[i],
-                        onlooker);
+    generate_candidates(roads.scene, roads.start, Plan{}, kNow, Parameters{}, kMaxCandidates, lines, list,
+                        missing[i], onlooker);
     sizes[i] = list.size();
     EXPECT_LE(onlooker.roll_outs, kMaxRollOuts);
   }

@@ -336,8 +336,8 @@ struct Spent {
 Spent exact_within(const Stage& stage, std::int32_t units) {
   Spent spent{};
   WorkMeter work{units};
-  exact_risk(stage.scene, stage.area, stage.prediction, stage.others, stage.trajectory, stage.parameters, spent.profile,
-             work);
+  exact_risk(stage.scene, stage.area, stage.prediction, stage.others, stage.trajectory, stage.parameters,
+             spent.profile, work);
   spent.units = units - work.left;
   return spent;
 }
