@@ -10,7 +10,7 @@
 namespace s4tp {
 
 /// A cycle; what is charged is mostly more than what is taken, so that it is 15.4 million instructions.
-inline constexpr std::int32_t kCycleWork = 155'000;
+inline constexpr std::int32_t kCycleWork = 155'800;
 inline constexpr std::int32_t kRankWork = 14'000;       ///< of it, at most, for the risks of the ranking
 inline constexpr std::int32_t kExactWork = 12'000;      ///< for one exact risk, and ...
 inline constexpr std::int32_t kLeastExactWork = 7'000;  ///< ... at least; fewer decisions before less
@@ -25,14 +25,14 @@ inline constexpr std::int32_t kEncodeAgent = 500;
 inline constexpr std::int32_t kDecode = 300;         ///< of all vehicles, and ...
 inline constexpr std::int32_t kDecodeAgent = 3'300;  ///< ... of each by the network
 inline constexpr std::int32_t kDecodeStep = 4;       ///< by the kinematic predictor
-inline constexpr std::int32_t kCandidates = 2'500;
+inline constexpr std::int32_t kCandidates = 700;
+inline constexpr std::int32_t kCandidatesAgent = 230;
 inline constexpr std::int32_t kRollOut = 200;
 inline constexpr std::int32_t kScore = 160;
 inline constexpr std::int32_t kTouches = 900;       ///< to count them with one exact risk, at most
 inline constexpr std::int32_t kRefinement = 3'800;  ///< to state the optimizer's problem
 inline constexpr std::int32_t kEnd = 1'000;         ///< the explanation
-inline constexpr std::int32_t kGuard = 500;
-inline constexpr std::int32_t kGuardAgent = 80;
+inline constexpr std::int32_t kGuardAgent = 190;
 }  // namespace work
 
 class CycleWork {

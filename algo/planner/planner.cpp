@@ -133,7 +133,7 @@ Status PlanningCycle::plan(const PlannerInput& input, Plan& plan, Explanation& e
       {
         const StageScope scope(probe, Stage::kCheck);
         guard_.look(scene_, start_, 0.001F * static_cast<float>(start_ms_ - scene_.time_ms), parameters_);
-        work_.spend(Stage::kCheck, work::kGuard + work::kGuardAgent * scene_.agents.size());
+        work_.spend(Stage::kCheck, work::kGuardAgent * scene_.agents.size());
       }
       predict(explanation);
       rank(input.degraded != 0, explanation);
@@ -312,7 +312,8 @@ bool PlanningCycle::hold(int index, Explanation& explanation) {
 }
 
 bool PlanningCycle::can_evaluate_risk(const Explanation& explanation) const {
-  return explanation.work[static_cast<int>(Stage::kExactRisk)] < allowance.exact_risks;
+  return explanation.work[static_cast<int>(Stage::kExactRisk)] < allowance.exact_risks &&
+         work_.left() >= kLeastExactWork;
 }
 
 void PlanningCycle::evaluate_risk(const PredictionSet& prediction, const Trajectory& trajectory,
@@ -320,7 +321,8 @@ void PlanningCycle::evaluate_risk(const PredictionSet& prediction, const Traject
   // The others to come get as much.
   const int to_come = decisions_to_come_ > 1 ? decisions_to_come_ : 1;
   const std::int32_t left = work_.left() - (to_come - 1) * decode_work() - to_come * work::kTouches;
-  WorkMeter meter{to_int(static_cast<float>(left / to_come), 0, allowance.exact_risk)};
+  const std::int32_t share = left / to_come;
+  WorkMeter meter{share < allowance.exact_risk ? share : allowance.exact_risk};
   const std::int32_t before = meter.left;
   exact_risk(scene_, drivable_, prediction, constant_velocity_, trajectory, parameters_, profile, meter);
   work_.spend(Stage::kExactRisk, before - meter.left);

@@ -132,7 +132,8 @@ void PlanningCycle::rank(bool careful, Explanation& explanation) {
     explanation.left_out = static_cast<std::uint8_t>(to_int(static_cast<float>(left_out), 0, 255));
     explanation.candidate_count = static_cast<std::uint8_t>(candidates_.size());
     count(explanation, Stage::kCandidates, candidates_.size());
-    work_.spend(Stage::kCandidates, work::kCandidates + work::kRollOut * ranking.roll_outs);
+    work_.spend(Stage::kCandidates, work::kCandidates + work::kCandidatesAgent * scene_.agents.size() +
+                                        work::kRollOut * ranking.roll_outs);
   }
   const StageScope scope(probe, Stage::kRank);
   decisions_.shortlist(affordable(), keeps_plan_, plan_key_);

@@ -152,10 +152,10 @@ bool obey(const char* line, int size) {
 
 }  // namespace
 
-int run(const char* script, bool) {
+int run(const char* log, bool) {  // the log is the script
   static char chunk[1024];
   static char line[1024];
-  const int handle = script == nullptr ? -1 : open_for_reading(script);
+  const int handle = log == nullptr ? -1 : open_for_reading(log);
   if (handle < 0) {
     print("cannot open the script\n");
     return 2;
