@@ -2,6 +2,10 @@
 """What a recorded drive costs on a board: instructions of each planning stage, counted by QEMU's -icount.
 
     budget.py --target m7|m55 --log LOG [--build FOLDER]
+    budget.py --target m7|m55 --scenes FILE [--uncapped]      kept scenes, the dearest that were found
+    budget.py --target m7|m55 --scenes FILE --search SEED EVALUATIONS [--keep]      looks for dearer ones from there on
+
+A file of scenes has a line each, `scene GENOME`. --keep writes the dearest of each stage back to it.
 
 QEMU knows neither caches nor wait states: these are instructions, and the milliseconds rest on the assumed cycles per
 instruction. They are no execution times and no worst case.
@@ -13,6 +17,7 @@ import pathlib
 import re
 import subprocess
 import sys
+import tempfile
 
 # SysTick counts per instruction at one instruction per 64 ns: 25 MHz and 32 MHz.
 COUNTS_PER_INSTRUCTION = {"m7": 1.6, "m55": 2.048}
@@ -29,20 +34,68 @@ def table(output, counts_per_instruction):
             for name, cycles, mean, most in rows]
 
 
+def run_image(arguments, image, *options):
+    root = pathlib.Path(__file__).parent
+    build = arguments.build or root.parent / "build" / arguments.target
+    return subprocess.run([root / "run_image.sh", "--count", arguments.target, build / "firmware/targets" / image, *options],
+                          stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
+
+
+def rows_of_log(arguments):
+    run = run_image(arguments, "replay", arguments.log, "--stages")
+    rows = table(run.stdout, COUNTS_PER_INSTRUCTION[arguments.target])
+    if run.returncode or not rows:
+        print(run.stdout)
+    return rows, run.returncode
+
+
+def rows_of_scenes(arguments):
+    """The most of any scene; with --search of those found, too."""
+    script = arguments.scenes.read_text(encoding="utf-8")
+    if arguments.fresh:
+        script = ""
+    kept = len(re.findall("^scene", script, re.MULTILINE))
+    if arguments.uncapped:
+        script = "uncapped\n" + script
+    if arguments.search:
+        script += f"search {arguments.search[0]} {arguments.search[1]}\n"
+    with tempfile.NamedTemporaryFile("w", suffix=".txt") as file:
+        file.write(script)
+        file.flush()
+        run = run_image(arguments, "cycle_cost", file.name)
+    per_instruction = COUNTS_PER_INSTRUCTION[arguments.target] * 1e6
+    costs = [[int(count) for count in line.split()] for line in re.findall(r"^cost ([\d ]+)$", run.stdout, re.MULTILINE)]
+    best = {name: (int(count), genome)
+            for name, count, genome in re.findall(r"^best (\w+) (\d+) of \d+ (\w+)$", run.stdout, re.MULTILINE)}
+    if run.returncode or len(costs) != kept or bool(best) != bool(arguments.search):
+        print(run.stdout + run.stderr)
+        return [], 2
+    rows = []
+    for i, name in enumerate(BUDGET):
+        counts = [cost[i] for cost in costs] + ([best[name][0]] if best else [])
+        rows.append((name, len(counts), sum(counts) / len(counts) / per_instruction, max(counts) / per_instruction))
+    if arguments.keep:
+        comments = [line for line in script.splitlines() if line.startswith("#")]
+        genomes = dict.fromkeys(genome for _, genome in best.values())
+        arguments.scenes.write_text("\n".join(comments + [f"scene {genome}" for genome in genomes]) + "\n", encoding="utf-8")
+    return rows, 0
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--target", required=True, choices=sorted(COUNTS_PER_INSTRUCTION))
-    parser.add_argument("--log", required=True)
+    source = parser.add_mutually_exclusive_group(required=True)
+    source.add_argument("--log")
+    source.add_argument("--scenes", type=pathlib.Path)
+    parser.add_argument("--uncapped", action="store_true", help="without the allowances of work")
+    parser.add_argument("--search", type=int, nargs=2, metavar=("SEED", "EVALUATIONS"))
+    parser.add_argument("--fresh", action="store_true", help="not from the kept scenes on")
+    parser.add_argument("--keep", action="store_true", help="write the dearest scenes of each row to the file")
     parser.add_argument("--build", type=pathlib.Path)
     arguments = parser.parse_args()
-    root = pathlib.Path(__file__).parent
-    build = arguments.build or root.parent / "build" / arguments.target
-    run = subprocess.run([root / "run_image.sh", "--count", arguments.target, build / "firmware/targets/replay",
-                          arguments.log, "--stages"], stdin=subprocess.DEVNULL, capture_output=True, text=True,
-                         check=False)
-    rows = table(run.stdout, COUNTS_PER_INSTRUCTION[arguments.target])
+    rows, code = rows_of_log(arguments) if arguments.log else rows_of_scenes(arguments)
     print(f"{arguments.target}: million instructions a planning cycle")
-    print(f"{'stage':12s}{'cycles':>8s}{'mean':>9s}{'max':>9s}{'budget':>9s}")
+    print(f"{'stage':12s}{'cycles' if arguments.log else 'scenes':>8s}{'mean':>9s}{'max':>9s}{'budget':>9s}")
     over = []
     for name, cycles, mean, most in rows:
         print(f"{name:12s}{cycles:8d}{mean:9.3f}{most:9.3f}{BUDGET[name]:9.1f}")
@@ -54,8 +107,7 @@ def main():
               "instruction")
     if over:
         print(f"over budget: {', '.join(over)}")
-    if run.returncode or not rows:
-        print(run.stdout)
+    if code or not rows:
         return 2
     return 1 if over else 0
 

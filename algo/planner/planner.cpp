@@ -55,6 +55,11 @@ bool others_valid(const PlannerInput& input) {
   return true;
 }
 
+/// What a decode takes beyond work::kDecode. \param steps  of agents' modes, the network's among them
+std::int32_t work_of(const PredictionSet& prediction, int steps) {
+  return work::kDecodeAgent * prediction.agents.size() + work::kDecodeStep * steps;
+}
+
 }  // namespace
 
 Status PlanningCycle::init(const Parameters& parameters) {
@@ -97,6 +102,7 @@ Status PlanningCycle::plan(const PlannerInput& input, Plan& plan, Explanation& e
   conditioned_.set.agents.clear();
   risk_outdated_ = false;
   refining_ = false;
+  work_.begin(allowance.cycle);
 
   const bool running_valid = valid(running_, parameters_);
   if (!running_valid) running_ = Plan{};  // whole: its fail-safe is believed no more than its points
@@ -121,11 +127,16 @@ Status PlanningCycle::plan(const PlannerInput& input, Plan& plan, Explanation& e
       explanation.tracks_left_out = scene_.known.left_out;
       explanation.lanes_left_out = input.map != nullptr ? input.map->lanes_left_out : std::uint8_t{0};
       count(explanation, Stage::kScene, scene_.agents.size());
+      work_.spend(Stage::kScene, work::kScene + work::kSceneAgent * scene_.agents.size());
     }
     start_ = plan_start(input.ego, input.now_ms, running_, start_ms_, parameters_);
     if (status == Status::kOk && scene_.list_refused) status = Status::kStaleTracks;
     if (status == Status::kOk) {
-      guard_.look(scene_, start_, 0.001F * static_cast<float>(start_ms_ - scene_.time_ms), parameters_);
+      {
+        const StageScope scope(probe, Stage::kCheck);
+        guard_.look(scene_, start_, 0.001F * static_cast<float>(start_ms_ - scene_.time_ms), parameters_);
+        work_.spend(Stage::kCheck, work::kGuardAgent * scene_.agents.size());
+      }
       predict(explanation);
       rank(input.degraded != 0, explanation);
       status = choose(explanation);
@@ -208,6 +219,8 @@ void PlanningCycle::predict(Explanation& explanation) {
   arena_.predictor.hypotheses(hypotheses);
   beliefs_.observe(scene_, hypotheses);
   arena_.predictor.decode(nullptr, allowance.prediction, marginal_);
+  marginal_work_ = work_of(marginal_, arena_.predictor.work());
+  work_.spend(Stage::kPredict, work::kEncode + work::kEncodeAgent * scene_.agents.size() + decode_work());
   if (weights_.present()) trust_.remember(scene_, marginal_, start_ms_);
   arena_.predictor.constant_velocity(constant_velocity_);
   count(explanation, Stage::kPredict, arena_.predictor.work());
@@ -217,18 +230,24 @@ std::uint8_t PlanningCycle::track_id(int agent) const {
   return agent >= 0 && agent < scene_.agents.size() ? scene_.agents[agent].track.id : kNobody;
 }
 
-float PlanningCycle::crash_cost(const PredictionSet& prediction) const {
-  return kCrashCost * expected_collisions(scene_, prediction, chosen_, parameters_);
+float PlanningCycle::crash_cost(const PredictionSet& prediction, Stage stage) {
+  WorkMeter meter;
+  const float expected = expected_collisions(scene_, prediction, chosen_, parameters_, meter);
+  work_.spend(stage, -meter.left);
+  return kCrashCost * expected;
 }
 
 Status PlanningCycle::choose(Explanation& explanation) {
   int best = -1;
   int second = -1;
   int held = -1;  // whose trajectory, prediction and risk the buffers hold
+  bool held_safe = false;
   for (int i = decisions_.size() - 1; i >= 0; --i) {  // the likely winner last: it is then held already
     const int index = decisions_[i].candidate;
+    decisions_to_come_ = i + 1;
     held = index;
-    if (!evaluate(index, explanation)) continue;
+    held_safe = evaluate(index, explanation);
+    if (!held_safe) continue;
     ++explanation.decisions;
     if (best < 0 || costs_[index].total() <= costs_[best].total()) {
       second = best;
@@ -239,6 +258,13 @@ Status PlanningCycle::choose(Explanation& explanation) {
     }
   }
   if (best < 0) return Status::kNoSafePlan;
+  decisions_to_come_ = 0;
+  // Whom there is no work left to predict again gives way to the one that is at hand, if that may be driven.
+  if (best != held && held_safe && work_.left() < decode_work()) {
+    second = best;
+    best = held;
+    best_risk_ = explanation.risk;
+  }
   if (best != held && !hold(best, explanation)) return Status::kNoSafePlan;
   explanation.risk = best_risk_;
   refine(candidates_[best], explanation);
@@ -274,6 +300,7 @@ bool PlanningCycle::hold(int index, Explanation& explanation) {
     const int before = arena_.predictor.work();
     arena_.predictor.decode(&chosen_, allowance.prediction, conditioned_.set);
     count(explanation, Stage::kPredict, arena_.predictor.work() - before);
+    work_.spend(Stage::kPredict, work::kDecode + work_of(conditioned_.set, arena_.predictor.work() - before));
   }
   {
     const StageScope scope(probe, Stage::kCheck);
@@ -287,12 +314,20 @@ bool PlanningCycle::hold(int index, Explanation& explanation) {
 }
 
 bool PlanningCycle::can_evaluate_risk(const Explanation& explanation) const {
-  return explanation.work[static_cast<int>(Stage::kExactRisk)] < allowance.exact_risks;
+  return explanation.work[static_cast<int>(Stage::kExactRisk)] < allowance.exact_risks &&
+         work_.left() >= kLeastExactWork;
 }
 
 void PlanningCycle::evaluate_risk(const PredictionSet& prediction, const Trajectory& trajectory,
                                   Explanation& explanation, RiskProfile& profile) {
-  exact_risk(scene_, drivable_, prediction, constant_velocity_, trajectory, parameters_, profile);
+  // The others to come get as much.
+  const int to_come = decisions_to_come_ > 1 ? decisions_to_come_ : 1;
+  const std::int32_t left = work_.left() - (to_come - 1) * decode_work() - to_come * work::kTouches;
+  const std::int32_t share = left / to_come;
+  WorkMeter meter{share < allowance.exact_risk ? share : allowance.exact_risk};
+  const std::int32_t before = meter.left;
+  exact_risk(scene_, drivable_, prediction, constant_velocity_, trajectory, parameters_, profile, meter);
+  work_.spend(Stage::kExactRisk, before - meter.left);
   count(explanation, Stage::kExactRisk, 1);
 }
 
@@ -304,7 +339,7 @@ bool PlanningCycle::evaluate(int index, Explanation& explanation) {
   if (allowance.decisions <= 0 || !can_evaluate_risk(explanation)) return true;
   evaluate_risk(conditioned_.set, chosen_, explanation, explanation.risk);
   costs_[index].risk = parameters_.scoring.risk * risk_integral(explanation.risk, parameters_) +
-                       crash_cost(conditioned_.set) + hard_[index];
+                       crash_cost(conditioned_.set, Stage::kExactRisk) + hard_[index];
   return true;
 }
 
@@ -313,7 +348,10 @@ const RefinementProblem* PlanningCycle::last_refinement() const {
 }
 
 void PlanningCycle::refine(const Candidate& candidate, Explanation& explanation) {
-  const int passes = to_int(parameters_.refinement.passes, 0, allowance.optimizer_iterations);
+  const std::int32_t affordable_passes = (work_.left() - work::kRefinement) / kPassWork;
+  const int most =
+      affordable_passes < allowance.optimizer_iterations ? affordable_passes : allowance.optimizer_iterations;
+  const int passes = most > 0 ? to_int(parameters_.refinement.passes, 0, most) : 0;
   // In the field the exact risk decides.
   const bool can_decide = can_evaluate_risk(explanation);
   const int evaluations = can_decide && parameters_.scoring.risk > 0.0F ? allowance.field_evaluations : 0;
@@ -325,6 +363,9 @@ void PlanningCycle::refine(const Candidate& candidate, Explanation& explanation)
     result = arena_.optimizer.refine(lines_[candidate.path], candidate.start_s_m, surroundings(), parameters_,
                                      {passes, evaluations}, chosen_, refined_);
     count(explanation, Stage::kOptimize, result.passes);
+    work_.spend(
+        Stage::kOptimize,
+        passes > 0 ? work::kRefinement + kPassWork * passes_spent(result.passes, result.failed_trials) : 0);
   }
   if (!result.improved) return;
   {

@@ -8,6 +8,7 @@
 #include "algo/core/status.hpp"
 #include "algo/core/trajectory.hpp"
 #include "algo/core/world_state.hpp"
+#include "algo/planner/cycle_work.hpp"
 #include "algo/planner/decision.hpp"
 #include "algo/planner/explanation.hpp"
 #include "algo/planner/probe.hpp"
@@ -40,8 +41,13 @@ struct WorkAllowance {
   int candidates =
       kMaxCandidates;  ///< candidates tried; of none there is no plan but the minimum-risk manoeuvre
   int prediction =
-      kMaxPredictionWork;         ///< agent-mode-steps of one prediction; whom it leaves out just keeps going
-  int decisions = kMaxDecisions;  ///< conditioned predictions; without one the best ranked is chosen
+      kMaxPredictionWork;  ///< agent-mode-steps of one prediction; whom it leaves out just keeps going
+  /// CORE-076 Of the whole cycle, WorkMeter's units: what stages that are not cut have taken, fewer decisions, less
+  /// exact risks and fewer passes of the optimizer make up for.
+  std::int32_t cycle = kCycleWork;
+  std::int32_t ranking = kRankWork;      ///< of it for the ranking's risks; whom they leave out is not chosen
+  std::int32_t exact_risk = kExactWork;  ///< of it for each exact risk
+  int decisions = kMaxDecisions;         ///< conditioned predictions; without one the best ranked is chosen
   /// CORE-073 Exact risks, first of all one for each decision; beyond, the ranking's risk stands, and what is
   /// told is that of the plan before its last changes.
   int exact_risks = kMaxExactRisk;
@@ -80,6 +86,9 @@ class PlanningCycle {
     return {scene_, marginal_, conditioned_.set, constant_velocity_};
   }
 
+  /// What the last cycle was charged.
+  [[nodiscard]] const CycleWork& work() const { return work_; }
+
   WorkAllowance allowance;
   Probe* probe = nullptr;  ///< optional; not owned
 
@@ -112,13 +121,16 @@ class PlanningCycle {
   /// The same, and computes its exact risk.
   [[nodiscard]] bool evaluate(int index, Explanation& explanation);
   [[nodiscard]] int shortlisted() const;  ///< decisions that get a prediction of their own
+  /// So many of them that there is work left for each one's prediction and exact risk.
+  [[nodiscard]] int affordable() const;
+  [[nodiscard]] std::int32_t decode_work() const;  ///< of one of them
   [[nodiscard]] std::uint8_t track_id(int agent) const;
   void explain_risk(Status status, Explanation& explanation);
   [[nodiscard]] bool can_evaluate_risk(const Explanation& explanation) const;
   void evaluate_risk(const PredictionSet& prediction, const Trajectory& trajectory, Explanation& explanation,
                      RiskProfile& profile);
   /// Price of the touches that are to be expected.
-  [[nodiscard]] float crash_cost(const PredictionSet& prediction) const;
+  [[nodiscard]] float crash_cost(const PredictionSet& prediction, Stage stage);
   /// Drives the fail-safe of the plan in force.
   void give_up(Status status, Plan& plan);
   void refine(const Candidate& candidate, Explanation& explanation);
@@ -134,6 +146,8 @@ class PlanningCycle {
   bool ego_seen_ = false;  ///< ... if any
 
   // One cycle's data, in the order it flows.
+  CycleWork work_;
+  std::int32_t marginal_work_ = 0;  ///< of the prediction without plan
   std::uint32_t start_ms_ = 0;
   Plan running_;
   Scene scene_;
@@ -154,6 +168,7 @@ class PlanningCycle {
   DecisionList decisions_;
   bool keeps_plan_ = false;  ///< the running plan is among the candidates, as decision plan_key_
   DecisionKey plan_key_ = 0;
+  int decisions_to_come_ = 0;  ///< exact risks, with this one
   /// Before anything is predicted for a plan, its room serves the network.
   union Conditioned {
     Conditioned() : set() {}

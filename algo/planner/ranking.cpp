@@ -13,7 +13,11 @@ constexpr float kHardStopCost = 60.0F;
 class PlanningCycle::Ranking final : public CandidateVisitor {
  public:
   Ranking(PlanningCycle& planner, bool careful, Explanation& explanation)
-      : CandidateVisitor(planner.chosen_), planner_(planner), careful_(careful), explanation_(explanation) {
+      : CandidateVisitor(planner.chosen_),
+        planner_(planner),
+        careful_(careful),
+        explanation_(explanation),
+        work_{planner.allowance.ranking} {
     const std::int32_t lead_ms = static_cast<std::int32_t>(planner.start_ms_ - planner.scene_.time_ms);
     cost_to_go_.look(planner.scene_, planner.constant_velocity_, 0.001F * static_cast<float>(lead_ms),
                      planner.parameters_);
@@ -27,6 +31,7 @@ class PlanningCycle::Ranking final : public CandidateVisitor {
   void visit(int index) override {
     const InnerStageScope scope(planner_.probe, Stage::kCandidates, Stage::kRank);
     const Candidate& candidate = planner_.candidates_[index];
+    planner_.work_.spend(Stage::kRank, work::kScore);
     const bool previous = candidate.intent == Intent::kPrevious;
     if (previous && index == 0) plan_path_ = candidate.path;
     const bool leaves_lane = planner_.scene_.ego_paths[candidate.path].manoeuvre != Manoeuvre::kKeep;
@@ -65,14 +70,22 @@ class PlanningCycle::Ranking final : public CandidateVisitor {
     const bool stays = planner_.keeps_plan_ && key == planner_.plan_key_;
     const int places = stays ? kMaxCandidates : planner_.shortlisted();
     if (!decisions.open_to(key, cost.total(), places)) return;
-    cost.risk = planner_.crash_cost(planner_.marginal_) + planner_.hard_[index];
+    cost.risk = planner_.crash_cost(planner_.marginal_, Stage::kRank) + planner_.hard_[index];
     if (!decisions.open_to(key, cost.total(), places)) return;
-    cost.risk +=
-        parameters.scoring.risk *
-        rank_risk_of_vehicles(scene, planner_.marginal_, planner_.constant_velocity_, rolled_out, parameters);
-    if (!decisions.open_to(key, cost.total(), places)) return;
-    cost.risk += parameters.scoring.risk * rank_risk_of_road(planner_.drivable_, rolled_out, parameters);
-    decisions.offer(key, index, cost.total());
+    if (work_.left <= 0) {
+      explanation_.rejections[index] = Rejection::kLeftOut;
+      return;
+    }
+    const std::int32_t before = work_.left;
+    cost.risk += parameters.scoring.risk * rank_risk_of_vehicles(scene, planner_.marginal_,
+                                                                 planner_.constant_velocity_, rolled_out,
+                                                                 parameters, work_);
+    if (decisions.open_to(key, cost.total(), places)) {
+      cost.risk +=
+          parameters.scoring.risk * rank_risk_of_road(planner_.drivable_, rolled_out, parameters, work_);
+      decisions.offer(key, index, cost.total());
+    }
+    planner_.work_.spend(Stage::kRank, before - work_.left);
   }
 
   void note_held_up(int path, const safety::Verdict& verdict) {
@@ -87,12 +100,24 @@ class PlanningCycle::Ranking final : public CandidateVisitor {
   PlanningCycle& planner_;
   const bool careful_;
   Explanation& explanation_;
+  WorkMeter work_;  ///< of the risks
   LaneCostToGo cost_to_go_;
   int plan_path_ = 0;  ///< where the running plan leads, as far as it can go on; our own lane's path else
 };
 
 int PlanningCycle::shortlisted() const {
   return allowance.decisions > 1 ? allowance.decisions : 1;
+}
+
+std::int32_t PlanningCycle::decode_work() const {
+  // At most what the one without plan took.
+  return work::kDecode + marginal_work_;
+}
+
+int PlanningCycle::affordable() const {
+  int count = shortlisted();
+  while (count > 1 && work_.left() < count * (decode_work() + kLeastExactWork + work::kTouches)) --count;
+  return count;
 }
 
 void PlanningCycle::rank(bool careful, Explanation& explanation) {
@@ -107,9 +132,11 @@ void PlanningCycle::rank(bool careful, Explanation& explanation) {
     explanation.left_out = static_cast<std::uint8_t>(to_int(static_cast<float>(left_out), 0, 255));
     explanation.candidate_count = static_cast<std::uint8_t>(candidates_.size());
     count(explanation, Stage::kCandidates, candidates_.size());
+    work_.spend(Stage::kCandidates, work::kCandidates + work::kCandidatesAgent * scene_.agents.size() +
+                                        work::kRollOut * ranking.roll_outs);
   }
   const StageScope scope(probe, Stage::kRank);
-  decisions_.shortlist(shortlisted(), keeps_plan_, plan_key_);
+  decisions_.shortlist(affordable(), keeps_plan_, plan_key_);
 }
 
 }  // namespace s4tp

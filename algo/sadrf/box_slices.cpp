@@ -164,6 +164,7 @@ const GaussRule& rule_for(float half_m) {
 /// Where the lines' sum is cut into pieces: at the corners, and where an edge enters or leaves the middle of
 /// the field; from one to the other what is summed is smooth.
 using Breaks = BoundedVector<float, 13>;
+static_assert(kMaxSlices == 4 * (Breaks::kCapacity - 1));
 
 void insert(float s_m, Breaks& breaks) {
   if (!breaks.push(s_m)) return;
@@ -367,9 +368,16 @@ FieldSlopes field_slopes(const FieldParams& params, float speed_mps, float curva
 }
 
 float field_over_slices(const Field& field, const Box& box) {
+  int lines = 0;
+  return field_over_slices(field, box, lines);
+}
+
+float field_over_slices(const Field& field, const Box& box, int& lines) {
   float sum = 0.0F;
+  lines = 0;
   for_slices(field, in_frame(field, box), [&](float weight, const Slice& slice) {
     sum += weight * square(field.look_ahead_m - slice.s_m) * across(field, slice);
+    ++lines;
   });
   return field.steepness * max(sum, 0.0F);
 }

@@ -42,6 +42,11 @@ struct FieldGradient {
 /// 1 %.
 /// \return >= 0; 0 beyond kFieldReach sigma
 [[nodiscard]] float field_over_slices(const Field& field, const Box& box);
+/// The same. \param lines  out: how many it was cut into, at most kMaxSlices
+[[nodiscard]] float field_over_slices(const Field& field, const Box& box, int& lines);
+
+/// A box has at most 12 pieces of four lines each.
+inline constexpr int kMaxSlices = 48;
 
 /// CORE-068 The same, with its gradient: differentiated under the integral, the jump of the field at the car
 /// (s = 0) as a term of the line there.

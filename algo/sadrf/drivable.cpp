@@ -8,6 +8,13 @@ namespace {
 /// Strips of successive segments are drawn over their ends, so that bends leave no wedge open.
 constexpr float kJoinM = 0.5F;
 
+// Work (WorkMeter's units).
+constexpr std::int32_t kSectionWork = 2;      // of a cross-section
+constexpr std::int32_t kStripsPerUnit = 4;    // lanes that are not here
+constexpr std::int32_t kSegmentsPerUnit = 2;  // segments that are not
+constexpr std::int32_t kHullWork = 8;
+constexpr std::int32_t kCoveredWork = 2;
+
 bool apart(const Bounds& a, const Bounds& b, float margin_m) {
   return a.low_x_m > b.high_x_m + margin_m || b.low_x_m > a.high_x_m + margin_m ||
          a.low_y_m > b.high_y_m + margin_m || b.low_y_m > a.high_y_m + margin_m;
@@ -188,7 +195,8 @@ void near_strips(const DrivableArea& area, const Bounds& path, float reach_m, Ne
 }
 
 void cross_section(const DrivableArea& area, const NearStrips& near, const Pose& station, float reach_m,
-                   CrossSection& section) {
+                   CrossSection& section, WorkMeter& work) {
+  work.spend(kSectionWork + (near.size() + 1) / kStripsPerUnit);
   section.ours.clear();
   section.drivable.clear();
   section.opposite = false;
@@ -202,6 +210,7 @@ void cross_section(const DrivableArea& area, const NearStrips& near, const Pose&
   };
   for (const DrivableArea::Junction& junction : area.junctions) {
     if (apart(junction.bounds, here, reach_m) || junction.hull.size() < 3) continue;
+    work.spend(kHullWork);
     const Interval covered = across_hull(junction, at, left, reach_m);
     add(covered, section.ours);
     add(covered, section.drivable);
@@ -210,10 +219,12 @@ void cross_section(const DrivableArea& area, const NearStrips& near, const Pose&
     const DrivableArea::Strip& strip = area.strips[near[k]];
     if (apart(strip.bounds, here, reach_m)) continue;
     const Lane& lane = area.map->lanes[strip.lane];
+    work.spend(1 + lane.point_count / kSegmentsPerUnit);
     for (int i = 0; i + 1 < lane.point_count; ++i) {
       const Interval covered =
           across_segment(lane.points[i], lane.points[i + 1], 0.5F * lane.width_m, at, left, reach_m);
       if (covered.left_m <= covered.right_m) continue;  // as most
+      work.spend(kCoveredWork);
       if (strip.ours) {
         add(covered, section.ours);
       } else {
@@ -231,7 +242,8 @@ Ground ground_at(const DrivableArea& area, Point point) {
   NearStrips near;
   near_strips(area, here, kHereM, near);
   CrossSection section;
-  cross_section(area, near, {point.x_m, point.y_m, 0.0F}, kHereM, section);
+  WorkMeter work;
+  cross_section(area, near, {point.x_m, point.y_m, 0.0F}, kHereM, section, work);
   if (!section.ours.empty()) return Ground::kOurs;
   return section.drivable.empty() ? Ground::kOffRoad : Ground::kOpposite;
 }

@@ -12,6 +12,7 @@
 #include "algo/core/bounded.hpp"
 #include "algo/core/config.hpp"
 #include "algo/core/geometry.hpp"
+#include "algo/core/work_meter.hpp"
 #include "algo/core/world_state.hpp"
 
 namespace s4tp {
@@ -69,8 +70,9 @@ using NearStrips = BoundedVector<std::uint8_t, kMaxLanes>;
 void near_strips(const DrivableArea& area, const Bounds& path, float reach_m, NearStrips& near);
 
 /// The road across `station`, as far as `reach_m` to each side.
+/// \param work  what it takes is charged; it ends in any case
 void cross_section(const DrivableArea& area, const NearStrips& near, const Pose& station, float reach_m,
-                   CrossSection& section);
+                   CrossSection& section, WorkMeter& work);
 
 /// CORE-061 A point is drivable when a strip of ours or opposite or a junction's hull covers it.
 enum class Ground : std::uint8_t { kOurs = 0, kOpposite = 1, kOffRoad = 2 };

@@ -6,9 +6,10 @@
 namespace s4tp {
 namespace {
 
-constexpr float kDeeperM = 0.3F;     // boxes that touch from the start count once this much deeper
-constexpr float kRoundingM = 0.01F;  // more than what rounding can change in a distance within reach
-constexpr float kShareKept = 0.5F;   // of a gap that was below the margin from the start
+constexpr float kDeeperM = 0.3F;       // boxes that touch from the start count once this much deeper
+constexpr float kRoundingM = 0.01F;    // more than what rounding can change in a distance within reach
+constexpr std::int32_t kLookWork = 2;  // WorkMeter's units
+constexpr float kShareKept = 0.5F;     // of a gap that was below the margin from the start
 
 /// Our boxes along a trajectory, made as they are needed, for looks at many futures.
 class OwnBoxes {
@@ -78,7 +79,9 @@ class OwnBoxes {
 };
 static_assert(kTrajectoryPoints <= 32);
 
-int first_collision(OwnBoxes& own, const Mode& mode, const Track& track, int steps, float margin_m) {
+/// \param looks  out: steps that were looked at closely
+int first_collision(OwnBoxes& own, const Mode& mode, const Track& track, int steps, float margin_m,
+                    int& looks) {
   const float reach_m = own.reach_m(track, margin_m);
   const float half_diagonal_m = 0.5F * norm({track.length_m, track.width_m});
   const float closing_m = own.longest_step_m() + 0.01F * static_cast<float>(mode.longest_step_cm);
@@ -96,6 +99,7 @@ int first_collision(OwnBoxes& own, const Mode& mode, const Track& track, int ste
       continue;
     }
     const Box box = {mode.steps[i], track.length_m, track.width_m};
+    ++looks;
     const float gap_m = own.separation_from(box, half_diagonal_m, least_m, i + 1);
     if (gap_m >= least_m) continue;
     if (i > 0) return i;
@@ -110,19 +114,23 @@ int first_collision(OwnBoxes& own, const Mode& mode, const Track& track, int ste
 int first_collision(const Trajectory& trajectory, const Mode& mode, const Track& track, int steps,
                     float margin_m, const Parameters& parameters) {
   OwnBoxes own(trajectory, parameters);
-  return first_collision(own, mode, track, steps, margin_m);
+  int looks = 0;
+  return first_collision(own, mode, track, steps, margin_m, looks);
 }
 
 float expected_collisions(const Scene& scene, const PredictionSet& prediction, const Trajectory& trajectory,
-                          const Parameters& parameters) {
+                          const Parameters& parameters, WorkMeter& work) {
   OwnBoxes own(trajectory, parameters);
   float expected = 0.0F;
+  int looks = 0;
   for (const AgentPrediction& predicted : prediction.agents) {
     const Track& track = scene.agents[predicted.agent].track;
     for (const Mode& mode : predicted.modes) {
-      if (first_collision(own, mode, track, kHorizonSteps, 0.0F) >= 0) expected = expected + mode.probability;
+      if (first_collision(own, mode, track, kHorizonSteps, 0.0F, looks) >= 0)
+        expected = expected + mode.probability;
     }
   }
+  work.spend(kLookWork * looks);
   return expected;
 }
 

@@ -4,6 +4,7 @@
 
 #include "algo/core/parameters.hpp"
 #include "algo/core/trajectory.hpp"
+#include "algo/core/work_meter.hpp"
 #include "algo/satp/prediction.hpp"
 #include "algo/scene/scene.hpp"
 
@@ -16,7 +17,9 @@ namespace s4tp {
                                   int steps, float margin_m, const Parameters& parameters);
 
 /// Expected number of vehicles the trajectory touches within the horizon, over all their futures.
+/// \param work  what it takes is charged; it ends in any case
 [[nodiscard]] float expected_collisions(const Scene& scene, const PredictionSet& prediction,
-                                        const Trajectory& trajectory, const Parameters& parameters);
+                                        const Trajectory& trajectory, const Parameters& parameters,
+                                        WorkMeter& work);
 
 }  // namespace s4tp

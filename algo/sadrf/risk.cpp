@@ -10,11 +10,27 @@ namespace {
 
 constexpr int kRankStride = 3;
 constexpr int kRankMiddle = 1;  // of three steps: their sum is three times it to first order
+constexpr int kRankSteps = kHorizonSteps / kRankStride;
+static_assert(kRankSteps * kRankStride == kHorizonSteps);
 
 float instant(float obstacle, float road, float social, const Parameters& parameters) {
   return obstacle + road + parameters.risk.weight_social * social +
          parameters.scoring.risk_excess * max(obstacle - parameters.risk.threshold, 0.0F);
 }
+
+/// Whose share of any one step is largest; of equal ones the first.
+struct Dominating {
+  float largest = 0.0F;
+  std::uint8_t agent = 255;
+  std::uint8_t step = 0;
+
+  void take(float share, int of_agent, int at_step) {
+    if (share < largest || (share == largest && (agent == 255 || at_step >= step))) return;
+    largest = share;
+    agent = static_cast<std::uint8_t>(of_agent);
+    step = static_cast<std::uint8_t>(at_step);
+  }
+};
 
 }  // namespace
 
@@ -29,24 +45,43 @@ float risk_integral(const RiskProfile& profile, const Parameters& parameters) {
 void exact_risk(const Scene& scene, const DrivableArea& area, const PredictionSet& prediction,
                 const KinematicSet& others, const Trajectory& trajectory, const Parameters& parameters,
                 RiskProfile& profile) {
+  WorkMeter unbounded{1'000'000'000};
+  exact_risk(scene, area, prediction, others, trajectory, parameters, profile, unbounded);
+}
+
+void exact_risk(const Scene& scene, const DrivableArea& area, const PredictionSet& prediction,
+                const KinematicSet& others, const Trajectory& trajectory, const Parameters& parameters,
+                RiskProfile& profile, WorkMeter& work) {
   const Futures futures = all_modes(scene, prediction, others);
-  road_risk(area, trajectory, parameters, 1, 1, profile.road);
-  profile.dominating_agent = 255;
-  profile.dominating_step = 0;
-  float largest = 0.0F;
+  const std::int32_t least = least_work(futures.size());
+  work.reserve = kRankSteps * least;
+  road_risk(area, trajectory, parameters, 1, 1, profile.road, work);
   const StepInputs inputs = step_inputs(scene, futures, trajectory, parameters, Precision::kSlices);
   CostBoxes boxes;
-  for (int i = 0; i < kHorizonSteps; ++i) {
-    const StepRisk risk = risk_at(inputs, i, boxes);
+  Dominating dominating;
+  const auto look = [&](int i) {
+    const StepRisk risk = risk_at(inputs, i, boxes, work);
     profile.obstacle[i] = risk.obstacle;
     profile.social[i] = risk.social;
-    for (int agent = 0; agent < scene.agents.size(); ++agent) {
-      if (risk.share[agent] <= largest) continue;
-      largest = risk.share[agent];
-      profile.dominating_agent = static_cast<std::uint8_t>(agent);
-      profile.dominating_step = static_cast<std::uint8_t>(i);
-    }
+    for (int agent = 0; agent < scene.agents.size(); ++agent) dominating.take(risk.share[agent], agent, i);
+  };
+  for (int i = kRankMiddle; i < kHorizonSteps; i += kRankStride) {
+    look(i);
+    work.reserve -= least;
   }
+  work.reserve = least;
+  for (int i = 0; i < kHorizonSteps; ++i) {
+    if (i % kRankStride == kRankMiddle) continue;
+    if (work.left >= least) {
+      look(i);
+      continue;
+    }
+    const int nearest = i / kRankStride * kRankStride + kRankMiddle;
+    profile.obstacle[i] = profile.obstacle[nearest];
+    profile.social[i] = profile.social[nearest];
+  }
+  profile.dominating_agent = dominating.agent;
+  profile.dominating_step = dominating.step;
 }
 
 void smooth_risk(const Scene& scene, const PredictionSet& prediction, const KinematicSet& others,
@@ -76,24 +111,32 @@ void smooth_risk(const Scene& scene, const PredictionSet& prediction, const Kine
   }
 }
 
+std::int32_t least_rank_work(const Scene& scene) {
+  return kLeastRoadWork + kRankSteps * least_work(scene.agents.size());
+}
+
 float rank_risk_of_vehicles(const Scene& scene, const PredictionSet& prediction, const KinematicSet& others,
-                            const Trajectory& trajectory, const Parameters& parameters) {
+                            const Trajectory& trajectory, const Parameters& parameters, WorkMeter& work) {
   Futures futures = all_modes(scene, prediction, others);
   keep_likeliest(futures);
   const StepInputs inputs = step_inputs(scene, futures, trajectory, parameters, Precision::kLines);
+  const std::int32_t least = least_work(futures.size());
+  work.reserve = kRankSteps * least;
   CostBoxes boxes;
   float sum = 0.0F;
   for (int i = kRankMiddle; i < kHorizonSteps; i += kRankStride) {
-    const StepRisk risk = risk_at(inputs, i, boxes);
+    const StepRisk risk = risk_at(inputs, i, boxes, work);
     sum += instant(risk.obstacle, 0.0F, risk.social, parameters);
+    work.reserve -= least;
   }
   return static_cast<float>(kRankStride) * kStepS * sum;
 }
 
-float rank_risk_of_road(const DrivableArea& area, const Trajectory& trajectory,
-                        const Parameters& parameters) {
+float rank_risk_of_road(const DrivableArea& area, const Trajectory& trajectory, const Parameters& parameters,
+                        WorkMeter& work) {
   float road[kHorizonSteps] = {};
-  road_risk(area, trajectory, parameters, kRankMiddle + 1, kRankStride, road);
+  work.reserve = 0;
+  road_risk(area, trajectory, parameters, kRankMiddle + 1, kRankStride, road, work);
   float sum = 0.0F;
   for (int i = kRankMiddle; i < kHorizonSteps; i += kRankStride) sum += road[i];
   return static_cast<float>(kRankStride) * kStepS * sum;

@@ -13,6 +13,12 @@ constexpr int kExtension = 4;  // stations beyond the last point
 constexpr int kStations = kHorizonSteps / kSpacing + 1 + kExtension;
 static_assert(kHorizonSteps % kSpacing == 0);
 
+// Work (WorkMeter's units).
+constexpr std::int32_t kPlacingWork = 25;  // stations, and the strips near them
+constexpr std::int32_t kAlongWork = 3;     // for a point of the trajectory
+constexpr std::int32_t kAcrossWork = 6;    // to integrate a cross-section twice
+constexpr std::int32_t kMostSectionWork = 600;
+
 /// A place on the path with what the road costs across it, for a field as narrow as at its car and as wide as
 /// at the furthest look-ahead distance.
 struct Station {
@@ -98,7 +104,7 @@ float along(const Station (&stations)[kStations], int point, float look_ahead_m,
 }  // namespace
 
 void road_risk(const DrivableArea& area, const Trajectory& trajectory, const Parameters& parameters,
-               int first, int stride, float (&road)[kHorizonSteps]) {
+               int first, int stride, float (&road)[kHorizonSteps], WorkMeter& work) {
   if (area.map == nullptr) {
     for (float& value : road) value = 0.0F;
     return;
@@ -126,11 +132,19 @@ void road_risk(const DrivableArea& area, const Trajectory& trajectory, const Par
   for (const Station& station : stations) include(bounds, position(station.pose));
   NearStrips near;
   near_strips(area, bounds, reach_m, near);
+  work.spend(kPlacingWork + kAlongWork * (kHorizonSteps / stride));
   CrossSection section;
   int last_charged = -1;  // station: who is past it pays nothing
   for (int j = 0; j < kStations; ++j) {
     Station& station = stations[j];
-    cross_section(area, near, station.pose, reach_m, section);
+    if (!work.allows(kMostSectionWork)) {  // as where it was looked at last
+      station.narrow_cost = j > 0 ? stations[j - 1].narrow_cost : 0.0F;
+      station.wide_cost = j > 0 ? stations[j - 1].wide_cost : 0.0F;
+      if (j > 0 && last_charged == j - 1) last_charged = j;
+      continue;
+    }
+    cross_section(area, near, station.pose, reach_m, section, work);
+    work.spend(kAcrossWork);
     if (section.ours.size() == 1 && section.ours[0].left_m - section.ours[0].right_m >= 2.0F * reach_m)
       continue;
     station.narrow_cost = cost_across(section, narrow_m, parameters);

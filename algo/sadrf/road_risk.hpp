@@ -5,6 +5,7 @@
 
 #include "algo/core/parameters.hpp"
 #include "algo/core/trajectory.hpp"
+#include "algo/core/work_meter.hpp"
 #include "algo/sadrf/drivable.hpp"
 
 namespace s4tp {
@@ -13,6 +14,8 @@ namespace s4tp {
 /// other elements stay as they are. Beyond its last one the path goes on with its last curvature, for the
 /// look-ahead distance there. Without a map: 0. \pre 1 <= first, 1 <= stride
 void road_risk(const DrivableArea& area, const Trajectory& trajectory, const Parameters& parameters,
-               int first, int stride, float (&road)[kHorizonSteps]);
+               int first, int stride, float (&road)[kHorizonSteps], WorkMeter& work);
+/// What it takes in any case.
+inline constexpr std::int32_t kLeastRoadWork = 200;
 
 }  // namespace s4tp

@@ -11,15 +11,37 @@ namespace {
 constexpr float kWorthSlices = 200.0F;
 constexpr float kWorthSlope = 20.0F;  // for a second, a hundredth of a metre of progress
 
+// Work (WorkMeter's units).
+constexpr std::int32_t kUnbounded = 1'000'000'000;  // evaluations of the field are counted (WorkAllowance)
+constexpr std::int32_t kStepWork = 10;              // our field and box
+constexpr std::int32_t kFutureWork = 2;             // to see that it is out of reach on both sides
+constexpr std::int32_t kLinesWork = 10;             // a field over a box by lines
+constexpr std::int32_t kTheirFieldWork = 8;         // to make another's field
+constexpr std::int32_t kSlicesWork = 14;            // a field over a box by slices, and for each ...
+constexpr std::int32_t kSliceWork = 4;              // ... of them
+constexpr std::int32_t kMostSlicesWork = kSlicesWork + kSliceWork * kMaxSlices;
+/// For a box among so many, by its centre.
+constexpr std::int32_t centre_work(int boxes) {
+  return 1 + boxes / 3;
+}
+constexpr std::int32_t kPairWork = 2;         // whether two boxes share ground
+constexpr std::int32_t kSamplesWork = 50;     // our field at the samples of a box
+constexpr std::int32_t kPairSamplesWork = 5;  // whether another box covers them
+
 float radius(float length_m, float width_m) {
   return 0.5F * (length_m + width_m);
 }
 
 /// \param ahead  unit vector of the box's heading
-float risk_of_box(const Field& field, const Box& box, Point ahead, float cost, Precision precision) {
+float risk_of_box(const Field& field, const Box& box, Point ahead, float cost, Precision precision,
+                  WorkMeter& work) {
+  work.spend(kLinesWork);
   const float risk = cost * field_over_box(field, box, ahead);
-  if (precision == Precision::kLines || risk < kWorthSlices) return risk;
-  return cost * field_over_slices(field, box);
+  if (precision == Precision::kLines || risk < kWorthSlices || !work.allows(kMostSlicesWork)) return risk;
+  int lines = 0;
+  const float precise = cost * field_over_slices(field, box, lines);
+  work.spend(kSlicesWork + kSliceWork * lines);
+  return precise;
 }
 
 /// Our driver at step `step` + 1.
@@ -61,9 +83,33 @@ int add_run(const CostBoxes& boxes, const Indices& indices, int from, Point poin
   return i;
 }
 
+/// What part of a box's risk is its own (own_part()), by what is at its centre alone.
+float own_part_at_centre(const CostBoxes& boxes, int index) {
+  const CostBox& one = boxes[index];
+  float others = 0.0F;
+  float mine = 0.0F;
+  for (int i = 0; i < boxes.size();) {
+    const int agent = boxes[i].agent;
+    float cost = 0.0F;
+    for (; i < boxes.size() && boxes[i].agent == agent; ++i) {
+      if (covers(boxes[i], position(one.box.centre))) cost += boxes[i].cost;
+    }
+    if (agent < one.agent) others = max(others, cost);
+    if (agent == one.agent) mine = cost;
+    if (agent >= one.agent) break;
+  }
+  return max(mine - others, 0.0F) / max(mine, 1e-6F);
+}
+
 /// What part of a box's risk is its own: M is the largest of any vehicle's, so that a vehicle pays only for
-/// what it adds to those before it. 4 x 4 sub-samples, weighted by the field.
-float own_part(const Field& field, const CostBoxes& boxes, int index) {
+/// what it adds to those before it. 4 x 4 sub-samples, weighted by the field; by its centre where there is no work left.
+float own_part(const Field& field, const CostBoxes& boxes, int index, WorkMeter& work) {
+  if (index == 0 || boxes[index].agent == boxes[0].agent) return 1.0F;  // nobody before it
+  if (!work.allows(kSamplesWork + (kPairWork + kPairSamplesWork) * boxes.size())) {
+    work.spend(centre_work(boxes.size()));
+    return own_part_at_centre(boxes, index);
+  }
+  work.spend(kPairWork * boxes.size());
   const CostBox& one = boxes[index];
   const float reach_m = radius(one.box.length_m, one.box.width_m);
   Indices before;  // of other vehicles, on some of the same ground
@@ -77,10 +123,12 @@ float own_part(const Field& field, const CostBoxes& boxes, int index) {
     if (i > index) continue;
     const float both_m = reach_m + radius(other.box.length_m, other.box.width_m);
     const Point offset = position(other.box.centre) - position(one.box.centre);
-    if (dot(offset, offset) > square(both_m) || separation(one.box, other.box) > 0.0F) continue;
+    if (dot(offset, offset) > square(both_m) || separation(one.box, one.ahead, other.box, other.ahead) > 0.0F)
+      continue;
     (void)before.push(static_cast<std::uint8_t>(i));
   }
   if (before.empty()) return 1.0F;
+  work.spend(kSamplesWork + kPairSamplesWork * (before.size() + same.size()));
   constexpr int kSamples = 4;
   float own = 0.0F;
   float whole = 0.0F;
@@ -110,7 +158,7 @@ float own_part(const Field& field, const CostBoxes& boxes, int index) {
 /// R_ego of the vehicles: our field over their boxes. Calls each(field, box, part of it that counts, risk).
 template <typename Each>
 void for_boxes_in_our_field(const StepInputs& inputs, const Field& field, int step, CostBoxes& boxes,
-                            const Each& each) {
+                            WorkMeter& work, const Each& each) {
   boxes.clear();
   float risks[CostBoxes::kCapacity];
   for (const Future& future : inputs.futures) {
@@ -121,12 +169,12 @@ void for_boxes_in_our_field(const StepInputs& inputs, const Field& field, int st
     const Point ahead = direction(centre.heading_rad);
     const float cost =
         inputs.parameters.risk.cost_obstacle * future.probability * inputs.modulation[future.agent];
-    const float risk = risk_of_box(field, box, ahead, cost, inputs.precision);
+    const float risk = risk_of_box(field, box, ahead, cost, inputs.precision, work);
     if (risk <= 0.0F) continue;
     risks[boxes.size()] = risk;
     if (!boxes.push({box, ahead, cost, future.agent})) break;
   }
-  for (int i = 0; i < boxes.size(); ++i) each(boxes[i], own_part(field, boxes, i), risks[i]);
+  for (int i = 0; i < boxes.size(); ++i) each(boxes[i], own_part(field, boxes, i, work), risks[i]);
 }
 
 /// True when we are surely behind a driver or further away than he looks: found from where he is and has come
@@ -151,7 +199,8 @@ bool unseen(Point moved, float look_ahead_per_moved, Point towards_us, float mar
 
 /// R_soc: their fields over our box. Calls each(future, their field, how it was made, cost).
 template <typename Each>
-void for_fields_on_us(const StepInputs& inputs, const Driver& driver, int step, const Each& each) {
+void for_fields_on_us(const StepInputs& inputs, const Driver& driver, int step, WorkMeter& work,
+                      const Each& each) {
   const Box& ego = driver.box;
   const float ego_radius_m = radius(ego.length_m, ego.width_m);
   const float look_ahead_per_moved = driver.params.look_ahead_s / kMotionWindowS;
@@ -162,6 +211,7 @@ void for_fields_on_us(const StepInputs& inputs, const Driver& driver, int step, 
     const float margin_m = ego_radius_m + track.length_m + 1.0F;
     const Point moved = moved_at(*future.mode, step);
     if (unseen(moved, look_ahead_per_moved, position(ego.centre) - position(centre), margin_m)) continue;
+    work.spend(kTheirFieldWork);
     const RecentMotion motion = motion_at(*future.mode, step, moved);
     params.base_width_m = 0.25F * track.width_m;
     const Field field = field_of_other(params, centre, motion, track.length_m);
@@ -197,16 +247,22 @@ StepInputs step_inputs(const Scene& scene, const Futures& futures, const Traject
   return inputs;
 }
 
-StepRisk risk_at(const StepInputs& inputs, int step, CostBoxes& boxes) {
+std::int32_t least_work(int futures) {
+  return kStepWork + (kFutureWork + kTheirFieldWork + 2 * kLinesWork + centre_work(futures)) * futures;
+}
+
+StepRisk risk_at(const StepInputs& inputs, int step, CostBoxes& boxes, WorkMeter& work) {
   const Driver driver = driver_at(inputs, step);
+  work.spend(kStepWork + kFutureWork * inputs.futures.size());
   StepRisk risk;
   for (int i = 0; i < inputs.scene.agents.size(); ++i) risk.share[i] = 0.0F;
-  for_boxes_in_our_field(inputs, driver.field, step, boxes, [&](const CostBox& one, float part, float whole) {
+  const auto add_box = [&](const CostBox& one, float part, float whole) {
     risk.obstacle += part * whole;
     risk.share[one.agent] += part * whole;
-  });
-  for_fields_on_us(inputs, driver, step, [&](const Future& future, const Field& field, float cost) {
-    const float value = risk_of_box(field, driver.box, driver.field.ahead, cost, inputs.precision);
+  };
+  for_boxes_in_our_field(inputs, driver.field, step, boxes, work, add_box);
+  for_fields_on_us(inputs, driver, step, work, [&](const Future& future, const Field& field, float cost) {
+    const float value = risk_of_box(field, driver.box, driver.field.ahead, cost, inputs.precision, work);
     risk.social += value;
     risk.share[future.agent] += inputs.parameters.risk.weight_social * value;
   });
@@ -219,7 +275,8 @@ StepSlope slope_at(const StepInputs& inputs, int step, CostBoxes& boxes) {
   const FieldSlopes slopes = field_slopes(driver.params, point.speed_mps, point.curvature_1pm,
                                           driver.steering_rad, inputs.parameters.vehicle.wheelbase_m);
   StepSlope slope;
-  for_boxes_in_our_field(inputs, driver.field, step, boxes, [&](const CostBox& one, float part, float whole) {
+  WorkMeter work{kUnbounded};
+  const auto add_box = [&](const CostBox& one, float part, float whole) {
     if (whole < kWorthSlope) {
       slope.obstacle_risk += part * whole;
       return;
@@ -227,8 +284,9 @@ StepSlope slope_at(const StepInputs& inputs, int step, CostBoxes& boxes) {
     FieldGradient gradient;
     slope.obstacle_risk += part * one.cost * field_over_slices(driver.field, one.box, slopes, gradient);
     add(gradient, part * one.cost, slope.obstacle);
-  });
-  for_fields_on_us(inputs, driver, step, [&](const Future&, const Field& field, float cost) {
+  };
+  for_boxes_in_our_field(inputs, driver.field, step, boxes, work, add_box);
+  for_fields_on_us(inputs, driver, step, work, [&](const Future&, const Field& field, float cost) {
     FieldGradient gradient;
     const float value = cost * field_over_slices(field, driver.box, {}, gradient);
     slope.social_risk += value;

@@ -3,6 +3,7 @@
 
 #include "algo/core/parameters.hpp"
 #include "algo/core/trajectory.hpp"
+#include "algo/core/work_meter.hpp"
 #include "algo/sadrf/box_slices.hpp"
 #include "algo/sadrf/cost_map.hpp"
 #include "algo/sadrf/futures.hpp"
@@ -36,8 +37,11 @@ struct StepRisk {
 };
 
 /// Both sides at step `step` + 1 of the trajectory.
+/// CORE-074 Where `work` does not allow more, a box is integrated by two lines, and what others cover of it
+/// is read at its centre: least_work() is then what a step takes at most.
 /// \param boxes  scratch, too large to be made anew at every step
-[[nodiscard]] StepRisk risk_at(const StepInputs& inputs, int step, CostBoxes& boxes);
+[[nodiscard]] StepRisk risk_at(const StepInputs& inputs, int step, CostBoxes& boxes, WorkMeter& work);
+[[nodiscard]] std::int32_t least_work(int futures);
 
 /// Derivatives of both parts by x, y, heading, speed and road-wheel angle of the trajectory's point; R_soc
 /// knows neither speed nor steering of ours.

@@ -31,6 +31,7 @@ constexpr int kMaxStops = 3;
 
 constexpr float kStretch = 1.7F;  // a lateral motion that is infeasible is tried longer, three times
 constexpr int kStretches = 4;
+constexpr int kSteeredRollOuts = 3;       // a steered one takes as long
 constexpr float kAlikeM = 0.05F;          // two roll-outs nearer than this at half time and end are one
 constexpr float kStopShortOfEndM = 1.0F;  // before the end of a road
 constexpr float kDriveShare = 0.85F;      // of the strongest drive: some is left to follow the plan with
@@ -188,10 +189,11 @@ bool shape_longitudinal(const Scene& scene, const Trial& trial, const ReferenceL
 /// Finds a lateral length with which the candidate can be driven, or else steers. \return false: neither
 bool make_feasible(const ReferenceLine& line, const TrajectoryPoint& start, const Plan& running,
                    std::uint32_t start_ms, const Parameters& parameters, Course& course, Candidate& candidate,
-                   Trajectory& trajectory) {
+                   Trajectory& trajectory, int& roll_outs) {
   for (int i = 0; i < course.attempts; ++i) {
     shape_lateral(line, start, course.where, course.lateral_length_m, candidate);
     if (candidate.intent != Intent::kPrevious && overshoots(candidate)) break;  // longer goes further out
+    ++roll_outs;
     roll_out(line, candidate, start, running, start_ms, parameters, trajectory);
     if (feasible(trajectory, parameters)) return true;
     if (candidate.intent == Intent::kPrevious) break;
@@ -199,6 +201,7 @@ bool make_feasible(const ReferenceLine& line, const TrajectoryPoint& start, cons
   }
   if (candidate.intent != Intent::kPrevious) course.attempts = 1;
   candidate.steered = true;
+  roll_outs += kSteeredRollOuts;
   roll_out(line, candidate, start, running, start_ms, parameters, trajectory);
   return feasible(trajectory, parameters);
 }
@@ -248,11 +251,13 @@ void generate_candidates(const Scene& scene, const TrajectoryPoint& start, const
         if (!shape_longitudinal(scene, kTrials[k], line, course, start, running, start_ms, lead_s, aim,
                                 parameters, candidate))
           continue;
-        if (candidates.size() >= most && !candidates.full()) {
+        const bool done = visitor.roll_outs + kStretches + kSteeredRollOuts > kMaxRollOuts;
+        if (done || (candidates.size() >= most && !candidates.full())) {
           ++left_out;
           continue;
         }
-        if (!make_feasible(line, start, running, start_ms, parameters, course, candidate, trajectory))
+        if (!make_feasible(line, start, running, start_ms, parameters, course, candidate, trajectory,
+                           visitor.roll_outs))
           continue;
         const Reach reach = reach_of(candidate, trajectory);
         if (candidate.intent != Intent::kPrevious && has_twin(reaches, candidates.size(), reach)) continue;

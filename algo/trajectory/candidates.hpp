@@ -75,10 +75,14 @@ class CandidateVisitor {
   /// comes first.
   virtual void visit(int index) = 0;
   Trajectory& rolled_out;
+  int roll_outs = 0;  ///< so far
 
  protected:
   ~CandidateVisitor() = default;
 };
+
+/// CAND-021 Roll-outs of a cycle, a steered one counting as three; what is not tried then is left out.
+inline constexpr int kMaxRollOuts = 60;
 
 /// Feasible candidates from `start`, at most `most` and kMaxCandidates (CAND-009): diversity over (path,
 /// intent) first, then progress; two that move alike count once. The keep path's hard braking and stops are

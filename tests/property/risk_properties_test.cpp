@@ -103,9 +103,10 @@ TEST(RiskProperties, NeverNegative) {
     }
     DrivableArea area;
     build_drivable(&world->map, area);
+    WorkMeter work{1'000'000};
     const float rank = rank_risk_of_vehicles(world->scene, world->prediction, world->others,
-                                             world->trajectory, world->parameters) +
-                       rank_risk_of_road(area, world->trajectory, world->parameters);
+                                             world->trajectory, world->parameters, work) +
+                       rank_risk_of_road(area, world->trajectory, world->parameters, work);
     RC_ASSERT(is_finite(rank) && rank >= 0.0F);
   }));
 }

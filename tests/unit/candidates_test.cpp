@@ -527,5 +527,34 @@ TEST(Candidates, AskewInTheLane) {
   EXPECT_NE(find(list, 0, Intent::kAccelerate, -3.0F), nullptr);
 }
 
+/// Counts nothing itself.
+class Onlooker final : public CandidateVisitor {
+ public:
+  using CandidateVisitor::CandidateVisitor;
+  void visit(int) override {}
+};
+
+// CAND-021: with fewer roll-outs left than the candidates take, those that come last are left out, and told; no more
+// than kMaxRollOuts are made.
+TEST(Candidates, RollOutsAreCounted) {
+  const Roads roads(50.0F, 12.0F);
+  int sizes[2] = {};
+  int missing[2] = {};
+  for (int i = 0; i < 2; ++i) {
+    Trajectory trajectory;
+    Onlooker onlooker(trajectory);
+    onlooker.roll_outs = i == 0 ? 0 : kMaxRollOuts - 12;
+    ReferenceLines lines;
+    CandidateList list;
+    generate_candidates(roads.scene, roads.start, Plan{}, kNow, Parameters{}, kMaxCandidates, lines, list,
+                        missing[i], onlooker);
+    sizes[i] = list.size();
+    EXPECT_LE(onlooker.roll_outs, kMaxRollOuts);
+  }
+  EXPECT_GE(sizes[1], 3);
+  EXPECT_LT(sizes[1], sizes[0]);
+  EXPECT_GT(missing[1], missing[0]);
+}
+
 }  // namespace
 }  // namespace s4tp

@@ -1,0 +1,56 @@
+#pragma once
+/// The work of one cycle, whoever does it: what is spent in the stages that must be done is missing in those that can be
+/// cut (docs/budget.md).
+
+#include <cstdint>
+
+#include "algo/core/work_meter.hpp"
+#include "algo/planner/explanation.hpp"
+
+namespace s4tp {
+
+/// A cycle; what is charged is mostly more than what is taken, so that it is 15.4 million instructions.
+inline constexpr std::int32_t kCycleWork = 155'800;
+inline constexpr std::int32_t kRankWork = 14'000;       ///< of it, at most, for the risks of the ranking
+inline constexpr std::int32_t kExactWork = 12'000;      ///< for one exact risk, and ...
+inline constexpr std::int32_t kLeastExactWork = 7'000;  ///< ... at least; fewer decisions before less
+inline constexpr std::int32_t kPassWork = 1'400;        ///< for a pass of the optimizer
+
+/// What is charged for steps that are not cut.
+namespace work {
+inline constexpr std::int32_t kScene = 1'000;
+inline constexpr std::int32_t kSceneAgent = 350;
+inline constexpr std::int32_t kEncode = 16'000;
+inline constexpr std::int32_t kEncodeAgent = 500;
+inline constexpr std::int32_t kDecode = 300;         ///< of all vehicles, and ...
+inline constexpr std::int32_t kDecodeAgent = 3'300;  ///< ... of each by the network
+inline constexpr std::int32_t kDecodeStep = 4;       ///< by the kinematic predictor
+inline constexpr std::int32_t kCandidates = 700;
+inline constexpr std::int32_t kCandidatesAgent = 230;
+inline constexpr std::int32_t kRollOut = 200;
+inline constexpr std::int32_t kScore = 160;
+inline constexpr std::int32_t kTouches = 900;       ///< to count them with one exact risk, at most
+inline constexpr std::int32_t kRefinement = 3'800;  ///< to state the optimizer's problem
+inline constexpr std::int32_t kEnd = 1'000;         ///< the explanation
+inline constexpr std::int32_t kGuardAgent = 190;
+}  // namespace work
+
+class CycleWork {
+ public:
+  void begin(std::int32_t units) {
+    left_ = units - work::kEnd;
+    for (std::int32_t& spent : spent_) spent = 0;
+  }
+  void spend(Stage stage, std::int32_t units) {
+    left_ -= units;
+    spent_[static_cast<int>(stage)] += units;
+  }
+  [[nodiscard]] std::int32_t left() const { return left_; }
+  [[nodiscard]] std::int32_t spent(Stage stage) const { return spent_[static_cast<int>(stage)]; }
+
+ private:
+  std::int32_t left_ = 0;
+  std::int32_t spent_[kStageCount] = {};
+};
+
+}  // namespace s4tp
