@@ -23,7 +23,7 @@ USES = {
     "BoundedVector": "s4tp::BoundedVector<float, 4>",
     "EventRing": "s4tp::ecu::EventRing<float, 4>",
     "TripleBuffer": "s4tp::ecu::TripleBuffer<float>",
-    "Ecu": "s4tp::ecu::Ecu<s4tp::Planner>",
+    "Ecu": "s4tp::ecu::Ecu<s4tp::planner::Planner>",
     "Rows": "s4tp::satp::Rows<float>",
 }
 EXTRA_INCLUDES = {"Ecu": '#include "algo/planner/planner.hpp"\n'}

@@ -10,7 +10,7 @@ import subprocess
 FUNCTION = re.compile(r"^[0-9a-f]+ <(.+)>:$")
 INSTRUCTION = re.compile(r"^\s*[0-9a-f]+:\t(\S+)(?:\t(.*))?$")
 # Virtual calls of ours: the beginnings of the caller's and of the callee's name.
-KNOWN_CALLS = [("s4tp::generate_candidates(", "s4tp::Planner::Ranking::visit(")]
+KNOWN_CALLS = [("s4tp::trajectory::generate_candidates(", "s4tp::planner::Planner::Ranking::visit(")]
 
 
 def registers(operand):

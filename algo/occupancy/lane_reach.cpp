@@ -22,7 +22,7 @@ float LaneReach::to_start_m(LaneIndex lane) const {
   return kMPerCm * static_cast<float>(to_start_cm_[lane]);
 }
 
-void LaneReach::measure(const LaneMap& map, const Agent& agent, bool changes) {
+void LaneReach::measure(const LaneMap& map, const scene::Agent& agent, bool changes) {
   for (std::int16_t& way_cm : to_start_cm_) way_cm = kNoWayCm;
   LaneIndex front[kMaxLanes];  // lanes whose neighbours are still to be looked at
   int count = 0;
@@ -39,7 +39,8 @@ void LaneReach::measure(const LaneMap& map, const Agent& agent, bool changes) {
     }
   };
   for (int i = 0; i < agent.paths.size(); ++i) {
-    for (const PathLane& part : agent.paths[i].lanes) offer(part.lane, part.start_s_m - agent.frenet[i].s_m);
+    for (const scene::PathLane& part : agent.paths[i].lanes)
+      offer(part.lane, part.start_s_m - agent.frenet[i].s_m);
   }
   if (agent.paths.empty() && map.lanes_left_out > 0) {
     bool led_into[kMaxLanes] = {};

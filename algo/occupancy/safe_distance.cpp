@@ -2,7 +2,7 @@
 
 #include "algo/core/inline.hpp"
 
-namespace s4tp {
+namespace s4tp::occupancy {
 
 float safe_distance_m(float rear_speed_mps, float front_speed_mps, const Parameters& parameters) {
   const auto& rss = parameters.rss;
@@ -13,4 +13,4 @@ float safe_distance_m(float rear_speed_mps, float front_speed_mps, const Paramet
   return max(0.0F, rear_m - square(front_speed_mps) / (2.0F * rss.braking_max_mps2));
 }
 
-}  // namespace s4tp
+}  // namespace s4tp::occupancy

@@ -8,11 +8,11 @@
 
 #include "algo/core/parameters.hpp"
 
-namespace s4tp {
+namespace s4tp::occupancy {
 
 /// RSS-001 Smallest safe longitudinal distance of a follower behind a leader, same direction [m], >= 0.
 /// \pre speeds >= 0
 [[nodiscard]] float safe_distance_m(float rear_speed_mps, float front_speed_mps,
                                     const Parameters& parameters);
 
-}  // namespace s4tp
+}  // namespace s4tp::occupancy

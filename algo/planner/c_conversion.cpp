@@ -7,7 +7,7 @@
 #include "algo/scene/lane_path.hpp"
 #include "algo/trajectory/plan_limits.hpp"
 
-namespace s4tp {
+namespace s4tp::planner {
 namespace {
 
 // The header's numbers are the core's.
@@ -35,9 +35,11 @@ static_assert(same(Priority::kFirstYields, S4TP_FIRST_YIELDS) &&
               same(Priority::kFirstCome, S4TP_FIRST_COME));
 static_assert(same(PlanKind::kNone, S4TP_PLAN_NONE) && same(PlanKind::kDrive, S4TP_PLAN_DRIVE) &&
               same(PlanKind::kMinimumRisk, S4TP_PLAN_MINIMUM_RISK));
-static_assert(same(Intent::kAccelerate, S4TP_INTENT_ACCELERATE) && same(Intent::kStop, S4TP_INTENT_STOP) &&
-              same(Intent::kFollow, S4TP_INTENT_FOLLOW) && same(Intent::kPrevious, S4TP_INTENT_PREVIOUS));
-static_assert(same(Rejection::kLeftOut, S4TP_REJECTION_COUNT - 1));
+static_assert(same(trajectory::Intent::kAccelerate, S4TP_INTENT_ACCELERATE) &&
+              same(trajectory::Intent::kStop, S4TP_INTENT_STOP) &&
+              same(trajectory::Intent::kFollow, S4TP_INTENT_FOLLOW) &&
+              same(trajectory::Intent::kPrevious, S4TP_INTENT_PREVIOUS));
+static_assert(same(trajectory::Rejection::kLeftOut, S4TP_REJECTION_COUNT - 1));
 
 std::uint8_t at_most_255(std::int32_t count) {
   return static_cast<std::uint8_t>(count < 255 ? count : 255);
@@ -75,8 +77,8 @@ bool copy_lane(const s4tp_lane& from, Lane& to) {
   to.goal_distance_m = from.goal_distance_m;
   to.stop_line_m = from.stop_line_m;
   for (int i = 0; i < from.point_count; ++i) to.points[i] = {from.x_m[i], from.y_m[i]};
-  if (!usable(to)) return false;
-  to.length_m = centre_line_length(to);
+  if (!scene::usable(to)) return false;
+  to.length_m = scene::centre_line_length(to);
   return true;
 }
 
@@ -114,7 +116,7 @@ bool copy_conflict(const s4tp_conflict& from, LaneMap& map) {
   return map.conflicts.push(to);
 }
 
-s4tp_choice c_choice(const Candidate& candidate, const CostBreakdown& cost) {
+s4tp_choice c_choice(const trajectory::Candidate& candidate, const CostBreakdown& cost) {
   s4tp_choice to = {};
   to.path = candidate.path;
   to.intent = static_cast<std::uint8_t>(candidate.intent);
@@ -185,7 +187,7 @@ bool copy_plan(const s4tp_plan& from, Plan& to) {
     copy.speed_mps = point.speed_mps;
     copy.acceleration_mps2 = point.acceleration_mps2;
     copy.curvature_1pm = point.curvature_1pm;
-    if (!in_range(copy)) return false;
+    if (!trajectory::in_range(copy)) return false;
   }
   return true;
 }
@@ -213,7 +215,8 @@ void copy_back(const Explanation& from, s4tp_explanation& to) {
   to.left_out = from.left_out;
   to.decisions = from.decisions;
   for (int i = 0; i < from.candidate_count; ++i) {
-    if (from.rejections[i] != Rejection::kNone) ++to.rejected[static_cast<int>(from.rejections[i])];
+    if (from.rejections[i] != trajectory::Rejection::kNone)
+      ++to.rejected[static_cast<int>(from.rejections[i])];
   }
   to.dominating_track = from.dominating_track;
   to.dominating_step = from.dominating_step;
@@ -224,4 +227,4 @@ void copy_back(const Explanation& from, s4tp_explanation& to) {
   for (int i = 0; i < kStageCount; ++i) to.work[i] = from.work[i];
 }
 
-}  // namespace s4tp
+}  // namespace s4tp::planner

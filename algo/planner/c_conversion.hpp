@@ -8,7 +8,7 @@
 #include "algo/core/world_state.hpp"
 #include "algo/planner/explanation.hpp"
 
-namespace s4tp {
+namespace s4tp::planner {
 
 [[nodiscard]] Parameters core_parameters(const s4tp_parameters& from);
 [[nodiscard]] EgoState core_ego(const s4tp_ego& from);
@@ -23,4 +23,4 @@ namespace s4tp {
 void copy_back(const Plan& from, s4tp_plan& to);
 void copy_back(const Explanation& from, s4tp_explanation& to);
 
-}  // namespace s4tp
+}  // namespace s4tp::planner

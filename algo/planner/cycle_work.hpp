@@ -7,7 +7,7 @@
 #include "algo/core/work_meter.hpp"
 #include "algo/planner/explanation.hpp"
 
-namespace s4tp {
+namespace s4tp::planner {
 
 /// A cycle; what is charged is mostly more than what is taken, so that it is 15.4 million instructions.
 inline constexpr std::int32_t kCycleWork = 155'800;
@@ -53,4 +53,4 @@ class CycleWork {
   std::int32_t spent_[kStageCount] = {};
 };
 
-}  // namespace s4tp
+}  // namespace s4tp::planner

@@ -2,7 +2,7 @@
 
 #include "algo/core/inline.hpp"
 
-namespace s4tp {
+namespace s4tp::planner {
 namespace {
 
 constexpr int kZoneBit = 2;  // two bits of path
@@ -11,9 +11,9 @@ static_assert(kVehicleBit + kMaxAgents <= 32, "a decision key is 32 bits");
 
 }  // namespace
 
-DecisionKey decision_key(const Scene& scene, int path_index, const Trajectory& trajectory,
-                         const PredictionSet& marginal) {
-  const EgoPath& path = scene.ego_paths[path_index];
+DecisionKey decision_key(const scene::Scene& scene, int path_index, const Trajectory& trajectory,
+                         const satp::PredictionSet& marginal) {
+  const scene::EgoPath& path = scene.ego_paths[path_index];
   const Pose& end = trajectory.points[kHorizonSteps].rear_axle;
   float reached_m = path.frenet.s_m;
   for (int i = 1; i < kTrajectoryPoints; ++i) {
@@ -26,7 +26,7 @@ DecisionKey decision_key(const Scene& scene, int path_index, const Trajectory& t
   }
   const Point ahead = direction(end.heading_rad);
   for (int i = 0; i < marginal.agents.size(); ++i) {
-    const AgentPrediction& agent = marginal.agents[i];
+    const satp::AgentPrediction& agent = marginal.agents[i];
     if (agent.modes.empty()) continue;
     const Point there = position(agent.modes[0].steps[kHorizonSteps - 1]);
     if (dot(ahead, there - position(end)) < 0.0F) key |= DecisionKey{1} << (kVehicleBit + i);
@@ -71,4 +71,4 @@ void DecisionList::shortlist(int count, bool has_must_keep, DecisionKey must_kee
   decisions_.truncate(count);
 }
 
-}  // namespace s4tp
+}  // namespace s4tp::planner

@@ -9,14 +9,14 @@
 #include "algo/satp/prediction.hpp"
 #include "algo/scene/scene.hpp"
 
-namespace s4tp {
+namespace s4tp::planner {
 
 /// Target path in the low bits, then one bit a conflict zone (we enter it within the horizon), then one bit a
 /// watched vehicle (we end ahead of it).
 using DecisionKey = std::uint32_t;
 
-[[nodiscard]] DecisionKey decision_key(const Scene& scene, int path, const Trajectory& trajectory,
-                                       const PredictionSet& marginal);
+[[nodiscard]] DecisionKey decision_key(const scene::Scene& scene, int path, const Trajectory& trajectory,
+                                       const satp::PredictionSet& marginal);
 
 /// A candidate that stands for its decision.
 struct Decision {
@@ -43,4 +43,4 @@ class DecisionList {
   BoundedVector<Decision, kMaxCandidates> decisions_;
 };
 
-}  // namespace s4tp
+}  // namespace s4tp::planner

@@ -9,7 +9,7 @@
 #include "algo/safety/guard.hpp"
 #include "algo/trajectory/candidates.hpp"
 
-namespace s4tp {
+namespace s4tp::planner {
 
 /// Terms of one candidate's score; the score is the sum, lower is better.
 struct CostBreakdown {
@@ -26,7 +26,7 @@ struct CostBreakdown {
 struct BlockingReason {
   safety::Verdict verdict;   ///< why it was; safe: nothing was refused
   std::uint8_t track = 255;  ///< track id of who is in its way; 255: nobody that has one
-  Manoeuvre manoeuvre = Manoeuvre::kKeep;
+  scene::Manoeuvre manoeuvre = scene::Manoeuvre::kKeep;
   float way_m = 0.0F;  ///< it would have driven within the horizon
   /// CORE-037 Whether in its way is somebody we are not told of, but have to reckon with.
   [[nodiscard]] bool unseen() const { return verdict.agent == safety::kUnseen; }
@@ -50,18 +50,18 @@ struct Explanation {
   Status status = Status::kOk;
   std::uint8_t candidate_count = 0;
   std::uint8_t left_out = 0;
-  Candidate chosen;
-  Candidate runner_up;
-  Manoeuvre manoeuvre = Manoeuvre::kKeep;  ///< of `chosen`
-  Manoeuvre runner_up_manoeuvre = Manoeuvre::kKeep;
+  trajectory::Candidate chosen;
+  trajectory::Candidate runner_up;
+  scene::Manoeuvre manoeuvre = scene::Manoeuvre::kKeep;  ///< of `chosen`
+  scene::Manoeuvre runner_up_manoeuvre = scene::Manoeuvre::kKeep;
   CostBreakdown chosen_cost;
   CostBreakdown runner_up_cost;
-  Rejection rejections[kMaxCandidates] = {};
+  trajectory::Rejection rejections[kMaxCandidates] = {};
   bool learned = false;        ///< the network predicted, not the kinematic model alone
   std::uint8_t decisions = 0;  ///< how many were predicted with our plan
   /// CORE-072 Of the plan as it is given, a minimum-risk manoeuvre's too; zeros where nothing was predicted
   /// (no lane, broken input), and of the plan before its last changes where no allowance was left.
-  RiskProfile risk{};
+  sadrf::RiskProfile risk{};
   std::uint8_t dominating_track = 255;  ///< track id of the vehicle whose risk is largest; 255: nobody
   std::uint8_t dominating_step = 0;
   BlockingReason blocking;           ///< in our lane
@@ -75,4 +75,4 @@ struct Explanation {
   std::uint32_t parameters_crc = 0;
 };
 
-}  // namespace s4tp
+}  // namespace s4tp::planner

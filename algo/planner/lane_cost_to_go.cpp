@@ -5,7 +5,7 @@
 #include "algo/trajectory/along_path.hpp"
 #include "algo/trajectory/bicycle.hpp"
 
-namespace s4tp {
+namespace s4tp::planner {
 namespace {
 
 constexpr float kFarM = 150.0F;  // the map's horizon
@@ -26,37 +26,39 @@ float driving_time_s(float way_m, float speed_mps, float limit_mps, float accele
 }
 
 /// Where our front is at the end of the lane, or of the part of it where lane changes due can be made.
-float lane_end_s_m(const Scene& scene, const EgoPath& path, const Parameters& parameters) {
-  return min(path.route_end_s_m, dead_end_s_m(scene, path)) - rear_axle_to_front_m(parameters);
+float lane_end_s_m(const scene::Scene& scene, const scene::EgoPath& path, const Parameters& parameters) {
+  return min(path.route_end_s_m, trajectory::dead_end_s_m(scene, path)) -
+         trajectory::rear_axle_to_front_m(parameters);
 }
 
 }  // namespace
 
-void LaneCostToGo::look(const Scene& scene, const KinematicSet& constant_velocity, float lead_s,
+void LaneCostToGo::look(const scene::Scene& scene, const satp::KinematicSet& constant_velocity, float lead_s,
                         const Parameters& parameters) {
   lanes_.clear();
   parameters_ = &parameters;
-  centre_m_ = rear_axle_to_centre_m(parameters);
+  centre_m_ = trajectory::rear_axle_to_centre_m(parameters);
   if (scene.ego_paths.empty()) return;
-  const EgoPath& own = scene.ego_paths[0];
+  const scene::EgoPath& own = scene.ego_paths[0];
   const int changes = own.changes_needed < 0 ? -own.changes_needed : own.changes_needed;
   const float spare_m = own.route_end_s_m - own.frenet.s_m - kRoomM * static_cast<float>(changes);
   weight_ = changes == 0 ? 1.0F : clamp(spare_m / kRoomM, 0.0F, 1.0F);
   way_m_ = clamp(scene.ego_paths[0].goal_s_m - scene.ego_paths[0].frenet.s_m, 0.0F, kFarM);
   const int count = constant_velocity.agents.size() < scene.agents.size() ? constant_velocity.agents.size()
                                                                           : scene.agents.size();
-  for (const EgoPath& path : scene.ego_paths) {
-    const PathPoint here = path_point(*scene.map, path.path, path.frenet.s_m);
+  for (const scene::EgoPath& path : scene.ego_paths) {
+    const scene::PathPoint here = scene::path_point(*scene.map, path.path, path.frenet.s_m);
     Lane lane;
     lane.target_s_m = path.frenet.s_m + way_m_;
     lane.limit_mps = max(here.speed_limit_mps, kCrawlMps);
-    lane.room_s_m = lane_end_s_m(scene, path, parameters) - change_room_m(scene, path);
+    lane.room_s_m = lane_end_s_m(scene, path, parameters) - trajectory::change_room_m(scene, path);
     const float half_lane_m = 0.5F * here.width_m;
     const float to_route_m = static_cast<float>(path.changes_needed) * here.width_m;
     for (int i = 0; i < count; ++i) {
       const Track& track = scene.agents[i].track;
       const Pose& then = constant_velocity.agents[i].steps[kHorizonSteps - 1];
-      const Frenet frenet = project(*scene.map, path.path, position(then), path.frenet.s_m, -1.0F);
+      const scene::Frenet frenet =
+          scene::project(*scene.map, path.path, position(then), path.frenet.s_m, -1.0F);
       const float along = cos(wrap_angle(then.heading_rad - frenet.heading_rad));
       if (along < 0.7F) continue;  // crossing and oncoming traffic is no matter of lanes
       const bool in_lane = abs(frenet.d_m) <= half_lane_m;
@@ -72,15 +74,15 @@ void LaneCostToGo::look(const Scene& scene, const KinematicSet& constant_velocit
   find_gaps(scene, lead_s);
 }
 
-void LaneCostToGo::find_gaps(const Scene& scene, float lead_s) {
-  const EgoPath& own = scene.ego_paths[0];
+void LaneCostToGo::find_gaps(const scene::Scene& scene, float lead_s) {
+  const scene::EgoPath& own = scene.ego_paths[0];
   our_s_m_ = own.frenet.s_m + lead_s * scene.ego.speed_mps;
   GapSeeker us;
   us.speed_mps = scene.ego.speed_mps;
   us.limit_mps = lanes_[0].limit_mps;
   for (const LaneVehicle& other : lanes_[0].seen) {
-    const float touch_s_m =
-        other.s_m - other.speed_mps * kHorizonS - 0.5F * other.length_m - rear_axle_to_front_m(*parameters_);
+    const float touch_s_m = other.s_m - other.speed_mps * kHorizonS - 0.5F * other.length_m -
+                            trajectory::rear_axle_to_front_m(*parameters_);
     if (!other.in_lane || touch_s_m < our_s_m_) continue;
     if (us.has_leader && touch_s_m > us.leader_s_m) continue;
     us.has_leader = true;
@@ -144,7 +146,7 @@ float LaneCostToGo::delay_s(int path, float s_m, float speed_mps) const {
     const float ahead_m = back_s_m + centre_m_ + per_braking * square(max(0.0F, back_mps - other.speed_mps)) -
                           (other.s_m + other.speed_mps * back_s);
     const float needed_m = 0.5F * (parameters_->vehicle.length_m + other.length_m) +
-                           change_gap_to_follower_m(other.speed_mps, other.speed_mps, *parameters_);
+                           safety::change_gap_to_follower_m(other.speed_mps, other.speed_mps, *parameters_);
     if (ahead_m >= needed_m && !(behind && other.tight)) break;  // there is room in front of him
     behind = true;
     longest_s = max(longest_s, behind_s(other, lane.target_s_m));
@@ -158,9 +160,9 @@ float LaneCostToGo::time_to_gap_s(int path, float s_m, float speed_mps) const {
   return time_to_meet_s(lane.gap, 0.0F, s_m, speed_mps, lane.limit_mps, *parameters_);
 }
 
-MergeTarget LaneCostToGo::merge_target(const Scene& scene, int path) const {
+trajectory::MergeTarget LaneCostToGo::merge_target(const scene::Scene& scene, int path) const {
   const LaneGap& gap = lanes_[path].gap;
-  MergeTarget aim;
+  trajectory::MergeTarget aim;
   if (!gap.found) return aim;
   const float shift_m = scene.ego_paths[path].frenet.s_m - scene.ego_paths[0].frenet.s_m;
   const float back_m = gap.speed_mps * kHorizonS + shift_m;
@@ -174,4 +176,4 @@ MergeTarget LaneCostToGo::merge_target(const Scene& scene, int path) const {
   return aim;
 }
 
-}  // namespace s4tp
+}  // namespace s4tp::planner

@@ -10,13 +10,13 @@
 #include "algo/scene/scene.hpp"
 #include "algo/trajectory/candidates.hpp"
 
-namespace s4tp {
+namespace s4tp::planner {
 
 class LaneCostToGo {
  public:
   /// Looks at every path of the scene, once a cycle. \param constant_velocity  where the others are meanwhile, from
   /// plan start, `lead_s` after the scene's time
-  void look(const Scene& scene, const KinematicSet& constant_velocity, float lead_s,
+  void look(const scene::Scene& scene, const satp::KinematicSet& constant_velocity, float lead_s,
             const Parameters& parameters);
 
   /// Time lost [s] against driving at the limit, until the goal or 150 m from here, by whoever is at `s_m`
@@ -30,7 +30,7 @@ class LaneCostToGo {
   [[nodiscard]] float time_to_gap_s(int path, float s_m, float speed_mps) const;
 
   /// Where to be for the gap of `path` that we can meet, along the keep path at plan start.
-  [[nodiscard]] MergeTarget merge_target(const Scene& scene, int path) const;
+  [[nodiscard]] trajectory::MergeTarget merge_target(const scene::Scene& scene, int path) const;
 
  private:
   struct Lane {
@@ -46,9 +46,9 @@ class LaneCostToGo {
   [[nodiscard]] float behind_s(const LaneVehicle& other, float to_s_m) const;
   /// When we are at `to_s_m`, from `s_m`, alone or behind somebody in the lane. \param speed_mps  ours; then
   float arrival_s(const Lane& lane, float to_s_m, float s_m, float& speed_mps) const;
-  void find_gaps(const Scene& scene, float lead_s);
+  void find_gaps(const scene::Scene& scene, float lead_s);
 
-  BoundedVector<Lane, decltype(Scene::ego_paths)::kCapacity> lanes_;
+  BoundedVector<Lane, decltype(scene::Scene::ego_paths)::kCapacity> lanes_;
   const Parameters* parameters_ = nullptr;
   float way_m_ = 0.0F;
   float weight_ = 1.0F;    ///< of time: 1 while there is ample room for the lane changes left to do
@@ -56,4 +56,4 @@ class LaneCostToGo {
   float our_s_m_ = 0.0F;   ///< along the keep path, at plan start
 };
 
-}  // namespace s4tp
+}  // namespace s4tp::planner

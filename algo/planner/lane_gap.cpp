@@ -4,7 +4,7 @@
 #include "algo/safety/change_gaps.hpp"
 #include "algo/trajectory/bicycle.hpp"
 
-namespace s4tp {
+namespace s4tp::planner {
 namespace {
 
 constexpr float kHorizonS = static_cast<float>(kHorizonSteps) * kStepS;
@@ -36,11 +36,13 @@ LaneGap gap_between(const LaneVehicle* front, const LaneVehicle* rear, float lim
   gap.bounded_behind = rear != nullptr;
   if (front != nullptr) {
     const float distance_m =
-        max(kInsetM, change_gap_to_leader_m(gap.speed_mps, front->speed_mps, parameters) + kInsetM);
-    gap.front_s_m = front->s_m - 0.5F * front->length_m - distance_m - rear_axle_to_front_m(parameters);
+        max(kInsetM, safety::change_gap_to_leader_m(gap.speed_mps, front->speed_mps, parameters) + kInsetM);
+    gap.front_s_m =
+        front->s_m - 0.5F * front->length_m - distance_m - trajectory::rear_axle_to_front_m(parameters);
   }
   if (rear != nullptr) {
-    const float distance_m = change_gap_to_follower_m(gap.speed_mps, rear->speed_mps, parameters) + kInsetM;
+    const float distance_m =
+        safety::change_gap_to_follower_m(gap.speed_mps, rear->speed_mps, parameters) + kInsetM;
     gap.rear_s_m = rear->s_m + 0.5F * rear->length_m + distance_m + parameters.vehicle.rear_overhang_m;
   }
   gap.found = front == nullptr || rear == nullptr || gap.front_s_m >= gap.rear_s_m;
@@ -120,4 +122,4 @@ LaneGap find_lane_gap(const LaneVehicles& vehicles, const GapSeeker& us, const P
   return {};
 }
 
-}  // namespace s4tp
+}  // namespace s4tp::planner

@@ -6,7 +6,7 @@
 #include "algo/core/config.hpp"
 #include "algo/core/parameters.hpp"
 
-namespace s4tp {
+namespace s4tp::planner {
 
 /// A vehicle at the horizon's end, along a path; it keeps its speed before and after.
 struct LaneVehicle {
@@ -56,4 +56,4 @@ void put_in_order(LaneVehicles& vehicles, const Parameters& parameters);
 [[nodiscard]] LaneGap find_lane_gap(const LaneVehicles& vehicles, const GapSeeker& us,
                                     const Parameters& parameters);
 
-}  // namespace s4tp
+}  // namespace s4tp::planner

@@ -13,7 +13,7 @@
 #include "algo/trajectory/lateral_offset.hpp"
 #include "algo/trajectory/plan_limits.hpp"
 
-namespace s4tp {
+namespace s4tp::planner {
 namespace {
 
 constexpr std::uint32_t kMaxLeadMs = 200;  // plan start after the snapshot
@@ -43,7 +43,7 @@ bool valid(const Track& track) {
 
 bool valid(const Plan& plan, const Parameters& parameters) {
   if (plan.kind == PlanKind::kNone) return true;
-  return plan.kind <= PlanKind::kMinimumRisk && keeps_limits(plan.trajectory, parameters) &&
+  return plan.kind <= PlanKind::kMinimumRisk && trajectory::keeps_limits(plan.trajectory, parameters) &&
          within(plan.fail_safe.branch_s, 0.0F, 3.0F) && within(plan.fail_safe.braking_mps2, 0.0F, 13.0F);
 }
 
@@ -56,7 +56,7 @@ bool others_valid(const PlannerInput& input) {
 }
 
 /// What a decode takes beyond work::kDecode. \param steps  of agents' modes, the network's among them
-std::int32_t work_of(const PredictionSet& prediction, int steps) {
+std::int32_t work_of(const satp::PredictionSet& prediction, int steps) {
   return work::kDecodeAgent * prediction.agents.size() + work::kDecodeStep * steps;
 }
 
@@ -121,15 +121,15 @@ Status PlanningCycle::plan(const PlannerInput& input, Plan& plan, Explanation& e
       status = scene_builder_.build(input.now_ms, input.ego, input.tracks, input.tracks_ms, input.map,
                                     parameters_, scene_);
       believe(scene_);
-      build_drivable(input.map, drivable_);
-      set_lateral_offsets(parameters_, scene_);
+      sadrf::build_drivable(input.map, drivable_);
+      trajectory::set_lateral_offsets(parameters_, scene_);
       explanation.id_clashes = scene_.id_clashes;
       explanation.tracks_left_out = scene_.known.left_out;
       explanation.lanes_left_out = input.map != nullptr ? input.map->lanes_left_out : std::uint8_t{0};
       count(explanation, Stage::kScene, scene_.agents.size());
       work_.spend(Stage::kScene, work::kScene + work::kSceneAgent * scene_.agents.size());
     }
-    start_ = plan_start(input.ego, input.now_ms, running_, start_ms_, parameters_);
+    start_ = trajectory::plan_start(input.ego, input.now_ms, running_, start_ms_, parameters_);
     if (status == Status::kOk && scene_.list_refused) status = Status::kStaleTracks;
     if (status == Status::kOk) {
       {
@@ -180,11 +180,11 @@ void PlanningCycle::explain_risk(Status status, Explanation& explanation) {
   const StageScope scope(probe, Stage::kExactRisk);
   // What the optimizer changed, or the minimum-risk manoeuvre, has its risk anew while the allowance lasts.
   const bool changed = status != Status::kOk || risk_outdated_;
-  const PredictionSet& prediction = status == Status::kOk ? conditioned_.set : marginal_;
+  const satp::PredictionSet& prediction = status == Status::kOk ? conditioned_.set : marginal_;
   if (changed && can_evaluate_risk(explanation)) {
     evaluate_risk(prediction, chosen_, explanation, explanation.risk);
   } else if (status != Status::kOk) {
-    explanation.risk = RiskProfile{};  // it is of a motion that was rejected
+    explanation.risk = sadrf::RiskProfile{};  // it is of a motion that was rejected
   }
   explanation.dominating_track = track_id(explanation.risk.dominating_agent);
   explanation.dominating_step =
@@ -199,23 +199,23 @@ void PlanningCycle::forget_scene() {
 }
 
 bool PlanningCycle::start_without_input(bool ego_valid) {
-  if (!ego_valid && plan_covers(running_, start_ms_)) {
+  if (!ego_valid && trajectory::plan_covers(running_, start_ms_)) {
     start_ = sample(running_, start_ms_);
     return true;
   }
   if (!ego_seen_) return false;
-  start_ = plan_start(last_ego_, last_ego_ms_, running_, start_ms_, parameters_);
+  start_ = trajectory::plan_start(last_ego_, last_ego_ms_, running_, start_ms_, parameters_);
   return true;
 }
 
 void PlanningCycle::predict(Explanation& explanation) {
   const StageScope scope(probe, Stage::kPredict);
-  new (&arena_.predictor) SatpPredictor;
+  new (&arena_.predictor) satp::SatpPredictor;
   explanation.learned = weights_.present();
   if (weights_.present()) trust_.observe(scene_, weights_.header().usual_residual_m);
   arena_.predictor.encode(weights_, scene_, parameters_, start_ms_, &beliefs_, &trust_, conditioned_.scratch);
-  new (&conditioned_.set) PredictionSet;
-  YieldHypotheses hypotheses[kMaxAgents];
+  new (&conditioned_.set) satp::PredictionSet;
+  satp::YieldHypotheses hypotheses[kMaxAgents];
   arena_.predictor.hypotheses(hypotheses);
   beliefs_.observe(scene_, hypotheses);
   arena_.predictor.decode(nullptr, allowance.prediction, marginal_);
@@ -230,9 +230,9 @@ std::uint8_t PlanningCycle::track_id(int agent) const {
   return agent >= 0 && agent < scene_.agents.size() ? scene_.agents[agent].track.id : kNobody;
 }
 
-float PlanningCycle::crash_cost(const PredictionSet& prediction, Stage stage) {
+float PlanningCycle::crash_cost(const satp::PredictionSet& prediction, Stage stage) {
   WorkMeter meter;
-  const float expected = expected_collisions(scene_, prediction, chosen_, parameters_, meter);
+  const float expected = sadrf::expected_collisions(scene_, prediction, chosen_, parameters_, meter);
   work_.spend(stage, -meter.left);
   return kCrashCost * expected;
 }
@@ -280,19 +280,20 @@ Status PlanningCycle::choose(Explanation& explanation) {
     explanation.runner_up_cost = costs_[second];
     explanation.runner_up_manoeuvre = scene_.ego_paths[candidates_[second].path].manoeuvre;
   }
-  const EgoPath& path = scene_.ego_paths[candidates_[best].path];
+  const scene::EgoPath& path = scene_.ego_paths[candidates_[best].path];
   explanation.manoeuvre = path.manoeuvre;
-  const Leader leader = find_leader(scene_, path, path.frenet.s_m, parameters_);
+  const trajectory::Leader leader = trajectory::find_leader(scene_, path, path.frenet.s_m, parameters_);
   explanation.leader_track = track_id(leader.agent);
   explanation.leader_gap_m = leader.gap_m;
   return Status::kOk;
 }
 
 bool PlanningCycle::hold(int index, Explanation& explanation) {
-  const Candidate& candidate = candidates_[index];
+  const trajectory::Candidate& candidate = candidates_[index];
   {
     const StageScope scope(probe, Stage::kCandidates);
-    roll_out(lines_[candidate.path], candidate, start_, running_, start_ms_, parameters_, chosen_);
+    trajectory::roll_out(lines_[candidate.path], candidate, start_, running_, start_ms_, parameters_,
+                         chosen_);
   }
   if (allowance.decisions <= 0) return true;  // it has passed with the predictions without plan
   {
@@ -306,7 +307,7 @@ bool PlanningCycle::hold(int index, Explanation& explanation) {
     const StageScope scope(probe, Stage::kCheck);
     count(explanation, Stage::kCheck, 1);
     if (!verify(candidate.path, chosen_).safe()) {
-      explanation.rejections[index] = Rejection::kRefused;
+      explanation.rejections[index] = trajectory::Rejection::kRefused;
       return false;
     }
   }
@@ -318,36 +319,37 @@ bool PlanningCycle::can_evaluate_risk(const Explanation& explanation) const {
          work_.left() >= kLeastExactWork;
 }
 
-void PlanningCycle::evaluate_risk(const PredictionSet& prediction, const Trajectory& trajectory,
-                                  Explanation& explanation, RiskProfile& profile) {
+void PlanningCycle::evaluate_risk(const satp::PredictionSet& prediction, const Trajectory& trajectory,
+                                  Explanation& explanation, sadrf::RiskProfile& profile) {
   // The others to come get as much.
   const int to_come = decisions_to_come_ > 1 ? decisions_to_come_ : 1;
   const std::int32_t left = work_.left() - (to_come - 1) * decode_work() - to_come * work::kTouches;
   const std::int32_t share = left / to_come;
   WorkMeter meter{share < allowance.exact_risk ? share : allowance.exact_risk};
   const std::int32_t before = meter.left;
-  exact_risk(scene_, drivable_, prediction, constant_velocity_, trajectory, parameters_, profile, meter);
+  sadrf::exact_risk(scene_, drivable_, prediction, constant_velocity_, trajectory, parameters_, profile,
+                    meter);
   work_.spend(Stage::kExactRisk, before - meter.left);
   count(explanation, Stage::kExactRisk, 1);
 }
 
 bool PlanningCycle::evaluate(int index, Explanation& explanation) {
-  explanation.risk = RiskProfile{};
+  explanation.risk = sadrf::RiskProfile{};
   if (!hold(index, explanation)) return false;
   // Without an allowance left the ranking's risk stands; without a prediction of its own, too.
   const StageScope scope(probe, Stage::kExactRisk);
   if (allowance.decisions <= 0 || !can_evaluate_risk(explanation)) return true;
   evaluate_risk(conditioned_.set, chosen_, explanation, explanation.risk);
-  costs_[index].risk = parameters_.scoring.risk * risk_integral(explanation.risk, parameters_) +
+  costs_[index].risk = parameters_.scoring.risk * sadrf::risk_integral(explanation.risk, parameters_) +
                        crash_cost(conditioned_.set, Stage::kExactRisk) + hard_[index];
   return true;
 }
 
-const RefinementProblem* PlanningCycle::last_refinement() const {
+const trajectory::RefinementProblem* PlanningCycle::last_refinement() const {
   return refining_ ? &arena_.optimizer.problem() : nullptr;
 }
 
-void PlanningCycle::refine(const Candidate& candidate, Explanation& explanation) {
+void PlanningCycle::refine(const trajectory::Candidate& candidate, Explanation& explanation) {
   const std::int32_t affordable_passes = (work_.left() - work::kRefinement) / kPassWork;
   const int most =
       affordable_passes < allowance.optimizer_iterations ? affordable_passes : allowance.optimizer_iterations;
@@ -355,17 +357,18 @@ void PlanningCycle::refine(const Candidate& candidate, Explanation& explanation)
   // In the field the exact risk decides.
   const bool can_decide = can_evaluate_risk(explanation);
   const int evaluations = can_decide && parameters_.scoring.risk > 0.0F ? allowance.field_evaluations : 0;
-  RefinementResult result;
+  trajectory::RefinementResult result;
   {
     const StageScope scope(probe, Stage::kOptimize);
-    new (&arena_.optimizer) Optimizer;
+    new (&arena_.optimizer) trajectory::Optimizer;
     refining_ = passes > 0;
     result = arena_.optimizer.refine(lines_[candidate.path], candidate.start_s_m, surroundings(), parameters_,
                                      {passes, evaluations}, chosen_, refined_);
     count(explanation, Stage::kOptimize, result.passes);
-    work_.spend(
-        Stage::kOptimize,
-        passes > 0 ? work::kRefinement + kPassWork * passes_spent(result.passes, result.failed_trials) : 0);
+    work_.spend(Stage::kOptimize,
+                passes > 0 ? work::kRefinement +
+                                 kPassWork * trajectory::passes_spent(result.passes, result.failed_trials)
+                           : 0);
   }
   if (!result.improved) return;
   {
@@ -382,14 +385,15 @@ void PlanningCycle::refine(const Candidate& candidate, Explanation& explanation)
   chosen_ = refined_;
 }
 
-bool PlanningCycle::is_better(const RefinementResult& result, Explanation& explanation) {
+bool PlanningCycle::is_better(const trajectory::RefinementResult& result, Explanation& explanation) {
   const StageScope scope(probe, Stage::kExactRisk);
-  RiskProfile profile;
+  sadrf::RiskProfile profile;
   evaluate_risk(conditioned_.set, refined_, explanation, profile);
-  const float more = risk_integral(profile, parameters_) - risk_integral(explanation.risk, parameters_);
+  const float more =
+      sadrf::risk_integral(profile, parameters_) - sadrf::risk_integral(explanation.risk, parameters_);
   if (result.own_after - result.own_before + parameters_.scoring.risk * more > 0.0F) return false;
   explanation.risk = profile;
   return true;
 }
 
-}  // namespace s4tp
+}  // namespace s4tp::planner

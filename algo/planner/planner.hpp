@@ -19,7 +19,7 @@
 #include "algo/scene/scene.hpp"
 #include "algo/trajectory/optimizer.hpp"
 
-namespace s4tp {
+namespace s4tp::planner {
 
 /// A snapshot of the world at a planning boundary. Pointers are valid during the call only.
 struct PlannerInput {
@@ -41,7 +41,7 @@ struct WorkAllowance {
   int candidates =
       kMaxCandidates;  ///< candidates tried; of none there is no plan but the minimum-risk manoeuvre
   int prediction =
-      kMaxPredictionWork;  ///< agent-mode-steps of one prediction; whom it leaves out just keeps going
+      satp::kMaxPredictionWork;  ///< agent-mode-steps of one prediction; whom it leaves out just keeps going
   /// CORE-076 Of the whole cycle, WorkMeter's units: what stages that are not cut have taken, fewer decisions, less
   /// exact risks and fewer passes of the optimizer make up for.
   std::int32_t cycle = kCycleWork;
@@ -80,9 +80,9 @@ class PlanningCycle {
   [[nodiscard]] Status plan(const PlannerInput& input, Plan& plan, Explanation& explanation);
 
   /// What the optimizer was asked in the last cycle, for benchmarks; null when it was not asked.
-  [[nodiscard]] const RefinementProblem* last_refinement() const;
+  [[nodiscard]] const trajectory::RefinementProblem* last_refinement() const;
   /// And what the risk was there.
-  [[nodiscard]] Surroundings surroundings() const {
+  [[nodiscard]] trajectory::Surroundings surroundings() const {
     return {scene_, marginal_, conditioned_.set, constant_velocity_};
   }
 
@@ -99,7 +99,7 @@ class PlanningCycle {
   ~PlanningCycle() = default;
 
   /// What is made of the scene before anything is planned in it.
-  virtual void believe(Scene&) const {}
+  virtual void believe(scene::Scene&) const {}
   /// Whether a feasible plan may be driven. \param path  index of the ego path it follows
   [[nodiscard]] virtual safety::Verdict verify(int path, const Trajectory& trajectory) const {
     return guard_.judge(path, trajectory);
@@ -127,20 +127,20 @@ class PlanningCycle {
   [[nodiscard]] std::uint8_t track_id(int agent) const;
   void explain_risk(Status status, Explanation& explanation);
   [[nodiscard]] bool can_evaluate_risk(const Explanation& explanation) const;
-  void evaluate_risk(const PredictionSet& prediction, const Trajectory& trajectory, Explanation& explanation,
-                     RiskProfile& profile);
+  void evaluate_risk(const satp::PredictionSet& prediction, const Trajectory& trajectory,
+                     Explanation& explanation, sadrf::RiskProfile& profile);
   /// Price of the touches that are to be expected.
-  [[nodiscard]] float crash_cost(const PredictionSet& prediction, Stage stage);
+  [[nodiscard]] float crash_cost(const satp::PredictionSet& prediction, Stage stage);
   /// Drives the fail-safe of the plan in force.
   void give_up(Status status, Plan& plan);
-  void refine(const Candidate& candidate, Explanation& explanation);
+  void refine(const trajectory::Candidate& candidate, Explanation& explanation);
   /// Whether refined_ costs no more than chosen_, by the exact risk; then explanation.risk is of it.
-  [[nodiscard]] bool is_better(const RefinementResult& result, Explanation& explanation);
+  [[nodiscard]] bool is_better(const trajectory::RefinementResult& result, Explanation& explanation);
 
   bool initialized_ = false;
   Parameters parameters_;
   std::uint32_t parameters_crc_ = 0;
-  SceneBuilder scene_builder_;
+  scene::SceneBuilder scene_builder_;
   EgoState last_ego_;  ///< the last valid one, of ...
   std::uint32_t last_ego_ms_ = 0;
   bool ego_seen_ = false;  ///< ... if any
@@ -150,19 +150,19 @@ class PlanningCycle {
   std::int32_t marginal_work_ = 0;  ///< of the prediction without plan
   std::uint32_t start_ms_ = 0;
   Plan running_;
-  Scene scene_;
-  DrivableArea drivable_;
+  scene::Scene scene_;
+  sadrf::DrivableArea drivable_;
   safety::Guard guard_;
   TrajectoryPoint start_;
-  YieldBeliefs beliefs_;
+  satp::YieldBeliefs beliefs_;
   satp::Weights weights_;
   satp::WeightStatus weight_status_ = satp::WeightStatus::kAbsent;
   bool given_weights_ = false;  ///< or looked for in the build
-  PredictionTrust trust_;
-  PredictionSet marginal_;
-  KinematicSet constant_velocity_;
-  ReferenceLines lines_;
-  CandidateList candidates_;
+  satp::PredictionTrust trust_;
+  satp::PredictionSet marginal_;
+  satp::KinematicSet constant_velocity_;
+  trajectory::ReferenceLines lines_;
+  trajectory::CandidateList candidates_;
   CostBreakdown costs_[kMaxCandidates];
   float hard_[kMaxCandidates] = {};  ///< price of what can only be given up by braking hard
   DecisionList decisions_;
@@ -172,22 +172,22 @@ class PlanningCycle {
   /// Before anything is predicted for a plan, its room serves the network.
   union Conditioned {
     Conditioned() : set() {}
-    PredictionSet set;
+    satp::PredictionSet set;
     satp::EncoderScratch scratch;
   };
   Conditioned conditioned_;
   Trajectory chosen_;
   Trajectory refined_;
   FailSafe fail_safe_;
-  RiskProfile best_risk_;       ///< of the best decision so far
-  bool risk_outdated_ = false;  ///< chosen_ is refined_, explanation.risk not of it
+  sadrf::RiskProfile best_risk_;  ///< of the best decision so far
+  bool risk_outdated_ = false;    ///< chosen_ is refined_, explanation.risk not of it
 
   /// Scratch of stages that never need it at once: the predictor's ways have served when the optimizer
   /// begins.
   union Arena {
     Arena() : predictor() {}
-    SatpPredictor predictor;
-    Optimizer optimizer;
+    satp::SatpPredictor predictor;
+    trajectory::Optimizer optimizer;
   };
   Arena arena_;
   bool refining_ = false;  ///< the arena holds the optimizer
@@ -198,4 +198,4 @@ class Planner final : public PlanningCycle {};
 
 static_assert(sizeof(Planner) <= kPlannerBudgetBytes, "the planner object has outgrown its budget");
 
-}  // namespace s4tp
+}  // namespace s4tp::planner

@@ -4,14 +4,14 @@
 #include "algo/planner/explanation.hpp"
 #include "algo/sadrf/risk.hpp"
 
-namespace s4tp {
+namespace s4tp::planner {
 
 /// What the candidates of a cycle were made from and what they cost: enough to roll each out again.
 struct CandidatesView {
   const TrajectoryPoint& start;
   const Plan& running;
-  const ReferenceLines& lines;
-  const CandidateList& candidates;
+  const trajectory::ReferenceLines& lines;
+  const trajectory::CandidateList& candidates;
   const CostBreakdown (&costs)[kMaxCandidates];  ///< of who was not rejected; risk 0 where none was computed
 };
 
@@ -23,10 +23,11 @@ class Probe {
   virtual void candidates_done(const CandidatesView&) {}
   /// The cycle's scene and what was predicted for the plan chosen, with its risk. References end with the
   /// call.
-  virtual void cycle_done(const Scene& scene, const PredictionSet& prediction, const RiskProfile& risk) = 0;
+  virtual void cycle_done(const scene::Scene& scene, const satp::PredictionSet& prediction,
+                          const sadrf::RiskProfile& risk) = 0;
 
  protected:
   ~Probe() = default;
 };
 
-}  // namespace s4tp
+}  // namespace s4tp::planner

@@ -4,16 +4,16 @@
 #include "algo/planner/scoring.hpp"
 #include "algo/planner/stage_scope.hpp"
 
-namespace s4tp {
+namespace s4tp::planner {
 namespace {
 constexpr float kHardStopCost = 60.0F;
 }
 
 /// Looks at each candidate while its roll-out is in chosen_.
-class PlanningCycle::Ranking final : public CandidateVisitor {
+class PlanningCycle::Ranking final : public trajectory::CandidateVisitor {
  public:
   Ranking(PlanningCycle& planner, bool careful, Explanation& explanation)
-      : CandidateVisitor(planner.chosen_),
+      : trajectory::CandidateVisitor(planner.chosen_),
         planner_(planner),
         careful_(careful),
         explanation_(explanation),
@@ -24,26 +24,26 @@ class PlanningCycle::Ranking final : public CandidateVisitor {
   }
 
   /// The gap beside worth a candidate of its own.
-  [[nodiscard]] MergeTarget aim() const {
+  [[nodiscard]] trajectory::MergeTarget aim() const {
     return merge_target_of(planner_.scene_, cost_to_go_, planner_.parameters_);
   }
 
   void visit(int index) override {
     const InnerStageScope scope(planner_.probe, Stage::kCandidates, Stage::kRank);
-    const Candidate& candidate = planner_.candidates_[index];
+    const trajectory::Candidate& candidate = planner_.candidates_[index];
     planner_.work_.spend(Stage::kRank, work::kScore);
-    const bool previous = candidate.intent == Intent::kPrevious;
+    const bool previous = candidate.intent == trajectory::Intent::kPrevious;
     if (previous && index == 0) plan_path_ = candidate.path;
-    const bool leaves_lane = planner_.scene_.ego_paths[candidate.path].manoeuvre != Manoeuvre::kKeep;
-    Rejection& rejection = explanation_.rejections[index];
+    const bool leaves_lane = planner_.scene_.ego_paths[candidate.path].manoeuvre != scene::Manoeuvre::kKeep;
+    trajectory::Rejection& rejection = explanation_.rejections[index];
     if (careful_ && leaves_lane && !previous) {
-      rejection = Rejection::kLeftOut;
+      rejection = trajectory::Rejection::kLeftOut;
       return;
     }
     const safety::Verdict verdict = planner_.verify(candidate.path, rolled_out);
-    rejection = verdict.safe() ? Rejection::kNone : Rejection::kRefused;
+    rejection = verdict.safe() ? trajectory::Rejection::kNone : trajectory::Rejection::kRefused;
     planner_.hard_[index] = verdict.hard ? kHardStopCost : 0.0F;
-    if (rejection == Rejection::kNone) {
+    if (rejection == trajectory::Rejection::kNone) {
       score(index, candidate, previous);
     } else {
       note_held_up(candidate.path, verdict);
@@ -51,8 +51,8 @@ class PlanningCycle::Ranking final : public CandidateVisitor {
   }
 
  private:
-  void score(int index, const Candidate& candidate, bool previous) {
-    const Scene& scene = planner_.scene_;
+  void score(int index, const trajectory::Candidate& candidate, bool previous) {
+    const scene::Scene& scene = planner_.scene_;
     const Parameters& parameters = planner_.parameters_;
     DecisionList& decisions = planner_.decisions_;
     CostBreakdown& cost = planner_.costs_[index];
@@ -73,24 +73,25 @@ class PlanningCycle::Ranking final : public CandidateVisitor {
     cost.risk = planner_.crash_cost(planner_.marginal_, Stage::kRank) + planner_.hard_[index];
     if (!decisions.open_to(key, cost.total(), places)) return;
     if (work_.left <= 0) {
-      explanation_.rejections[index] = Rejection::kLeftOut;
+      explanation_.rejections[index] = trajectory::Rejection::kLeftOut;
       return;
     }
     const std::int32_t before = work_.left;
-    cost.risk += parameters.scoring.risk * rank_risk_of_vehicles(scene, planner_.marginal_,
-                                                                 planner_.constant_velocity_, rolled_out,
-                                                                 parameters, work_);
+    cost.risk += parameters.scoring.risk * sadrf::rank_risk_of_vehicles(scene, planner_.marginal_,
+                                                                        planner_.constant_velocity_,
+                                                                        rolled_out, parameters, work_);
     if (decisions.open_to(key, cost.total(), places)) {
-      cost.risk +=
-          parameters.scoring.risk * rank_risk_of_road(planner_.drivable_, rolled_out, parameters, work_);
+      cost.risk += parameters.scoring.risk *
+                   sadrf::rank_risk_of_road(planner_.drivable_, rolled_out, parameters, work_);
       decisions.offer(key, index, cost.total());
     }
     planner_.work_.spend(Stage::kRank, before - work_.left);
   }
 
   void note_held_up(int path, const safety::Verdict& verdict) {
-    const Manoeuvre manoeuvre = planner_.scene_.ego_paths[path].manoeuvre;
-    BlockingReason& blocking = manoeuvre == Manoeuvre::kKeep ? explanation_.blocking : explanation_.beside;
+    const scene::Manoeuvre manoeuvre = planner_.scene_.ego_paths[path].manoeuvre;
+    BlockingReason& blocking =
+        manoeuvre == scene::Manoeuvre::kKeep ? explanation_.blocking : explanation_.beside;
     float way_m = 0.0F;
     for (const TrajectoryPoint& point : rolled_out.points) way_m = way_m + kStepS * point.speed_mps;
     if (!blocking.verdict.safe() && way_m <= blocking.way_m) return;
@@ -127,8 +128,8 @@ void PlanningCycle::rank(bool careful, Explanation& explanation) {
     const StageScope scope(probe, Stage::kCandidates);
     int left_out = 0;
     Ranking ranking(*this, careful, explanation);
-    generate_candidates(scene_, start_, running_, start_ms_, parameters_, allowance.candidates, lines_,
-                        candidates_, left_out, ranking, ranking.aim());
+    trajectory::generate_candidates(scene_, start_, running_, start_ms_, parameters_, allowance.candidates,
+                                    lines_, candidates_, left_out, ranking, ranking.aim());
     explanation.left_out = static_cast<std::uint8_t>(to_int(static_cast<float>(left_out), 0, 255));
     explanation.candidate_count = static_cast<std::uint8_t>(candidates_.size());
     count(explanation, Stage::kCandidates, candidates_.size());
@@ -139,4 +140,4 @@ void PlanningCycle::rank(bool careful, Explanation& explanation) {
   decisions_.shortlist(affordable(), keeps_plan_, plan_key_);
 }
 
-}  // namespace s4tp
+}  // namespace s4tp::planner

@@ -18,7 +18,7 @@
 #error "s4tp gives identical bits everywhere; -ffast-math takes them away"
 #endif
 
-namespace s4tp {
+namespace s4tp::planner {
 namespace {
 
 /// What lies in a block, behind its seal.
@@ -90,9 +90,10 @@ bool take_input(const s4tp_input& from, Facade& facade) {
 }
 
 }  // namespace
-}  // namespace s4tp
+}  // namespace s4tp::planner
 
 using namespace s4tp;  // the functions below are the C world's
+using namespace s4tp::planner;
 
 const char* s4tp_status_name(s4tp_status status) {
   switch (status) {

@@ -4,7 +4,7 @@
 #include "algo/trajectory/along_path.hpp"
 #include "algo/trajectory/bicycle.hpp"
 
-namespace s4tp {
+namespace s4tp::planner {
 namespace {
 
 constexpr float kCarefulSpeedShare = 0.6F;  // of the limit, while a source of ours is stale
@@ -16,31 +16,31 @@ constexpr float kInLaneShare = 0.4F;   // of its width from a lane's centre, a c
 constexpr float kMissedRoute = 80.0F;  // times lane_route: driving past the last place to change lanes
 
 /// Price of the lane: how many changes are left, more pressing as the room for them shortens.
-float route_cost(const EgoPath& path, float end_s_m, float end_mps, const Parameters& parameters) {
+float route_cost(const scene::EgoPath& path, float end_s_m, float end_mps, const Parameters& parameters) {
   const int changes = path.changes_needed < 0 ? -path.changes_needed : path.changes_needed;
   if (changes == 0) return 0.0F;
   const float room_m = path.route_end_s_m - end_s_m;
   const float count = static_cast<float>(changes);
   const float missed = kMissedRoute * parameters.scoring.lane_route * count;
   // Whoever cannot stop before the end has missed it. The last place to wait leaves room to change from rest.
-  const float to_place_m =
-      room_m - rear_axle_to_front_m(parameters) - square(end_mps) / (2.0F * parameters.comfort.braking_mps2);
+  const float to_place_m = room_m - trajectory::rear_axle_to_front_m(parameters) -
+                           square(end_mps) / (2.0F * parameters.comfort.braking_mps2);
   if (to_place_m < 0.0F) return missed;
-  const float shortage = max(0.0F, 1.0F - to_place_m / (kChangeWayM * count));
+  const float shortage = max(0.0F, 1.0F - to_place_m / (trajectory::kChangeWayM * count));
   const float pressing = 1.0F + kChangeRoomM * count / (room_m + 10.0F);
   return parameters.scoring.lane_route * count * pressing + missed * square(shortage);
 }
 
 /// What being in the lane of `path` at the horizon's end costs: time, and lane changes left.
-float lane_cost(const Scene& scene, const LaneCostToGo& cost_to_go, int path, float s_m, float speed_mps,
-                const Parameters& parameters) {
+float lane_cost(const scene::Scene& scene, const LaneCostToGo& cost_to_go, int path, float s_m,
+                float speed_mps, const Parameters& parameters) {
   return parameters.scoring.delay * cost_to_go.delay_s(path, s_m, speed_mps) +
          route_cost(scene.ego_paths[path], s_m, speed_mps, parameters);
 }
 
 /// The lane beside that we had rather be in, or -1. \param gain  receives what it saves, 0: nothing
-int better_lane(const Scene& scene, const LaneCostToGo& cost_to_go, int path, float s_m, float speed_mps,
-                float cost_here, const Parameters& parameters, float& gain) {
+int better_lane(const scene::Scene& scene, const LaneCostToGo& cost_to_go, int path, float s_m,
+                float speed_mps, float cost_here, const Parameters& parameters, float& gain) {
   gain = 0.0F;
   int best = -1;
   for (int i = 0; i < scene.ego_paths.size(); ++i) {
@@ -55,8 +55,8 @@ int better_lane(const Scene& scene, const LaneCostToGo& cost_to_go, int path, fl
 }
 
 /// Price of the time until we are in the gap of the lane beside that we had rather be in, if there is one.
-float gap_cost(const Scene& scene, const LaneCostToGo& cost_to_go, int path, float s_m, float speed_mps,
-               float cost_here, const Parameters& parameters) {
+float gap_cost(const scene::Scene& scene, const LaneCostToGo& cost_to_go, int path, float s_m,
+               float speed_mps, float cost_here, const Parameters& parameters) {
   float gain = 0.0F;
   const int lane = better_lane(scene, cost_to_go, path, s_m, speed_mps, cost_here, parameters, gain);
   if (lane < 0) return 0.0F;
@@ -87,37 +87,38 @@ struct LastPlace {
   /// Whether the motion, and what it leaves to be changed, is over the line by then.
   [[nodiscard]] bool holds(float width_m) const {
     if (passed) return in_time;
-    return at_s_m + kChangeWayM * max(0.0F, abs(at_d_m) - in_lane_m) / width_m <= s_m;
+    return at_s_m + trajectory::kChangeWayM * max(0.0F, abs(at_d_m) - in_lane_m) / width_m <= s_m;
   }
 };
 
 }  // namespace
 
-MergeTarget merge_target_of(const Scene& scene, const LaneCostToGo& cost_to_go,
-                            const Parameters& parameters) {
+trajectory::MergeTarget merge_target_of(const scene::Scene& scene, const LaneCostToGo& cost_to_go,
+                                        const Parameters& parameters) {
   if (scene.ego_paths.empty()) return {};
   const float speed_mps = scene.ego.speed_mps;
   const float s_m = scene.ego_paths[0].frenet.s_m + kLookS * speed_mps;
   const float here = lane_cost(scene, cost_to_go, 0, s_m, speed_mps, parameters);
   float gain = 0.0F;
   const int lane = better_lane(scene, cost_to_go, 0, s_m, speed_mps, here, parameters, gain);
-  return lane < 0 ? MergeTarget{} : cost_to_go.merge_target(scene, lane);
+  return lane < 0 ? trajectory::MergeTarget{} : cost_to_go.merge_target(scene, lane);
 }
 
-CostBreakdown score_motion(const Scene& scene, const LaneCostToGo& cost_to_go, int path_index,
+CostBreakdown score_motion(const scene::Scene& scene, const LaneCostToGo& cost_to_go, int path_index,
                            float start_s_m, const Trajectory& trajectory, bool other_lane, bool careful,
                            const Parameters& parameters) {
-  const EgoPath& path = scene.ego_paths[path_index];
+  const scene::EgoPath& path = scene.ego_paths[path_index];
   float s_m = start_s_m;
   float speed_sum = 0.0F;
   float jerk_sum = 0.0F;
   float lateral_sum = 0.0F;
   float offset_sum = 0.0F;
   int offset_count = 0;
-  const EgoPath& own = scene.ego_paths[0];
-  const float width_m = path_point(*scene.map, path.path, path.frenet.s_m).width_m;
-  LastPlace last{own.route_end_s_m + path.frenet.s_m - own.frenet.s_m - rear_axle_to_centre_m(parameters),
-                 kInLaneShare * width_m, start_s_m, path.frenet.d_m};
+  const scene::EgoPath& own = scene.ego_paths[0];
+  const float width_m = scene::path_point(*scene.map, path.path, path.frenet.s_m).width_m;
+  LastPlace last{
+      own.route_end_s_m + path.frenet.s_m - own.frenet.s_m - trajectory::rear_axle_to_centre_m(parameters),
+      kInLaneShare * width_m, start_s_m, path.frenet.d_m};
   for (int i = 1; i < kTrajectoryPoints; ++i) {
     const TrajectoryPoint& before = trajectory.points[i - 1];
     const TrajectoryPoint& point = trajectory.points[i];
@@ -127,8 +128,9 @@ CostBreakdown score_motion(const Scene& scene, const LaneCostToGo& cost_to_go, i
     const float lateral = point.speed_mps * point.speed_mps * point.curvature_1pm;
     lateral_sum = lateral_sum + lateral * lateral;
     if (i % 5 != 0) continue;  // lane data change slowly: every half second is enough
-    PathPoint centre;
-    const Frenet frenet = project(*scene.map, path.path, position(point.rear_axle), s_m, 5.0F, centre);
+    scene::PathPoint centre;
+    const scene::Frenet frenet =
+        scene::project(*scene.map, path.path, position(point.rear_axle), s_m, 5.0F, centre);
     float wanted_mps = centre.speed_limit_mps;
     const float bend = abs(centre.curvature_1pm);
     if (bend * wanted_mps * wanted_mps > parameters.comfort.lateral_mps2) {
@@ -153,12 +155,12 @@ CostBreakdown score_motion(const Scene& scene, const LaneCostToGo& cost_to_go, i
   const float end_mps = trajectory.points[kHorizonSteps].speed_mps;
   const float lane = lane_cost(scene, cost_to_go, path_index, s_m, end_mps, parameters);
   cost.lane = parameters.scoring.lane_offset * (offset_sum / samples) + lane;
-  if (path.manoeuvre == Manoeuvre::kKeep)
+  if (path.manoeuvre == scene::Manoeuvre::kKeep)
     cost.lane = cost.lane + gap_cost(scene, cost_to_go, path_index, s_m, end_mps, lane, parameters);
-  if (path.manoeuvre != Manoeuvre::kKeep && own.changes_needed != 0 && !last.holds(width_m))
+  if (path.manoeuvre != scene::Manoeuvre::kKeep && own.changes_needed != 0 && !last.holds(width_m))
     cost.lane = cost.lane + kMissedRoute * parameters.scoring.lane_route;
   if (other_lane) cost.lane = cost.lane + parameters.scoring.lane_change;
   return cost;
 }
 
-}  // namespace s4tp
+}  // namespace s4tp::planner

@@ -7,19 +7,20 @@
 #include "algo/planner/lane_cost_to_go.hpp"
 #include "algo/scene/scene.hpp"
 
-namespace s4tp {
+namespace s4tp::planner {
 
 /// The gap to drive for of the lane beside that we had rather be in, if driving on as we do there is one.
-[[nodiscard]] MergeTarget merge_target_of(const Scene& scene, const LaneCostToGo& cost_to_go,
-                                          const Parameters& parameters);
+[[nodiscard]] trajectory::MergeTarget merge_target_of(const scene::Scene& scene,
+                                                      const LaneCostToGo& cost_to_go,
+                                                      const Parameters& parameters);
 
 /// All terms but risk. From the lane we are in, one we had rather be in also asks how soon the end leads into
 /// a gap there: a driver who has to merge looks for his gap before he signals. \param path  index of the ego
 /// path the trajectory follows \param start_s_m  of its start, along it \param other_lane  than the running
 /// plan's: starting a lane change has its price, and so has dropping one \param careful  degraded driving:
 /// the speed wanted is lower
-[[nodiscard]] CostBreakdown score_motion(const Scene& scene, const LaneCostToGo& cost_to_go, int path,
+[[nodiscard]] CostBreakdown score_motion(const scene::Scene& scene, const LaneCostToGo& cost_to_go, int path,
                                          float start_s_m, const Trajectory& trajectory, bool other_lane,
                                          bool careful, const Parameters& parameters);
 
-}  // namespace s4tp
+}  // namespace s4tp::planner

@@ -4,7 +4,7 @@
 
 #include "algo/planner/probe.hpp"
 
-namespace s4tp {
+namespace s4tp::planner {
 
 /// Tells the probe about one stage, from construction to the end of the scope.
 class StageScope {
@@ -50,4 +50,4 @@ inline void count(Explanation& explanation, Stage stage, int work) {
   total = static_cast<std::uint16_t>(total + work);
 }
 
-}  // namespace s4tp
+}  // namespace s4tp::planner

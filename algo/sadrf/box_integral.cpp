@@ -3,7 +3,7 @@
 #include "algo/core/inline.hpp"
 #include "algo/sadrf/path_coordinates.hpp"
 
-namespace s4tp {
+namespace s4tp::sadrf {
 namespace {
 
 /// A straight piece of a line through the field: s = s_m + ds t, e = e_m + de t, |t| <= half_m, de > 0.
@@ -133,4 +133,4 @@ float field_over_box(const Field& field, const Box& box, Point axis) {
   return half_m * sum;
 }
 
-}  // namespace s4tp
+}  // namespace s4tp::sadrf

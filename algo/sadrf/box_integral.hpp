@@ -12,7 +12,7 @@
 #include "algo/core/geometry.hpp"
 #include "algo/sadrf/field.hpp"
 
-namespace s4tp {
+namespace s4tp::sadrf {
 
 /// True when the field surely vanishes on the whole box: a few products, no root, no trigonometry.
 [[nodiscard]] bool out_of_reach(const Field& field, Point box_centre, float box_radius_m);
@@ -30,4 +30,4 @@ namespace s4tp {
 /// erf(e / (sqrt(2) sigma)) sigma sqrt(pi / 2): the integral of exp(-e^2 / (2 sigma^2)) from 0 to e.
 [[nodiscard]] float gauss_integral(float e_m, float sigma_m);
 
-}  // namespace s4tp
+}  // namespace s4tp::sadrf

@@ -5,7 +5,7 @@
 #include "algo/sadrf/box_integral.hpp"
 #include "algo/sadrf/path_coordinates.hpp"
 
-namespace s4tp {
+namespace s4tp::sadrf {
 namespace {
 
 /// The box in the field's frame.
@@ -400,4 +400,4 @@ float field_over_slices(const Field& field, const Box& box, const FieldSlopes& s
   return max(sums.value, 0.0F);
 }
 
-}  // namespace s4tp
+}  // namespace s4tp::sadrf

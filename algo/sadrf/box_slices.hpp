@@ -13,7 +13,7 @@
 #include "algo/core/geometry.hpp"
 #include "algo/sadrf/field.hpp"
 
-namespace s4tp {
+namespace s4tp::sadrf {
 
 /// How the field's own numbers change with the driver's speed and road-wheel angle.
 struct FieldSlopes {
@@ -53,4 +53,4 @@ inline constexpr int kMaxSlices = 48;
 [[nodiscard]] float field_over_slices(const Field& field, const Box& box, const FieldSlopes& slopes,
                                       FieldGradient& gradient);
 
-}  // namespace s4tp
+}  // namespace s4tp::sadrf

@@ -2,7 +2,7 @@
 
 #include "algo/core/inline.hpp"
 
-namespace s4tp {
+namespace s4tp::sadrf {
 
 bool covers(const CostBox& one, Point point) {
   const Point offset = point - position(one.box.centre);
@@ -24,8 +24,8 @@ float modulation(const EgoState& ego, const Track& track, const Parameters& para
   return 1.0F + risk.nearness * exp(-distance_m / kNearM) + risk.closing * closing_mps / kFastMps;
 }
 
-void place_obstacles(const Scene& scene, const Futures& futures, int step, const Parameters& parameters,
-                     CostBoxes& boxes) {
+void place_obstacles(const scene::Scene& scene, const Futures& futures, int step,
+                     const Parameters& parameters, CostBoxes& boxes) {
   boxes.clear();
   for (const Future& future : futures) {
     const Track& track = scene.agents[future.agent].track;
@@ -77,4 +77,4 @@ float cell_risk(const Field& field, const CostBoxes& boxes, const Pose& cell, fl
   return density > 0.0F ? density * obstacle_cost(boxes, cell, side_m) * square(side_m) : 0.0F;
 }
 
-}  // namespace s4tp
+}  // namespace s4tp::sadrf

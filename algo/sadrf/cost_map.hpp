@@ -12,7 +12,7 @@
 #include "algo/sadrf/field.hpp"
 #include "algo/sadrf/futures.hpp"
 
-namespace s4tp {
+namespace s4tp::sadrf {
 
 /// One mode of one vehicle at the step.
 struct CostBox {
@@ -29,8 +29,8 @@ using CostBoxes = BoundedVector<CostBox, Futures::kCapacity>;  ///< the modes of
 [[nodiscard]] float modulation(const EgoState& ego, const Track& track, const Parameters& parameters);
 
 /// Every future of every vehicle. \param step  0: kStepS from now
-void place_obstacles(const Scene& scene, const Futures& futures, int step, const Parameters& parameters,
-                     CostBoxes& boxes);
+void place_obstacles(const scene::Scene& scene, const Futures& futures, int step,
+                     const Parameters& parameters, CostBoxes& boxes);
 
 /// Whether the point lies in the box.
 [[nodiscard]] bool covers(const CostBox& one, Point point);
@@ -50,4 +50,4 @@ void place_obstacles(const Scene& scene, const Futures& futures, int step, const
 /// (p95) with sides of 0.25 m, and falls as they halve from 1 m.
 [[nodiscard]] float cell_risk(const Field& field, const CostBoxes& boxes, const Pose& cell, float side_m);
 
-}  // namespace s4tp
+}  // namespace s4tp::sadrf

@@ -2,7 +2,7 @@
 
 #include "algo/core/inline.hpp"
 
-namespace s4tp {
+namespace s4tp::sadrf {
 namespace {
 
 /// Strips of successive segments are drawn over their ends, so that bends leave no wedge open.
@@ -248,4 +248,4 @@ Ground ground_at(const DrivableArea& area, Point point) {
   return section.drivable.empty() ? Ground::kOffRoad : Ground::kOpposite;
 }
 
-}  // namespace s4tp
+}  // namespace s4tp::sadrf

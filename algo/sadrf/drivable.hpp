@@ -15,7 +15,7 @@
 #include "algo/core/work_meter.hpp"
 #include "algo/core/world_state.hpp"
 
-namespace s4tp {
+namespace s4tp::sadrf {
 
 inline constexpr int kMaxJunctions = 4;  ///< junctions within the horizon; of further ones the strips count
 inline constexpr int kMaxHullVertices = 16;
@@ -81,4 +81,4 @@ enum class Ground : std::uint8_t { kOurs = 0, kOpposite = 1, kOffRoad = 2 };
 /// Grows `bounds` by a point.
 void include(Bounds& bounds, Point point);
 
-}  // namespace s4tp
+}  // namespace s4tp::sadrf

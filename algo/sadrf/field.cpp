@@ -3,7 +3,7 @@
 #include "algo/core/inline.hpp"
 #include "algo/sadrf/path_coordinates.hpp"
 
-namespace s4tp {
+namespace s4tp::sadrf {
 
 FieldParams paper_preset(float vehicle_width_m) {
   return {0.0064F, 3.5F, 0.05F, 0.5F, 1.38F, 0.25F * vehicle_width_m, {}};
@@ -72,4 +72,4 @@ float field_at(const FieldParams& params, const DriverState& driver, Point point
   return field_at(prepare_field(params, driver), point_m);
 }
 
-}  // namespace s4tp
+}  // namespace s4tp::sadrf

@@ -11,7 +11,7 @@
 #include "algo/core/geometry.hpp"
 #include "algo/core/parameters.hpp"
 
-namespace s4tp {
+namespace s4tp::sadrf {
 
 /// What rounds off the field's step at the car and its kink at zero steering, for who follows its slopes.
 struct FieldSmoothing {
@@ -78,4 +78,4 @@ inline constexpr float kShortestLookAheadM = 1.0F;
 [[nodiscard]] float field_at(const FieldParams& params, const DriverState& driver, Point point_m);
 [[nodiscard]] float field_at(const Field& field, Point point_m);
 
-}  // namespace s4tp
+}  // namespace s4tp::sadrf

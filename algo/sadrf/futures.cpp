@@ -2,18 +2,20 @@
 
 #include "algo/core/check.hpp"
 
-namespace s4tp {
+namespace s4tp::sadrf {
 
-Futures all_modes(const Scene& scene, const PredictionSet& prediction, const KinematicSet& others) {
+Futures all_modes(const scene::Scene& scene, const satp::PredictionSet& prediction,
+                  const satp::KinematicSet& others) {
   Futures futures;
   bool room = true;
   for (int agent = 0; agent < scene.agents.size(); ++agent) {
     const Track* const track = &scene.agents[agent].track;
     bool predicted = false;
-    for (const AgentPrediction& of : prediction.agents) {
+    for (const satp::AgentPrediction& of : prediction.agents) {
       if (of.agent != agent) continue;
       predicted = true;
-      for (const Mode& mode : of.modes) room = room && futures.push({&mode, mode.probability, agent, track});
+      for (const satp::Mode& mode : of.modes)
+        room = room && futures.push({&mode, mode.probability, agent, track});
     }
     if (predicted || agent >= others.agents.size()) continue;
     room = room && futures.push({&others.agents[agent], 1.0F, agent, track});
@@ -35,4 +37,4 @@ void keep_likeliest(Futures& futures) {
   for (Future& future : futures) future.probability = 1.0F;
 }
 
-}  // namespace s4tp
+}  // namespace s4tp::sadrf

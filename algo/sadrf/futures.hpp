@@ -5,11 +5,11 @@
 #include "algo/satp/prediction.hpp"
 #include "algo/scene/scene.hpp"
 
-namespace s4tp {
+namespace s4tp::sadrf {
 
 /// One future of one vehicle.
 struct Future {
-  const Mode* mode = nullptr;
+  const satp::Mode* mode = nullptr;
   float probability = 0.0F;
   int agent = 0;                 ///< index into Scene::agents
   const Track* track = nullptr;  ///< the agent's
@@ -19,10 +19,10 @@ struct Future {
 using Futures = BoundedVector<Future, kMaxAgents * kMaxModes + kMaxTracks>;
 
 /// Every mode of the predicted vehicles; for the others their kinematic future, as if it were certain.
-[[nodiscard]] Futures all_modes(const Scene& scene, const PredictionSet& prediction,
-                                const KinematicSet& others);
+[[nodiscard]] Futures all_modes(const scene::Scene& scene, const satp::PredictionSet& prediction,
+                                const satp::KinematicSet& others);
 
 /// Keeps the likeliest mode of each vehicle, as if it were certain.
 void keep_likeliest(Futures& futures);
 
-}  // namespace s4tp
+}  // namespace s4tp::sadrf

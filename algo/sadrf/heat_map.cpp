@@ -8,20 +8,21 @@
 #include "algo/sadrf/futures.hpp"
 #include "algo/sadrf/others_motion.hpp"
 
-namespace s4tp {
+namespace s4tp::sadrf {
 namespace {
 
 constexpr int kStride = 3;            // steps of the horizon from field to field
 constexpr float kCellRadiusM = 0.5F;  // a cell is its centre
 
-Point cell_centre(const Scene& scene, int row, int column) {
+Point cell_centre(const scene::Scene& scene, int row, int column) {
   constexpr int kRowsRight = kHeatRows / 2;
   return offset_point(scene.ego.rear_axle, static_cast<float>(column - kHeatBehind) + 0.5F,
                       static_cast<float>(row - kRowsRight) + 0.5F);
 }
 
 /// Adds one driver's field to the sums of a row.
-void add_field(const Scene& scene, const Field& field, float weight, int row, float (&sums)[kHeatColumns]) {
+void add_field(const scene::Scene& scene, const Field& field, float weight, int row,
+               float (&sums)[kHeatColumns]) {
   for (int column = 0; column < kHeatColumns; ++column) {
     const Point centre = cell_centre(scene, row, column);
     if (!out_of_reach(field, centre, kCellRadiusM)) sums[column] += weight * field_at(field, centre);
@@ -39,7 +40,7 @@ bool on_vehicle(const CostBoxes& vehicles, const Pose& cell) {
   return false;
 }
 
-CostBoxes vehicles_now(const Scene& scene) {
+CostBoxes vehicles_now(const scene::Scene& scene) {
   CostBoxes boxes;
   for (int i = 0; i < scene.agents.size(); ++i) {
     const Track& track = scene.agents[i].track;
@@ -51,8 +52,8 @@ CostBoxes vehicles_now(const Scene& scene) {
 
 }  // namespace
 
-void heat_row(const Scene& scene, const DrivableArea& area, const PredictionSet& prediction,
-              const KinematicSet& others, const Parameters& parameters, int row, HeatMap& map) {
+void heat_row(const scene::Scene& scene, const DrivableArea& area, const satp::PredictionSet& prediction,
+              const satp::KinematicSet& others, const Parameters& parameters, int row, HeatMap& map) {
   S4TP_ASSERT(row >= 0 && row < kHeatRows);
   float sums[kHeatColumns] = {};
   const bool shrinks = parameters.risk.look_ahead_shrinks > 0.5F;
@@ -83,4 +84,4 @@ void heat_row(const Scene& scene, const DrivableArea& area, const PredictionSet&
   }
 }
 
-}  // namespace s4tp
+}  // namespace s4tp::sadrf

@@ -18,7 +18,7 @@
 #include "algo/satp/prediction.hpp"
 #include "algo/scene/scene.hpp"
 
-namespace s4tp {
+namespace s4tp::sadrf {
 
 inline constexpr int kHeatColumns = 128;  ///< 1 m each, ahead
 inline constexpr int kHeatRows = 64;      ///< 1 m each, to the left
@@ -40,7 +40,7 @@ struct HeatMap {
 /// CORE-064 One row, so that idle time can be left after each: vehicles (where they cover half a cell) over
 /// risk over ground. \pre 0 <= row < kHeatRows Work: kHeatColumns * (kMaxAgents * kMaxModes + kMaxTracks) *
 /// 10 points of a field at most.
-void heat_row(const Scene& scene, const DrivableArea& area, const PredictionSet& prediction,
-              const KinematicSet& others, const Parameters& parameters, int row, HeatMap& map);
+void heat_row(const scene::Scene& scene, const DrivableArea& area, const satp::PredictionSet& prediction,
+              const satp::KinematicSet& others, const Parameters& parameters, int row, HeatMap& map);
 
-}  // namespace s4tp
+}  // namespace s4tp::sadrf

@@ -2,7 +2,7 @@
 
 #include "algo/core/inline.hpp"
 
-namespace s4tp {
+namespace s4tp::sadrf {
 namespace {
 
 constexpr int kWindow = 3;  // steps
@@ -14,16 +14,16 @@ int first_of_window(int step) {
 
 }  // namespace
 
-Point moved_at(const Mode& mode, int step) {
+Point moved_at(const satp::Mode& mode, int step) {
   const int first = first_of_window(step);
   return position(mode.steps[first + kWindow]) - position(mode.steps[first]);
 }
 
-RecentMotion motion_at(const Mode& mode, int step) {
+RecentMotion motion_at(const satp::Mode& mode, int step) {
   return motion_at(mode, step, moved_at(mode, step));
 }
 
-RecentMotion motion_at(const Mode& mode, int step, Point moved) {
+RecentMotion motion_at(const satp::Mode& mode, int step, Point moved) {
   constexpr float kShortestM = 0.5F;
   constexpr float kSharpest_1pm = 0.2F;
   const int first = first_of_window(step);
@@ -42,4 +42,4 @@ Field field_of_other(const FieldParams& params, const Pose& centre, const Recent
   return prepare_field(params, rear_axle, ahead, motion.speed_mps, motion.curvature_1pm, steering_rad);
 }
 
-}  // namespace s4tp
+}  // namespace s4tp::sadrf

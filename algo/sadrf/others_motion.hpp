@@ -4,7 +4,7 @@
 #include "algo/sadrf/field.hpp"
 #include "algo/satp/prediction.hpp"
 
-namespace s4tp {
+namespace s4tp::sadrf {
 
 inline constexpr float kMotionWindowS = 0.3F;
 
@@ -15,15 +15,15 @@ struct RecentMotion {
 };
 
 /// How far the box centre moves in those 0.3 s. \param step  index into mode.steps
-[[nodiscard]] Point moved_at(const Mode& mode, int step);
+[[nodiscard]] Point moved_at(const satp::Mode& mode, int step);
 
-[[nodiscard]] RecentMotion motion_at(const Mode& mode, int step);
+[[nodiscard]] RecentMotion motion_at(const satp::Mode& mode, int step);
 /// \param moved  moved_at() of the same
-[[nodiscard]] RecentMotion motion_at(const Mode& mode, int step, Point moved);
+[[nodiscard]] RecentMotion motion_at(const satp::Mode& mode, int step, Point moved);
 
 /// The field of the driver of a vehicle of `length_m`: wheelbase 0.6 x length, rear axle 0.3 x length behind
 /// the box centre (method.md 3).
 [[nodiscard]] Field field_of_other(const FieldParams& params, const Pose& centre, const RecentMotion& motion,
                                    float length_m);
 
-}  // namespace s4tp
+}  // namespace s4tp::sadrf

@@ -3,7 +3,7 @@
 #include "algo/core/inline.hpp"
 #include "algo/trajectory/bicycle.hpp"
 
-namespace s4tp {
+namespace s4tp::sadrf {
 namespace {
 
 constexpr float kDeeperM = 0.3F;       // boxes that touch from the start count once this much deeper
@@ -15,7 +15,9 @@ constexpr float kShareKept = 0.5F;     // of a gap that was below the margin fro
 class OwnBoxes {
  public:
   OwnBoxes(const Trajectory& trajectory, const Parameters& parameters)
-      : trajectory_(trajectory), vehicle_(parameters.vehicle), centre_m_(rear_axle_to_centre_m(parameters)) {
+      : trajectory_(trajectory),
+        vehicle_(parameters.vehicle),
+        centre_m_(trajectory::rear_axle_to_centre_m(parameters)) {
     float longest_m2 = 0.0F;
     for (int i = 1; i < kTrajectoryPoints; ++i) {
       const Point moved = rear_axle(i) - rear_axle(i - 1);
@@ -80,7 +82,7 @@ class OwnBoxes {
 static_assert(kTrajectoryPoints <= 32);
 
 /// \param looks  out: steps that were looked at closely
-int first_collision(OwnBoxes& own, const Mode& mode, const Track& track, int steps, float margin_m,
+int first_collision(OwnBoxes& own, const satp::Mode& mode, const Track& track, int steps, float margin_m,
                     int& looks) {
   const float reach_m = own.reach_m(track, margin_m);
   const float half_diagonal_m = 0.5F * norm({track.length_m, track.width_m});
@@ -111,21 +113,21 @@ int first_collision(OwnBoxes& own, const Mode& mode, const Track& track, int ste
 
 }  // namespace
 
-int first_collision(const Trajectory& trajectory, const Mode& mode, const Track& track, int steps,
+int first_collision(const Trajectory& trajectory, const satp::Mode& mode, const Track& track, int steps,
                     float margin_m, const Parameters& parameters) {
   OwnBoxes own(trajectory, parameters);
   int looks = 0;
   return first_collision(own, mode, track, steps, margin_m, looks);
 }
 
-float expected_collisions(const Scene& scene, const PredictionSet& prediction, const Trajectory& trajectory,
-                          const Parameters& parameters, WorkMeter& work) {
+float expected_collisions(const scene::Scene& scene, const satp::PredictionSet& prediction,
+                          const Trajectory& trajectory, const Parameters& parameters, WorkMeter& work) {
   OwnBoxes own(trajectory, parameters);
   float expected = 0.0F;
   int looks = 0;
-  for (const AgentPrediction& predicted : prediction.agents) {
+  for (const satp::AgentPrediction& predicted : prediction.agents) {
     const Track& track = scene.agents[predicted.agent].track;
-    for (const Mode& mode : predicted.modes) {
+    for (const satp::Mode& mode : predicted.modes) {
       if (first_collision(own, mode, track, kHorizonSteps, 0.0F, looks) >= 0)
         expected = expected + mode.probability;
     }
@@ -134,4 +136,4 @@ float expected_collisions(const Scene& scene, const PredictionSet& prediction, c
   return expected;
 }
 
-}  // namespace s4tp
+}  // namespace s4tp::sadrf

@@ -2,7 +2,7 @@
 
 #include "algo/core/inline.hpp"
 
-namespace s4tp {
+namespace s4tp::sadrf {
 
 PathCoordinates path_coordinates(float curvature_1pm, float x_m, float y_m) {
   constexpr float kAtCentre = 1e-6F;  // q there: the centre of the turn has no foot
@@ -24,4 +24,4 @@ PathCoordinates path_coordinates(float curvature_1pm, float x_m, float y_m) {
   return {s_m, e_m, q, u / q, w / q};
 }
 
-}  // namespace s4tp
+}  // namespace s4tp::sadrf

@@ -12,7 +12,7 @@
 /// \endcode
 /// Source: method.md 3; smooth through straight driving.
 
-namespace s4tp {
+namespace s4tp::sadrf {
 
 struct PathCoordinates {
   float s_m;
@@ -24,4 +24,4 @@ struct PathCoordinates {
 
 [[nodiscard]] PathCoordinates path_coordinates(float curvature_1pm, float x_m, float y_m);
 
-}  // namespace s4tp
+}  // namespace s4tp::sadrf

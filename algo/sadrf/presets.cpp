@@ -2,7 +2,7 @@
 
 #include "algo/sadrf/field.hpp"
 
-namespace s4tp {
+namespace s4tp::sadrf {
 
 void choose_risk(FieldPreset preset, LookAhead look_ahead, Parameters& parameters) {
   // 95th percentile of R_obs(t) along collision-free drives of the traffic's own drivers (`s4tp risk
@@ -20,4 +20,4 @@ void choose_risk(FieldPreset preset, LookAhead look_ahead, Parameters& parameter
   risk.threshold = kThresholds[paper ? 0 : 1][look_ahead == LookAhead::kShrinking ? 0 : 1];
 }
 
-}  // namespace s4tp
+}  // namespace s4tp::sadrf

@@ -4,7 +4,7 @@
 
 #include "algo/core/parameters.hpp"
 
-namespace s4tp {
+namespace s4tp::sadrf {
 
 enum class FieldPreset : std::uint8_t { kPaper = 0, kKolekar2020 = 1 };
 
@@ -17,4 +17,4 @@ enum class LookAhead : std::uint8_t {
 /// pair (kPaper, kShrinking) is what Parameters{} holds.
 void choose_risk(FieldPreset preset, LookAhead look_ahead, Parameters& parameters);
 
-}  // namespace s4tp
+}  // namespace s4tp::sadrf

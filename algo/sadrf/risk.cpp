@@ -5,7 +5,7 @@
 #include "algo/sadrf/road_risk.hpp"
 #include "algo/sadrf/step_risk.hpp"
 
-namespace s4tp {
+namespace s4tp::sadrf {
 namespace {
 
 constexpr int kRankStride = 3;
@@ -42,15 +42,15 @@ float risk_integral(const RiskProfile& profile, const Parameters& parameters) {
   return kStepS * sum;
 }
 
-void exact_risk(const Scene& scene, const DrivableArea& area, const PredictionSet& prediction,
-                const KinematicSet& others, const Trajectory& trajectory, const Parameters& parameters,
+void exact_risk(const scene::Scene& scene, const DrivableArea& area, const satp::PredictionSet& prediction,
+                const satp::KinematicSet& others, const Trajectory& trajectory, const Parameters& parameters,
                 RiskProfile& profile) {
   WorkMeter unbounded{1'000'000'000};
   exact_risk(scene, area, prediction, others, trajectory, parameters, profile, unbounded);
 }
 
-void exact_risk(const Scene& scene, const DrivableArea& area, const PredictionSet& prediction,
-                const KinematicSet& others, const Trajectory& trajectory, const Parameters& parameters,
+void exact_risk(const scene::Scene& scene, const DrivableArea& area, const satp::PredictionSet& prediction,
+                const satp::KinematicSet& others, const Trajectory& trajectory, const Parameters& parameters,
                 RiskProfile& profile, WorkMeter& work) {
   const Futures futures = all_modes(scene, prediction, others);
   const std::int32_t least = least_work(futures.size());
@@ -84,9 +84,9 @@ void exact_risk(const Scene& scene, const DrivableArea& area, const PredictionSe
   profile.dominating_step = dominating.step;
 }
 
-void smooth_risk(const Scene& scene, const PredictionSet& prediction, const KinematicSet& others,
-                 const Trajectory& trajectory, const Parameters& parameters, int first, int stride,
-                 SmoothRisk (&risks)[kHorizonSteps]) {
+void smooth_risk(const scene::Scene& scene, const satp::PredictionSet& prediction,
+                 const satp::KinematicSet& others, const Trajectory& trajectory, const Parameters& parameters,
+                 int first, int stride, SmoothRisk (&risks)[kHorizonSteps]) {
   constexpr float kBlend = 0.1F;  // of the threshold: where the excess goes over into a straight line
   const Futures futures = all_modes(scene, prediction, others);
   StepInputs inputs = step_inputs(scene, futures, trajectory, parameters, Precision::kLines);
@@ -111,12 +111,13 @@ void smooth_risk(const Scene& scene, const PredictionSet& prediction, const Kine
   }
 }
 
-std::int32_t least_rank_work(const Scene& scene) {
+std::int32_t least_rank_work(const scene::Scene& scene) {
   return kLeastRoadWork + kRankSteps * least_work(scene.agents.size());
 }
 
-float rank_risk_of_vehicles(const Scene& scene, const PredictionSet& prediction, const KinematicSet& others,
-                            const Trajectory& trajectory, const Parameters& parameters, WorkMeter& work) {
+float rank_risk_of_vehicles(const scene::Scene& scene, const satp::PredictionSet& prediction,
+                            const satp::KinematicSet& others, const Trajectory& trajectory,
+                            const Parameters& parameters, WorkMeter& work) {
   Futures futures = all_modes(scene, prediction, others);
   keep_likeliest(futures);
   const StepInputs inputs = step_inputs(scene, futures, trajectory, parameters, Precision::kLines);
@@ -142,4 +143,4 @@ float rank_risk_of_road(const DrivableArea& area, const Trajectory& trajectory, 
   return static_cast<float>(kRankStride) * kStepS * sum;
 }
 
-}  // namespace s4tp
+}  // namespace s4tp::sadrf

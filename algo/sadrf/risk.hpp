@@ -12,7 +12,7 @@
 #include "algo/satp/prediction.hpp"
 #include "algo/scene/scene.hpp"
 
-namespace s4tp {
+namespace s4tp::sadrf {
 
 /// Risk per future step, parts kept apart; index i is step i + 1 of the trajectory.
 struct RiskProfile {
@@ -29,25 +29,25 @@ struct RiskProfile {
 /// CORE-062 All modes and steps, both sides. Modes of one vehicle add by probability; where boxes of several
 /// vehicles overlap, the dearest covers the others. `others` covers agents beyond the predicted ones.
 /// \param area  of scene.map, built once a cycle
-void exact_risk(const Scene& scene, const DrivableArea& area, const PredictionSet& prediction,
-                const KinematicSet& others, const Trajectory& trajectory, const Parameters& parameters,
+void exact_risk(const scene::Scene& scene, const DrivableArea& area, const satp::PredictionSet& prediction,
+                const satp::KinematicSet& others, const Trajectory& trajectory, const Parameters& parameters,
                 RiskProfile& profile);
 /// The same within `work`, of which it spends no more than kLeastExactWork or what there is. CORE-075 Every third step
 /// comes first; those not reached any more have the risk of the nearest that was, and what is left for one
 /// that cannot be precise (CORE-074) is enough for two lines through each box.
-void exact_risk(const Scene& scene, const DrivableArea& area, const PredictionSet& prediction,
-                const KinematicSet& others, const Trajectory& trajectory, const Parameters& parameters,
+void exact_risk(const scene::Scene& scene, const DrivableArea& area, const satp::PredictionSet& prediction,
+                const satp::KinematicSet& others, const Trajectory& trajectory, const Parameters& parameters,
                 RiskProfile& profile, WorkMeter& work);
 
 /// CORE-063 Cheap approximation of risk_integral for ranking: likeliest mode, every third step, culled by
 /// distance. In two parts, both >= 0: of the vehicles, and of the road.
-[[nodiscard]] float rank_risk_of_vehicles(const Scene& scene, const PredictionSet& prediction,
-                                          const KinematicSet& others, const Trajectory& trajectory,
+[[nodiscard]] float rank_risk_of_vehicles(const scene::Scene& scene, const satp::PredictionSet& prediction,
+                                          const satp::KinematicSet& others, const Trajectory& trajectory,
                                           const Parameters& parameters, WorkMeter& work);
 [[nodiscard]] float rank_risk_of_road(const DrivableArea& area, const Trajectory& trajectory,
                                       const Parameters& parameters, WorkMeter& work);
 /// Of the ranking of one candidate, both parts, where there is no work left for more.
-[[nodiscard]] std::int32_t least_rank_work(const Scene& scene);
+[[nodiscard]] std::int32_t least_rank_work(const scene::Scene& scene);
 
 /// The risk at one point of a trajectory, and how it changes with that point.
 struct SmoothRisk {
@@ -61,8 +61,8 @@ struct SmoothRisk {
 /// is where there is no risk. Steps `first`, `first` + `stride`, ... are written. The road part follows the
 /// whole path and has no slope of one point. \param risks  index i: point i + 1 Work: about 6,000
 /// instructions a box in reach.
-void smooth_risk(const Scene& scene, const PredictionSet& prediction, const KinematicSet& others,
-                 const Trajectory& trajectory, const Parameters& parameters, int first, int stride,
-                 SmoothRisk (&risks)[kHorizonSteps]);
+void smooth_risk(const scene::Scene& scene, const satp::PredictionSet& prediction,
+                 const satp::KinematicSet& others, const Trajectory& trajectory, const Parameters& parameters,
+                 int first, int stride, SmoothRisk (&risks)[kHorizonSteps]);
 
-}  // namespace s4tp
+}  // namespace s4tp::sadrf

@@ -5,7 +5,7 @@
 #include "algo/sadrf/box_integral.hpp"
 #include "algo/sadrf/field.hpp"
 
-namespace s4tp {
+namespace s4tp::sadrf {
 namespace {
 
 constexpr int kSpacing = 3;    // trajectory points from station to station
@@ -158,4 +158,4 @@ void road_risk(const DrivableArea& area, const Trajectory& trajectory, const Par
   }
 }
 
-}  // namespace s4tp
+}  // namespace s4tp::sadrf

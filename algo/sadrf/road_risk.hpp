@@ -8,7 +8,7 @@
 #include "algo/core/work_meter.hpp"
 #include "algo/sadrf/drivable.hpp"
 
-namespace s4tp {
+namespace s4tp::sadrf {
 
 /// Road risk at points `first`, `first` + `stride`, ... of the trajectory, written to road[point - 1]; the
 /// other elements stay as they are. Beyond its last one the path goes on with its last curvature, for the
@@ -18,4 +18,4 @@ void road_risk(const DrivableArea& area, const Trajectory& trajectory, const Par
 /// What it takes in any case.
 inline constexpr std::int32_t kLeastRoadWork = 200;
 
-}  // namespace s4tp
+}  // namespace s4tp::sadrf

@@ -4,7 +4,7 @@
 #include "algo/sadrf/box_integral.hpp"
 #include "algo/sadrf/others_motion.hpp"
 
-namespace s4tp {
+namespace s4tp::sadrf {
 namespace {
 
 /// Below, a fifth of a risk off (the worst of two lines) is nothing beside a threshold of many thousands.
@@ -237,7 +237,7 @@ FieldGradient by_the_box(const FieldGradient& by_field, Point field_origin, Poin
 
 }  // namespace
 
-StepInputs step_inputs(const Scene& scene, const Futures& futures, const Trajectory& trajectory,
+StepInputs step_inputs(const scene::Scene& scene, const Futures& futures, const Trajectory& trajectory,
                        const Parameters& parameters, Precision precision) {
   const FieldParams params = field_params(parameters, parameters.vehicle.width_m);
   StepInputs inputs = {scene, futures, trajectory, parameters, precision, params, {}};
@@ -296,4 +296,4 @@ StepSlope slope_at(const StepInputs& inputs, int step, CostBoxes& boxes) {
   return slope;
 }
 
-}  // namespace s4tp
+}  // namespace s4tp::sadrf

@@ -8,7 +8,7 @@
 #include "algo/sadrf/cost_map.hpp"
 #include "algo/sadrf/futures.hpp"
 
-namespace s4tp {
+namespace s4tp::sadrf {
 
 /// How well a field is integrated over a box.
 enum class Precision : std::uint8_t {
@@ -18,7 +18,7 @@ enum class Precision : std::uint8_t {
 
 /// What all steps of one trajectory share.
 struct StepInputs {
-  const Scene& scene;
+  const scene::Scene& scene;
   const Futures& futures;
   const Trajectory& trajectory;
   const Parameters& parameters;
@@ -27,8 +27,9 @@ struct StepInputs {
   float modulation[kMaxTracks];  ///< g of each agent
 };
 
-[[nodiscard]] StepInputs step_inputs(const Scene& scene, const Futures& futures, const Trajectory& trajectory,
-                                     const Parameters& parameters, Precision precision);
+[[nodiscard]] StepInputs step_inputs(const scene::Scene& scene, const Futures& futures,
+                                     const Trajectory& trajectory, const Parameters& parameters,
+                                     Precision precision);
 
 struct StepRisk {
   float obstacle = 0.0F;    ///< R_ego of the vehicles
@@ -56,4 +57,4 @@ struct StepSlope {
 /// 20 have no slope. Work: about 6,000 instructions a box in reach.
 [[nodiscard]] StepSlope slope_at(const StepInputs& inputs, int step, CostBoxes& boxes);
 
-}  // namespace s4tp
+}  // namespace s4tp::sadrf

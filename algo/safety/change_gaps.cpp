@@ -2,7 +2,7 @@
 
 #include "algo/core/inline.hpp"
 
-namespace s4tp {
+namespace s4tp::safety {
 
 namespace {
 constexpr float kShare = 0.8F;  // of the fail-safe's braking: leaves room ahead and behind alike
@@ -27,4 +27,4 @@ float change_gap_to_follower_m(float own_mps, float follower_mps, const Paramete
   return kChangeStandingGapM + max(0.0F, its_stop_m - own_stop_m);
 }
 
-}  // namespace s4tp
+}  // namespace s4tp::safety

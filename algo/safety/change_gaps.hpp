@@ -4,7 +4,7 @@
 
 #include "algo/core/parameters.hpp"
 
-namespace s4tp {
+namespace s4tp::safety {
 
 inline constexpr float kChangeStandingGapM = 1.0F;  ///< to either, when both stand
 
@@ -14,4 +14,4 @@ inline constexpr float kChangeStandingGapM = 1.0F;  ///< to either, when both st
 /// Least gap [m] to a follower that brakes with rss b_min, rss rho after we are over the line.
 [[nodiscard]] float change_gap_to_follower_m(float own_mps, float follower_mps, const Parameters& parameters);
 
-}  // namespace s4tp
+}  // namespace s4tp::safety

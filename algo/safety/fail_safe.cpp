@@ -26,9 +26,9 @@ float way_driven_m(const Plan& plan, std::uint32_t time_ms) {
 void along_plan(const Plan& running, const TrajectoryPoint& start, std::uint32_t start_ms, float branch_s,
                 float braking_mps2, const Parameters& parameters, Trajectory& trajectory) {
   const Point beside = position(start.rear_axle) - position(sample(running, start_ms).rear_axle);
-  PathWalk walk(running.trajectory);
+  trajectory::PathWalk walk(running.trajectory);
   float way_m = way_driven_m(running, start_ms);
-  LongitudinalState state{0.0F, start.speed_mps, start.acceleration_mps2};
+  trajectory::LongitudinalState state{0.0F, start.speed_mps, start.acceleration_mps2};
   trajectory.points[0] = start;
   for (int i = 1; i < kTrajectoryPoints; ++i) {
     const float time_s = static_cast<float>(i) * kStepS;
@@ -37,7 +37,7 @@ void along_plan(const Plan& running, const TrajectoryPoint& start, std::uint32_t
     const float slower_mps = sample(running, now_ms).speed_mps - state.speed_mps;
     const float planned_mps2 = sample(running, now_ms + kStepMs).acceleration_mps2;
     const float wanted_mps2 = drives_on ? planned_mps2 + kSpeedGain1ps * slower_mps : -braking_mps2;
-    const float step_m = advance(wanted_mps2, parameters, state);
+    const float step_m = trajectory::advance(wanted_mps2, parameters, state);
     TrajectoryPoint& point = trajectory.points[i];
     point = trajectory.points[i - 1];
     if (step_m > 0.0F) {
@@ -54,7 +54,7 @@ void along_plan(const Plan& running, const TrajectoryPoint& start, std::uint32_t
 void as_steered(const TrajectoryPoint& start, float braking_mps2, Trajectory& trajectory) {
   trajectory.points[0] = start;
   for (int i = 1; i < kTrajectoryPoints; ++i) {
-    trajectory.points[i] = bicycle_step(trajectory.points[i - 1], -braking_mps2, 0.0F, kStepS);
+    trajectory.points[i] = trajectory::bicycle_step(trajectory.points[i - 1], -braking_mps2, 0.0F, kStepS);
   }
 }
 

@@ -84,7 +84,7 @@ void Guard::commit(int path, const Verdict& verdict) {
   latched_.clear();
   if (!verdict.clears || path < 0 || path >= scene_->ego_paths.size()) return;
   // Groups further on are not entered yet: what holds there now need not hold then.
-  const EgoPath& way = scene_->ego_paths[path];
+  const scene::EgoPath& way = scene_->ego_paths[path];
   for (int z = 0; z < way.zones.size() && z < verdict.cleared_end; ++z) {
     for (int i = 0; i < scene_->agents.size(); ++i) {
       const Latch latch{scene_->agents[i].track.id, way.zones[z].other_lane};
@@ -133,9 +133,9 @@ bool Guard::followers_can_brake(const Sight& sight, const Own& own, float brakes
   return true;
 }
 
-bool Guard::passes_threat(const EgoPath& path, const Sight& sight, const Threat& threat, const Own& own,
-                          Verdict& verdict) const {
-  const ConflictZone& zone = path.zones[threat.zone];
+bool Guard::passes_threat(const scene::EgoPath& path, const Sight& sight, const Threat& threat,
+                          const Own& own, Verdict& verdict) const {
+  const scene::ConflictZone& zone = path.zones[threat.zone];
   const ZoneOccupancy& when = threat.when;
   if (when.claim != Claim::kMayCome) return true;
   float cap_mps = 0.0F;
@@ -195,8 +195,8 @@ bool Guard::leaves_in_time(const ZoneGroup& group, const Own& own) const {
   return !goes_through_;
 }
 
-bool Guard::passes_group(const EgoPath& path, const Sight& sight, const ZoneGroup& group, const Own& own,
-                         Verdict& verdict) const {
+bool Guard::passes_group(const scene::EgoPath& path, const Sight& sight, const ZoneGroup& group,
+                         const Own& own, Verdict& verdict) const {
   const bool inside = own.s_m[0] > group.entry_s_m;
   const bool entered = inside || (goes_through_ && sight.stop_s_m > group.stop_s_m);
   const bool stands = own.end_s_m() < group.exit_s_m && own.speed_mps[kHorizonSteps] < kStandingMps;
@@ -219,7 +219,7 @@ bool Guard::passes_group(const EgoPath& path, const Sight& sight, const ZoneGrou
   const float bound_s_m = own.at_once_s_m(parameters_->vehicle.braking_max_mps2);
   for (const Threat& threat : sight.threats) {
     if (threat.zone < group.first || threat.zone >= group.end) continue;
-    const ConflictZone& zone = path.zones[threat.zone];
+    const scene::ConflictZone& zone = path.zones[threat.zone];
     if (own.s_m[0] > zone.exit_s_m) continue;
     Verdict refused = verdict;
     if (passes_threat(path, sight, threat, own, refused)) continue;
@@ -235,13 +235,13 @@ bool Guard::passes_group(const EgoPath& path, const Sight& sight, const ZoneGrou
   return true;
 }
 
-bool Guard::stops_short(const EgoPath& path, const Sight& sight, const ZoneGroup& group,
+bool Guard::stops_short(const scene::EgoPath& path, const Sight& sight, const ZoneGroup& group,
                         const Own& own) const {
   const float stop_s_m = own.stop_s_m(parameters_->guard.braking_mps2);
   const float bound_s_m = own.at_once_s_m(parameters_->vehicle.braking_max_mps2);
   for (const Threat& threat : sight.threats) {
     if (threat.zone < group.first || threat.zone >= group.end) continue;
-    const ConflictZone& zone = path.zones[threat.zone];
+    const scene::ConflictZone& zone = path.zones[threat.zone];
     const bool stands_there = own.s_m[0] <= zone.exit_s_m && stop_s_m > zone.entry_s_m;
     // D2 binds the others to ground we are on, or cannot stay out of; to no more.
     const bool ours = bound_s_m > zone.entry_s_m;
@@ -257,7 +257,7 @@ Verdict Guard::judge(int path_index, const Trajectory& trajectory) const {
     verdict.cause = Cause::kNoPath;
     return verdict;
   }
-  const EgoPath& path = scene_->ego_paths[path_index];
+  const scene::EgoPath& path = scene_->ego_paths[path_index];
   const Sight& sight = sights_[path_index];
   const auto& guard = parameters_->guard;
   Own own;

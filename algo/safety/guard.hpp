@@ -75,7 +75,8 @@ class Guard {
  public:
   /// Looks at the scene once a cycle. \param start  where plans begin, `lead_s` after the scene's time.
   /// The scene must outlive the judging.
-  void look(const Scene& scene, const TrajectoryPoint& start, float lead_s, const Parameters& parameters);
+  void look(const scene::Scene& scene, const TrajectoryPoint& start, float lead_s,
+            const Parameters& parameters);
 
   /// \param path_index  of the ego path the trajectory follows \pre look() was called this cycle
   /// \note bounded work: steps + vehicles at the path's zones
@@ -95,7 +96,7 @@ class Guard {
 
  private:
   static constexpr int kMostThreats = 32;  ///< of one path; more: the zone counts as taken
-  static constexpr int kPaths = decltype(Scene::ego_paths)::kCapacity;
+  static constexpr int kPaths = decltype(scene::Scene::ego_paths)::kCapacity;
 
   /// A vehicle that may be in a zone of the path.
   struct Threat {
@@ -134,30 +135,31 @@ class Guard {
   struct Own;
 
   void look_at_path(int path_index);
-  void find_groups(const EgoPath& path, Sight& sight) const;
-  void find_threats(const EgoPath& path, const occupancy::LaneReach (&reach)[kMaxTracks], Sight& sight) const;
+  void find_groups(const scene::EgoPath& path, Sight& sight) const;
+  void find_threats(const scene::EgoPath& path, const occupancy::LaneReach (&reach)[kMaxTracks],
+                    Sight& sight) const;
   // guard_unseen.cpp
   void look_beyond(const occupancy::LaneReach (&reach)[kMaxTracks]);
   void expect_from(LaneIndex lane, float s_m, const occupancy::LaneReach (&reach)[kMaxTracks]);
-  void expect_ahead(const EgoPath& path, Sight& sight) const;
-  [[nodiscard]] bool held_back(const Sight& sight, int zone, const ConflictZone& ground,
+  void expect_ahead(const scene::EgoPath& path, Sight& sight) const;
+  [[nodiscard]] bool held_back(const Sight& sight, int zone, const scene::ConflictZone& ground,
                                const occupancy::LaneReach& straight_on,
                                const occupancy::LaneReach (&reach)[kMaxTracks], ZoneOccupancy& when) const;
   [[nodiscard]] bool is_behind(const ZoneOccupancy (&when)[kMaxTracks], int index) const;
   [[nodiscard]] bool is_latched(std::uint8_t track, LaneIndex lane) const;
-  [[nodiscard]] bool passes_group(const EgoPath& path, const Sight& sight, const ZoneGroup& group,
+  [[nodiscard]] bool passes_group(const scene::EgoPath& path, const Sight& sight, const ZoneGroup& group,
                                   const Own& own, Verdict& verdict) const;
-  [[nodiscard]] bool passes_threat(const EgoPath& path, const Sight& sight, const Threat& threat,
+  [[nodiscard]] bool passes_threat(const scene::EgoPath& path, const Sight& sight, const Threat& threat,
                                    const Own& own, Verdict& verdict) const;
   /// Whether the fail-safe stands where nobody comes who cannot stop for it.
-  [[nodiscard]] bool stops_short(const EgoPath& path, const Sight& sight, const ZoneGroup& group,
+  [[nodiscard]] bool stops_short(const scene::EgoPath& path, const Sight& sight, const ZoneGroup& group,
                                  const Own& own) const;
   /// Whether a plan that cannot stay out of the group any more is out of it no later than it was to be.
   [[nodiscard]] bool leaves_in_time(const ZoneGroup& group, const Own& own) const;
   [[nodiscard]] bool followers_can_brake(const Sight& sight, const Own& own, float brakes_from_s,
                                          float braking_mps2, Verdict& verdict) const;
 
-  const Scene* scene_ = nullptr;
+  const scene::Scene* scene_ = nullptr;
   const Parameters* parameters_ = nullptr;
   TrajectoryPoint start_;
   float lead_s_ = 0.0F;

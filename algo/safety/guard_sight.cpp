@@ -16,14 +16,14 @@ constexpr int kCapSamples = 4;
 
 }  // namespace
 
-void Guard::look(const Scene& scene, const TrajectoryPoint& start, float lead_s,
+void Guard::look(const scene::Scene& scene, const TrajectoryPoint& start, float lead_s,
                  const Parameters& parameters) {
   scene_ = &scene;
   parameters_ = &parameters;
   start_ = start;
   lead_s_ = lead_s;
-  centre_m_ = rear_axle_to_centre_m(parameters);
-  front_m_ = rear_axle_to_front_m(parameters);
+  centre_m_ = trajectory::rear_axle_to_centre_m(parameters);
+  front_m_ = trajectory::rear_axle_to_front_m(parameters);
   if (scene.map == nullptr) return;
   occupancy::LaneReach reach[kMaxTracks];
   for (int i = 0; i < scene.agents.size(); ++i) reach[i].measure(*scene.map, scene.agents[i]);
@@ -35,23 +35,25 @@ void Guard::look(const Scene& scene, const TrajectoryPoint& start, float lead_s,
 }
 
 void Guard::look_at_path(int path_index) {
-  const EgoPath& path = scene_->ego_paths[path_index];
+  const scene::EgoPath& path = scene_->ego_paths[path_index];
   Sight& sight = sights_[path_index];
   sight = Sight{};
-  sight.start_s_m = project(*scene_->map, path.path, position(start_.rear_axle), path.frenet.s_m, 15.0F).s_m;
+  sight.start_s_m =
+      scene::project(*scene_->map, path.path, position(start_.rear_axle), path.frenet.s_m, 15.0F).s_m;
   sight.stop_s_m = sight.start_s_m + centre_m_ + parameters_->guard.takeover_s * start_.speed_mps +
                    occupancy::stopping_way_m(start_.speed_mps, parameters_->guard.braking_mps2);
-  sight.end_s_m = dead_end_s_m(*scene_, path);
-  sight.leader_stop_s_m = kNoDeadEndM;
-  const float half_lane_m = 0.5F * path_point(*scene_->map, path.path, path.frenet.s_m).width_m;
-  sight.changes = path.manoeuvre != Manoeuvre::kKeep;
+  sight.end_s_m = trajectory::dead_end_s_m(*scene_, path);
+  sight.leader_stop_s_m = trajectory::kNoDeadEndM;
+  const float half_lane_m = 0.5F * scene::path_point(*scene_->map, path.path, path.frenet.s_m).width_m;
+  sight.changes = path.manoeuvre != scene::Manoeuvre::kKeep;
   sight.half_over = abs(path.frenet.d_m) < half_lane_m;
   const float centre_s_m = path.frenet.s_m + centre_m_;
   for (int i = 0; i < scene_->agents.size(); ++i) {
-    const Agent& agent = scene_->agents[i];
+    const scene::Agent& agent = scene_->agents[i];
     bool known = false;
-    const bool joining = joins(*scene_, path, agent);
-    const OnPath seen = see_on_path(*scene_, path, agent, *parameters_, joining, known);
+    const bool joining = trajectory::joins(*scene_, path, agent);
+    const trajectory::OnPath seen =
+        trajectory::see_on_path(*scene_, path, agent, *parameters_, joining, known);
     if (!known || !(seen.overlaps || joining) || seen.crossing) continue;
     const float along_mps = max(0.0F, seen.along_mps);
     if (seen.centre_s_m > centre_s_m) {
@@ -80,9 +82,9 @@ void Guard::look_at_path(int path_index) {
   find_groups(path, sight);
 }
 
-void Guard::find_groups(const EgoPath& path, Sight& sight) const {
+void Guard::find_groups(const scene::EgoPath& path, Sight& sight) const {
   for (int i = 0; i < path.zones.size(); ++i) {  // in the order of their entries
-    const ConflictZone& zone = path.zones[i];
+    const scene::ConflictZone& zone = path.zones[i];
     const bool yields = zone.priority != Priority::kFirstHasPriority;
     if (!sight.groups.empty()) {
       ZoneGroup& last = sight.groups[sight.groups.size() - 1];
@@ -106,15 +108,15 @@ void Guard::find_groups(const EgoPath& path, Sight& sight) const {
     group.cap_mps = kNeverS;
     for (int k = 0; k < kCapSamples; ++k) {
       const float share = static_cast<float>(k) / static_cast<float>(kCapSamples - 1);
-      const PathPoint there =
-          path_point(*scene_->map, path.path, lerp(group.entry_s_m, group.exit_s_m, share));
+      const scene::PathPoint there =
+          scene::path_point(*scene_->map, path.path, lerp(group.entry_s_m, group.exit_s_m, share));
       const float bend_mps = sqrt(kCurvesMps2 / max(abs(there.curvature_1pm), 1e-3F));
       group.cap_mps = min(group.cap_mps, min(there.speed_limit_mps, bend_mps));
     }
   }
 }
 
-void Guard::find_threats(const EgoPath& path, const occupancy::LaneReach (&reach)[kMaxTracks],
+void Guard::find_threats(const scene::EgoPath& path, const occupancy::LaneReach (&reach)[kMaxTracks],
                          Sight& sight) const {
   const int count = scene_->agents.size();
   for (int z = 0; z < path.zones.size(); ++z) {
@@ -122,7 +124,7 @@ void Guard::find_threats(const EgoPath& path, const occupancy::LaneReach (&reach
     // Two who set off at once have both seen the other stand: who can still stop has not used its licence.
     const bool bound = sight.stop_s_m > path.zones[z].entry_s_m;
     for (int i = 0; i < count; ++i) {
-      const Agent& agent = scene_->agents[i];
+      const scene::Agent& agent = scene_->agents[i];
       // D3: whoever changes into the lane we merge into leaves us our distances.
       occupancy::LaneReach straight_on;
       if (path.zones[z].merging) straight_on.measure(*scene_->map, agent, false);

@@ -12,7 +12,7 @@ using occupancy::LaneReach;
 
 constexpr float kLengthM = 5.0F;  // of whom we expect: a car, as the map node takes it for its zones
 
-bool is_known(const KnownGround& known, Point place) {
+bool is_known(const scene::KnownGround& known, Point place) {
   return distance(place, known.centre) < known.radius_m;
 }
 
@@ -21,7 +21,7 @@ struct Cut {
   float in_m = 1.0F;
   float out_m = 0.0F;
 };
-Cut cut(const KnownGround& known, Point from, Point to) {
+Cut cut(const scene::KnownGround& known, Point from, Point to) {
   const float length_m = distance(from, to);
   if (!(length_m > 0.0F)) return {};
   const Point along = (1.0F / length_m) * (to - from);
@@ -36,14 +36,14 @@ Cut cut(const KnownGround& known, Point from, Point to) {
 }  // namespace
 
 void Guard::look_beyond(const LaneReach (&reach)[kMaxTracks]) {
-  const KnownGround& known = scene_->known;
+  const scene::KnownGround& known = scene_->known;
   const LaneMap& map = *scene_->map;
   for (int path = 0; path < scene_->ego_paths.size(); ++path)
     expect_ahead(scene_->ego_paths[path], sights_[path]);
   bool led_into[kMaxLanes] = {};
   for (LaneIndex index = 0; index < kMaxLanes; ++index) {
     const Lane& lane = map.lanes[index];
-    if (!usable(lane)) continue;
+    if (!scene::usable(lane)) continue;
     float start_m = 0.0F;
     for (int i = 1; i < lane.point_count; ++i) {
       const Point from = lane.points[i - 1];
@@ -59,7 +59,7 @@ void Guard::look_beyond(const LaneReach (&reach)[kMaxTracks]) {
     }
     const bool ends_known = is_known(known, lane.points[lane.point_count - 1]);
     for (const LaneIndex next : lane.successors) {
-      if (next < 0 || next >= kMaxLanes || !usable(map.lanes[next])) continue;
+      if (next < 0 || next >= kMaxLanes || !scene::usable(map.lanes[next])) continue;
       // A gap between two lanes may lie on the edge.
       const bool gap = !ends_known && is_known(known, map.lanes[next].points[0]);
       if (gap) expect_from(next, 0.0F, reach);
@@ -69,7 +69,7 @@ void Guard::look_beyond(const LaneReach (&reach)[kMaxTracks]) {
   if (map.lanes_left_out == 0) return;
   for (LaneIndex index = 0; index < kMaxLanes; ++index) {
     const Lane& lane = map.lanes[index];
-    if (led_into[index] || !usable(lane) || !is_known(known, lane.points[0])) continue;
+    if (led_into[index] || !scene::usable(lane) || !is_known(known, lane.points[0])) continue;
     // By a lane we do not know, straight from the edge.
     expect_from(index, distance(lane.points[0], known.centre) - known.radius_m, reach);
   }
@@ -77,12 +77,12 @@ void Guard::look_beyond(const LaneReach (&reach)[kMaxTracks]) {
 
 void Guard::expect_from(LaneIndex lane, float s_m, const LaneReach (&reach)[kMaxTracks]) {
   const float limit_mps = scene_->map->lanes[lane].speed_limit_mps;
-  Agent somebody;
+  scene::Agent somebody;
   somebody.track.speed_mps = limit_mps;
   somebody.track.length_m = kLengthM;
   somebody.age_ms = scene_->known.age_ms;
   somebody.lane = lane;
-  LanePath way;
+  scene::LanePath way;
   (void)way.lanes.push({lane, 0.0F});
   (void)somebody.paths.push(way);
   somebody.frenet[0].s_m = s_m;
@@ -91,10 +91,10 @@ void Guard::expect_from(LaneIndex lane, float s_m, const LaneReach (&reach)[kMax
   anyhow.measure(*scene_->map, somebody);
   straight_on.measure(*scene_->map, somebody, false);
   for (int p = 0; p < scene_->ego_paths.size(); ++p) {
-    const EgoPath& path = scene_->ego_paths[p];
+    const scene::EgoPath& path = scene_->ego_paths[p];
     Sight& sight = sights_[p];
     for (int z = 0; z < path.zones.size(); ++z) {
-      const ConflictZone& zone = path.zones[z];
+      const scene::ConflictZone& zone = path.zones[z];
       Threat threat{static_cast<std::uint8_t>(z), kUnseen, lane,
                     zone_occupancy(*scene_, somebody, zone.merging ? straight_on : anyhow, zone, lead_s_,
                                    *parameters_)};
@@ -124,8 +124,9 @@ void Guard::expect_from(LaneIndex lane, float s_m, const LaneReach (&reach)[kMax
   }
 }
 
-bool Guard::held_back(const Sight& sight, int zone, const ConflictZone& ground, const LaneReach& straight_on,
-                      const LaneReach (&reach)[kMaxTracks], ZoneOccupancy& when) const {
+bool Guard::held_back(const Sight& sight, int zone, const scene::ConflictZone& ground,
+                      const LaneReach& straight_on, const LaneReach (&reach)[kMaxTracks],
+                      ZoneOccupancy& when) const {
   for (int i = 0; i < scene_->agents.size(); ++i) {
     const LaneIndex lane = scene_->agents[i].lane;
     if (lane == kNoLaneIndex || straight_on.to_start_m(lane) >= kNoWayM) continue;
@@ -140,11 +141,11 @@ bool Guard::held_back(const Sight& sight, int zone, const ConflictZone& ground, 
   return false;
 }
 
-void Guard::expect_ahead(const EgoPath& path, Sight& sight) const {
+void Guard::expect_ahead(const scene::EgoPath& path, Sight& sight) const {
   if (sight.leader != 255) return;
-  const KnownGround& known = scene_->known;
+  const scene::KnownGround& known = scene_->known;
   const float centre_s_m = path.frenet.s_m + centre_m_;
-  for (const PathLane& part : path.path.lanes) {
+  for (const scene::PathLane& part : path.path.lanes) {
     const Lane& lane = scene_->map->lanes[part.lane];
     float start_s_m = part.start_s_m;
     for (int i = 1; i < lane.point_count; ++i) {

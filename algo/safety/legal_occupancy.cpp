@@ -29,13 +29,13 @@ float seconds(std::uint16_t time_ms) {
 }
 
 // All that is known is the last sight; from then on the law alone bounds where a vehicle can be.
-float seen_mps(const Agent& agent) {
+float seen_mps(const scene::Agent& agent) {
   return max(agent.track.speed_mps - agent.coasted_mps, 0.0F);
 }
 
 /// D1 and D2: whoever owes us the way, or finds us there by right, stops before the zone if the duty's braking
 /// does it. The response runs once: from when the vehicle was first in sight.
-bool can_stop(const Agent& agent, float to_entry_m, const Parameters& parameters) {
+bool can_stop(const scene::Agent& agent, float to_entry_m, const Parameters& parameters) {
   const auto& law = parameters.law;
   const float known_s = seconds(agent.known_ms) - seconds(agent.age_ms);
   const float response_s = max(0.0F, law.duty_response_s - max(0.0F, known_s));
@@ -53,32 +53,33 @@ bool can_stop_gently(const Pace& fastest, float to_entry_m, float unseen_s, cons
 }
 
 /// Who is not seen any more may have set off.
-bool stands(const Agent& agent, const Parameters& parameters) {
-  return agent.age_ms <= kFreshMs && agent.track.speed_mps < kStandingMps &&
+bool stands(const scene::Agent& agent, const Parameters& parameters) {
+  return agent.age_ms <= scene::kFreshMs && agent.track.speed_mps < kStandingMps &&
          agent.track.acceleration_mps2 < kSetsOffMps2 && seconds(agent.stood_ms) >= parameters.law.seen_s;
 }
 
 /// L2.
-bool stands_in_sight(const Scene& scene, const Agent& agent, const Parameters& parameters) {
+bool stands_in_sight(const scene::Scene& scene, const scene::Agent& agent, const Parameters& parameters) {
   return stands(agent, parameters) && scene.waited_s >= parameters.law.seen_s;
 }
 
 }  // namespace
 
-Pace fastest_legal(const Scene& scene, LaneIndex lane, float seen_mps, const ConflictZone& zone,
+Pace fastest_legal(const scene::Scene& scene, LaneIndex lane, float seen_mps, const scene::ConflictZone& zone,
                    const Parameters& parameters) {
   float limit_mps = scene.map->lanes[zone.other_lane].speed_limit_mps;
   if (lane != kNoLaneIndex) limit_mps = max(limit_mps, scene.map->lanes[lane].speed_limit_mps);
   return {seen_mps, parameters.law.gain_mps2, max(parameters.law.over_limit * limit_mps, seen_mps)};
 }
 
-Pace fastest_legal(const Scene& scene, const Agent& agent, const ConflictZone& zone,
+Pace fastest_legal(const scene::Scene& scene, const scene::Agent& agent, const scene::ConflictZone& zone,
                    const Parameters& parameters) {
   return fastest_legal(scene, agent.lane, seen_mps(agent), zone, parameters);
 }
 
-ZoneOccupancy zone_occupancy(const Scene& scene, const Agent& agent, const occupancy::LaneReach& reach,
-                             const ConflictZone& zone, float lead_s, const Parameters& parameters) {
+ZoneOccupancy zone_occupancy(const scene::Scene& scene, const scene::Agent& agent,
+                             const occupancy::LaneReach& reach, const scene::ConflictZone& zone, float lead_s,
+                             const Parameters& parameters) {
   ZoneOccupancy result;
   const float to_lane_m = reach.to_start_m(zone.other_lane);
   if (to_lane_m >= occupancy::kNoWayM) return result;

@@ -43,17 +43,17 @@ struct ZoneOccupancy {
 };
 
 /// Speed, gain and top speed of a vehicle that drives as fast as the law lets it to the zone's lane.
-[[nodiscard]] occupancy::Pace fastest_legal(const Scene& scene, const Agent& agent, const ConflictZone& zone,
-                                            const Parameters& parameters);
+[[nodiscard]] occupancy::Pace fastest_legal(const scene::Scene& scene, const scene::Agent& agent,
+                                            const scene::ConflictZone& zone, const Parameters& parameters);
 
 /// The same for one that was last seen at `seen_mps` on `lane`, or on none.
-[[nodiscard]] occupancy::Pace fastest_legal(const Scene& scene, LaneIndex lane, float seen_mps,
-                                            const ConflictZone& zone, const Parameters& parameters);
+[[nodiscard]] occupancy::Pace fastest_legal(const scene::Scene& scene, LaneIndex lane, float seen_mps,
+                                            const scene::ConflictZone& zone, const Parameters& parameters);
 
 /// \param reach  measured for the agent
 /// \param lead_s  plan start after the scene's time
-[[nodiscard]] ZoneOccupancy zone_occupancy(const Scene& scene, const Agent& agent,
-                                           const occupancy::LaneReach& reach, const ConflictZone& zone,
+[[nodiscard]] ZoneOccupancy zone_occupancy(const scene::Scene& scene, const scene::Agent& agent,
+                                           const occupancy::LaneReach& reach, const scene::ConflictZone& zone,
                                            float lead_s, const Parameters& parameters);
 
 }  // namespace s4tp::safety

@@ -2,7 +2,7 @@
 
 #include "algo/core/inline.hpp"
 
-namespace s4tp {
+namespace s4tp::satp {
 namespace {
 
 constexpr float kTwoSqrtAB = 4.472136F;  // 2 sqrt(a b), b = 2.5 m/s^2
@@ -29,4 +29,4 @@ float kept_headway_s(float gap_m, float speed_mps) {
   return clamp((gap_m - kStandstillGapM) / max(speed_mps, 1.0F), kShortestHeadwayS, kUsualHeadwayS);
 }
 
-}  // namespace s4tp
+}  // namespace s4tp::satp

@@ -2,7 +2,7 @@
 /// The intelligent driver model (Treiber et al. 2000): how a driver accelerates on an open road and behind
 /// somebody.
 
-namespace s4tp {
+namespace s4tp::satp {
 
 /// Strongest acceleration [m/s^2].
 inline constexpr float kAccelerationMps2 = 2.0F;
@@ -22,4 +22,4 @@ inline constexpr float kStandstillGapM = 2.5F;
 /// Drivers keep the headway they have: what the model takes for a driver now `gap_m` behind, 0.4 .. 1.3 s.
 [[nodiscard]] float kept_headway_s(float gap_m, float speed_mps);
 
-}  // namespace s4tp
+}  // namespace s4tp::satp

@@ -3,7 +3,7 @@
 #include "algo/core/inline.hpp"
 #include "algo/satp/car_following.hpp"
 
-namespace s4tp {
+namespace s4tp::satp {
 namespace {
 
 constexpr float kSideMarginM = 0.3F;     // between boxes side by side
@@ -17,7 +17,8 @@ static_assert(kStepsPerKnot * (kEgoKnots - 1) == kHorizonSteps, "the knots span 
 
 }  // namespace
 
-EgoMotion::EgoMotion(const Scene& scene, const Parameters& parameters, float lead_s, const Trajectory* plan)
+EgoMotion::EgoMotion(const scene::Scene& scene, const Parameters& parameters, float lead_s,
+                     const Trajectory* plan)
     : scene_(scene), parameters_(parameters), plan_(plan) {
   const float ahead_m = 0.5F * parameters.vehicle.length_m - parameters.vehicle.rear_overhang_m;
   if (plan != nullptr) {
@@ -37,23 +38,24 @@ EgoMotion::EgoMotion(const Scene& scene, const Parameters& parameters, float lea
 
   // Of our paths the one the motion ends on; without a plan the one we are on.
   float least_m = 1e6F;
-  for (const EgoPath& ego_path : scene.ego_paths) {
-    if (plan == nullptr && ego_path.manoeuvre != Manoeuvre::kKeep) continue;
+  for (const scene::EgoPath& ego_path : scene.ego_paths) {
+    if (plan == nullptr && ego_path.manoeuvre != scene::Manoeuvre::kKeep) continue;
     const Point end = position(plan != nullptr ? centre_[kEgoKnots - 1] : centre_[0]);
-    const Frenet frenet = project(*scene.map, ego_path.path, end, ego_path.frenet.s_m, kFarM);
+    const scene::Frenet frenet = scene::project(*scene.map, ego_path.path, end, ego_path.frenet.s_m, kFarM);
     if (abs(frenet.d_m) >= least_m) continue;
     least_m = abs(frenet.d_m);
     path_ = &ego_path;
   }
   if (path_ == nullptr) return;
-  float s_m = project(*scene.map, path_->path, position(centre_[0]), path_->frenet.s_m + ahead_m, 20.0F).s_m;
+  float s_m =
+      scene::project(*scene.map, path_->path, position(centre_[0]), path_->frenet.s_m + ahead_m, 20.0F).s_m;
   for (int i = 0; i < kEgoKnots; ++i) {
     s_m_[i] = s_m;
     if (i + 1 < kEgoKnots) s_m += 0.5F * kEgoKnotS * (speed_[i] + speed_[i + 1]);
   }
 }
 
-EgoOnPath EgoMotion::on_path(const LanePath& path, float their_s_m, const Track& track) const {
+EgoOnPath EgoMotion::on_path(const scene::LanePath& path, float their_s_m, const Track& track) const {
   EgoOnPath ego;
   if (distance(position(centre_[0]), position(track.centre)) > kFarM) return ego;
   bool there[kEgoKnots] = {};
@@ -65,7 +67,7 @@ EgoOnPath EgoMotion::on_path(const LanePath& path, float their_s_m, const Track&
     if (i < projected) {
       // Between knots we move less than the reach; the first one looks at the whole path.
       const float reach_m = i == 0 ? -1.0F : 10.0F + kEgoKnotS * speed_[i];
-      const Frenet frenet = project(*scene_.map, path, position(centre_[i]), s_m, reach_m);
+      const scene::Frenet frenet = scene::project(*scene_.map, path, position(centre_[i]), s_m, reach_m);
       s_m = frenet.s_m;
       d_m = frenet.d_m;
       turn_rad = wrap_angle(centre_[i].heading_rad - frenet.heading_rad);
@@ -95,7 +97,7 @@ EgoOnPath EgoMotion::on_path(const LanePath& path, float their_s_m, const Track&
 
 bool EgoMotion::zone_on_our_path(const PathConflict& conflict, float& entry_s_m, float& exit_s_m) const {
   if (path_ == nullptr) return false;
-  for (const PathLane& part : path_->path.lanes) {
+  for (const scene::PathLane& part : path_->path.lanes) {
     if (part.lane != conflict.our_lane) continue;
     entry_s_m = part.start_s_m + conflict.our_entry_m;
     exit_s_m = part.start_s_m + conflict.our_exit_m;
@@ -136,4 +138,4 @@ EgoPassage EgoMotion::passage(const PathConflict& conflict) const {
   return passage;
 }
 
-}  // namespace s4tp
+}  // namespace s4tp::satp

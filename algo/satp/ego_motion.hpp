@@ -7,7 +7,7 @@
 #include "algo/satp/path_hypothesis.hpp"
 #include "algo/scene/scene.hpp"
 
-namespace s4tp {
+namespace s4tp::satp {
 
 /// We on somebody's path, every kEgoKnotS from plan start.
 inline constexpr int kEgoKnots = 7;
@@ -32,11 +32,11 @@ struct EgoPassage {
 class EgoMotion {
  public:
   /// \param plan  null: we keep lane and speed (conditioned() is then false)
-  EgoMotion(const Scene& scene, const Parameters& parameters, float lead_s, const Trajectory* plan);
+  EgoMotion(const scene::Scene& scene, const Parameters& parameters, float lead_s, const Trajectory* plan);
 
   [[nodiscard]] bool conditioned() const { return plan_ != nullptr; }
   /// \param their_s_m  where the vehicle is on its path at plan start
-  [[nodiscard]] EgoOnPath on_path(const LanePath& path, float their_s_m, const Track& track) const;
+  [[nodiscard]] EgoOnPath on_path(const scene::LanePath& path, float their_s_m, const Track& track) const;
   [[nodiscard]] EgoPassage passage(const PathConflict& conflict) const;
   /// Whether our box is inside the crossing at plan start.
   [[nodiscard]] bool inside(const PathConflict& conflict) const;
@@ -44,13 +44,13 @@ class EgoMotion {
  private:
   [[nodiscard]] bool zone_on_our_path(const PathConflict& conflict, float& entry_s_m, float& exit_s_m) const;
 
-  const Scene& scene_;
+  const scene::Scene& scene_;
   const Parameters& parameters_;
   const Trajectory* plan_;
   Pose centre_[kEgoKnots];
   float speed_[kEgoKnots];
-  const EgoPath* path_ = nullptr;  ///< the one we follow
-  float s_m_[kEgoKnots];           ///< of our centre along it
+  const scene::EgoPath* path_ = nullptr;  ///< the one we follow
+  float s_m_[kEgoKnots];                  ///< of our centre along it
 };
 
-}  // namespace s4tp
+}  // namespace s4tp::satp

@@ -26,7 +26,7 @@ float centre_ahead_m(const Parameters& parameters) {
   return 0.5F * parameters.vehicle.length_m - parameters.vehicle.rear_overhang_m;
 }
 
-void fill_history(const History& history, float centre_m, const Pose& anchor,
+void fill_history(const scene::History& history, float centre_m, const Pose& anchor,
                   float (&rows)[kHistorySamples][kHistoryFeatures]) {
   for (int j = 0; j < kHistorySamples; ++j) {
     float(&row)[kHistoryFeatures] = rows[j];
@@ -34,7 +34,7 @@ void fill_history(const History& history, float centre_m, const Pose& anchor,
       for (float& value : row) value = 0.0F;
       continue;
     }
-    const History::Sample& sample = history.samples[j];
+    const scene::History::Sample& sample = history.samples[j];
     const Pose local = to_anchor(anchor, shift_ahead(sample.pose, centre_m));
     const SinCos turn = sin_cos(local.heading_rad);
     row[0] = local.x_m;
@@ -60,8 +60,8 @@ void fill_place(const Pose& frame, const Pose& pose, float speed_mps, float leng
 }
 
 // Whether a stop line lies in [from, from + spacing).
-bool stop_line_next(const LaneMap& map, const LanePath& path, float from_s_m) {
-  for (const PathLane& part : path.lanes) {
+bool stop_line_next(const LaneMap& map, const scene::LanePath& path, float from_s_m) {
+  for (const scene::PathLane& part : path.lanes) {
     const float line_m = map.lanes[part.lane].stop_line_m;
     const float line_s_m = part.start_s_m + line_m;
     if (line_m >= 0.0F && line_s_m >= from_s_m && line_s_m < from_s_m + kLaneSpacingM) return true;
@@ -69,14 +69,14 @@ bool stop_line_next(const LaneMap& map, const LanePath& path, float from_s_m) {
   return false;
 }
 
-int fill_lane(const LaneMap& map, const LanePath& path, const PathHypothesis& hypothesis, const Pose& anchor,
-              float (&rows)[kLanePoints][kLaneFeatures]) {
-  PathCursor cursor(map, path);
+int fill_lane(const LaneMap& map, const scene::LanePath& path, const PathHypothesis& hypothesis,
+              const Pose& anchor, float (&rows)[kLanePoints][kLaneFeatures]) {
+  scene::PathCursor cursor(map, path);
   int count = 0;
   for (int p = 0; p < kLanePoints; ++p) {
     const float s_m = hypothesis.start_s_m + kLaneSpacingM * static_cast<float>(p);
     if (p > 0 && s_m > path.length_m) break;
-    const PathPoint point = cursor.at(s_m);
+    const scene::PathPoint point = cursor.at(s_m);
     const Pose local = to_anchor(anchor, point.pose);
     float(&row)[kLaneFeatures] = rows[p];
     row[0] = local.x_m;
@@ -95,9 +95,9 @@ int fill_lane(const LaneMap& map, const LanePath& path, const PathHypothesis& hy
 }
 
 // Where `lane` begins on one of our paths, counted from our anchor's centre.
-bool on_our_path(const Scene& scene, LaneIndex lane, float centre_m, float& way_m) {
-  for (const EgoPath& ego_path : scene.ego_paths) {
-    for (const PathLane& part : ego_path.path.lanes) {
+bool on_our_path(const scene::Scene& scene, LaneIndex lane, float centre_m, float& way_m) {
+  for (const scene::EgoPath& ego_path : scene.ego_paths) {
+    for (const scene::PathLane& part : ego_path.path.lanes) {
       if (part.lane != lane) continue;
       way_m = part.start_s_m - ego_path.frenet.s_m - centre_m;
       return true;
@@ -106,9 +106,9 @@ bool on_our_path(const Scene& scene, LaneIndex lane, float centre_m, float& way_
   return false;
 }
 
-bool goes_on_in(const LaneMap& map, LaneIndex lane, const LanePath& path) {
+bool goes_on_in(const LaneMap& map, LaneIndex lane, const scene::LanePath& path) {
   for (const LaneIndex successor : map.lanes[lane].successors) {
-    for (const PathLane& part : path.lanes) {
+    for (const scene::PathLane& part : path.lanes) {
       if (successor != kNoLaneIndex && part.lane == successor) return true;
     }
   }
@@ -116,8 +116,9 @@ bool goes_on_in(const LaneMap& map, LaneIndex lane, const LanePath& path) {
 }
 
 // The first zone on the likeliest way that has one ahead of both of us.
-void fill_zone(const Scene& scene, const Agent& agent, const PathHypothesis (&hypotheses)[kPathsPerAgent],
-               float centre_m, float (&row)[kPairFeatures]) {
+void fill_zone(const scene::Scene& scene, const scene::Agent& agent,
+               const PathHypothesis (&hypotheses)[kPathsPerAgent], float centre_m,
+               float (&row)[kPairFeatures]) {
   for (int k = 0; k < agent.paths.size(); ++k) {
     for (const PathConflict& conflict : hypotheses[k].conflicts) {
       float lane_start_m = 0.0F;
@@ -140,7 +141,7 @@ void fill_zone(const Scene& scene, const Agent& agent, const PathHypothesis (&hy
 }
 
 // Who of the two is ahead on the other's way, bumper to bumper.
-void fill_same_way(const Scene& scene, const Parameters& parameters, const Agent& agent,
+void fill_same_way(const scene::Scene& scene, const Parameters& parameters, const scene::Agent& agent,
                    const PathHypothesis (&hypotheses)[kPathsPerAgent], float lead_s,
                    float (&row)[kPairFeatures]) {
   if (scene.ego_paths.empty()) return;
@@ -148,7 +149,7 @@ void fill_same_way(const Scene& scene, const Parameters& parameters, const Agent
   const float centre_m = centre_ahead_m(parameters) + scene.ego.speed_mps * lead_s;
   const LaneIndex our_lane = scene.ego_paths[0].path.lanes[0].lane;
   for (int k = 0; k < agent.paths.size(); ++k) {
-    for (const PathLane& part : agent.paths[k].lanes) {
+    for (const scene::PathLane& part : agent.paths[k].lanes) {
       if (part.lane != our_lane) continue;
       const float gap_m = part.start_s_m + scene.ego_paths[0].frenet.s_m + centre_m - hypotheses[k].start_s_m;
       if (gap_m < 0.0F || at(row, PairFeature::kWeAhead) > 0.0F) continue;
@@ -156,9 +157,9 @@ void fill_same_way(const Scene& scene, const Parameters& parameters, const Agent
       at(row, PairFeature::kAheadGapM) = within_reach(gap_m - half_lengths_m);
     }
   }
-  for (const EgoPath& ego_path : scene.ego_paths) {
+  for (const scene::EgoPath& ego_path : scene.ego_paths) {
     float s_m = 0.0F;
-    if (!arc_length_on(ego_path.path, agent, s_m)) continue;
+    if (!scene::arc_length_on(ego_path.path, agent, s_m)) continue;
     const float gap_m = s_m + agent.track.speed_mps * lead_s - ego_path.frenet.s_m - centre_m;
     if (gap_m < 0.0F) continue;
     at(row, PairFeature::kWeBehind) = 1.0F;
@@ -167,7 +168,7 @@ void fill_same_way(const Scene& scene, const Parameters& parameters, const Agent
   }
 }
 
-void fill_pair(const Scene& scene, const Parameters& parameters, const Agent& agent,
+void fill_pair(const scene::Scene& scene, const Parameters& parameters, const scene::Agent& agent,
                const PathHypothesis (&hypotheses)[kPathsPerAgent], float lead_s, const Pose& anchor,
                const Pose& ego_anchor, float (&row)[kPairFeatures]) {
   const float centre_m = centre_ahead_m(parameters) + scene.ego.speed_mps * lead_s;
@@ -214,14 +215,14 @@ Pose from_anchor(const Pose& anchor, const Pose& pose) {
   return {point.x_m, point.y_m, wrap_angle(pose.heading_rad + anchor.heading_rad)};
 }
 
-void read_path_hypotheses(const Scene& scene, float lead_s, PathHypotheses& hypotheses) {
+void read_path_hypotheses(const scene::Scene& scene, float lead_s, PathHypotheses& hypotheses) {
   for (int i = 0; i < scene.watched; ++i) {
     for (int k = 0; k < scene.agents[i].paths.size(); ++k)
       hypotheses[i][k] = read_path_hypothesis(scene, i, k, lead_s);
   }
 }
 
-void build_network_input(const Scene& scene, const Parameters& parameters, float lead_s,
+void build_network_input(const scene::Scene& scene, const Parameters& parameters, float lead_s,
                          const PathHypotheses& hypotheses, NetworkInput& input) {
   new (&input) NetworkInput;  // assigned, it would be made on the stack first
   input.hdvs = scene.watched;
@@ -232,7 +233,7 @@ void build_network_input(const Scene& scene, const Parameters& parameters, float
   fill_place(input.ego_anchor, input.ego_anchor, scene.ego.speed_mps, parameters.vehicle.length_m,
              parameters.vehicle.width_m, input.place[0]);
   for (int i = 0; i < scene.watched; ++i) {
-    const Agent& agent = scene.agents[i];
+    const scene::Agent& agent = scene.agents[i];
     const Track& track = agent.track;
     input.anchor[i] = shift_ahead(track.centre, track.speed_mps * lead_s);
     input.speed_mps[i] = track.speed_mps;
@@ -249,7 +250,7 @@ void build_network_input(const Scene& scene, const Parameters& parameters, float
   }
 }
 
-void build_network_input(const Scene& scene, const Parameters& parameters, float lead_s,
+void build_network_input(const scene::Scene& scene, const Parameters& parameters, float lead_s,
                          NetworkInput& input) {
   PathHypotheses hypotheses;
   read_path_hypotheses(scene, lead_s, hypotheses);

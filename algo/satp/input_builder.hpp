@@ -14,16 +14,17 @@ namespace s4tp::satp {
 using PathHypotheses = PathHypothesis[kMaxAgents][kPathsPerAgent];
 
 /// Reads every way of the watched vehicles. \param lead_s  plan start minus scene time, >= 0
-void read_path_hypotheses(const Scene& scene, float lead_s, PathHypotheses& hypotheses);
+void read_path_hypotheses(const scene::Scene& scene, float lead_s, PathHypotheses& hypotheses);
 
 /// SATP-001 Every value is finite and what is missing is 0 and masked; the same scene gives the same bits.
 /// SATP-002 Moving and turning scene and map as a whole changes no value but the anchors (up to rounding).
 /// \param hypotheses  of this scene and lead
-void build_network_input(const Scene& scene, const Parameters& parameters, float lead_s,
+void build_network_input(const scene::Scene& scene, const Parameters& parameters, float lead_s,
                          const PathHypotheses& hypotheses, NetworkInput& input);
 
 /// The same, for who has not read the hypotheses.
-void build_network_input(const Scene& scene, const Parameters& parameters, float lead_s, NetworkInput& input);
+void build_network_input(const scene::Scene& scene, const Parameters& parameters, float lead_s,
+                         NetworkInput& input);
 
 /// \param plan  our motion from plan start \param input  of the same scene
 void build_plan_input(const Trajectory& plan, const Parameters& parameters, const NetworkInput& input,

@@ -5,7 +5,7 @@
 #include "algo/scene/agent_paths.hpp"
 #include "algo/scene/conflict_view.hpp"
 
-namespace s4tp {
+namespace s4tp::satp {
 namespace {
 
 constexpr float kLateralMps2 = 4.0F;   // what sets the speed in turns
@@ -41,13 +41,13 @@ float turn_speed(const Lane& lane, float length_m, float over_limit) {
   return min(limit_mps, sqrt(kLateralMps2 / curvature_1pm));
 }
 
-void read_slow_stretch(const LaneMap& map, const LanePath& path, float limit_mps,
+void read_slow_stretch(const LaneMap& map, const scene::LanePath& path, float limit_mps,
                        PathHypothesis& hypothesis) {
   const float over_limit =
       max(hypothesis.speed_mps / max(limit_mps, 1.0F), 1.0F);  // who speeds goes on speeding
   hypothesis.slow_mps = hypothesis.desired_mps;
   hypothesis.after_mps = hypothesis.desired_mps;
-  for (const PathLane& part : path.lanes) {
+  for (const scene::PathLane& part : path.lanes) {
     hypothesis.after_mps = max(hypothesis.after_mps, map.lanes[part.lane].speed_limit_mps * over_limit);
   }
   float most_binding_mps = 1e3F;
@@ -71,15 +71,15 @@ void read_slow_stretch(const LaneMap& map, const LanePath& path, float limit_mps
   }
 }
 
-void read_leader(const Scene& scene, int index, const LanePath& path, float s_m, float lead_s,
+void read_leader(const scene::Scene& scene, int index, const scene::LanePath& path, float s_m, float lead_s,
                  PathHypothesis& hypothesis) {
-  const Agent& agent = scene.agents[index];
+  const scene::Agent& agent = scene.agents[index];
   float nearest_m = 1e6F;
   for (int other = 0; other < scene.agents.size(); ++other) {
     if (other == index) continue;
-    const Agent& ahead = scene.agents[other];
+    const scene::Agent& ahead = scene.agents[other];
     float other_s_m = 0.0F;
-    if (!arc_length_on(path, ahead, other_s_m)) continue;
+    if (!scene::arc_length_on(path, ahead, other_s_m)) continue;
     const float gap_m = other_s_m - s_m - 0.5F * (agent.track.length_m + ahead.track.length_m);
     if (other_s_m <= s_m || gap_m >= nearest_m) continue;
     nearest_m = gap_m;
@@ -91,15 +91,16 @@ void read_leader(const Scene& scene, int index, const LanePath& path, float s_m,
 }
 
 // Until when other vehicles are in the way at a zone it has to give way at; 0: nobody comes.
-float busy_until_s(const Scene& scene, int index, const ConflictView& view, float in_s, float out_s) {
+float busy_until_s(const scene::Scene& scene, int index, const scene::ConflictView& view, float in_s,
+                   float out_s) {
   float until_s = 0.0F;
   for (int other = 0; other < scene.agents.size(); ++other) {
     if (other == index) continue;
-    const Agent& agent = scene.agents[other];
+    const scene::Agent& agent = scene.agents[other];
     const float speed_mps = agent.track.speed_mps;
     for (int k = 0; k < agent.paths.size(); ++k) {
       if (agent.path_probability[k] < kUnlikely) continue;
-      for (const PathLane& part : agent.paths[k].lanes) {
+      for (const scene::PathLane& part : agent.paths[k].lanes) {
         if (part.lane != view.other) continue;
         const float to_entry_m = part.start_s_m + view.other_entry_m - agent.frenet[k].s_m;
         const float to_exit_m = part.start_s_m + view.other_exit_m - agent.frenet[k].s_m;
@@ -114,7 +115,7 @@ float busy_until_s(const Scene& scene, int index, const ConflictView& view, floa
   return min(until_s, kLongestWaitS);
 }
 
-void add_conflict(const ConflictView& view, float lane_start_s_m, PathHypothesis& hypothesis) {
+void add_conflict(const scene::ConflictView& view, float lane_start_s_m, PathHypothesis& hypothesis) {
   const PathConflict conflict{view.other,
                               view.priority,
                               lane_start_s_m + view.own_entry_m,
@@ -133,21 +134,22 @@ void add_conflict(const ConflictView& view, float lane_start_s_m, PathHypothesis
   hypothesis.conflicts[place] = conflict;
 }
 
-void read_zones(const Scene& scene, int index, const LanePath& path, PathHypothesis& hypothesis) {
+void read_zones(const scene::Scene& scene, int index, const scene::LanePath& path,
+                PathHypothesis& hypothesis) {
   std::int8_t place[kMaxLanes];
   for (std::int8_t& entry : place) entry = -1;
   for (int i = 0; i < path.lanes.size(); ++i) place[path.lanes[i].lane] = static_cast<std::int8_t>(i);
   bool ours[kMaxLanes] = {};
-  for (const EgoPath& ego_path : scene.ego_paths) {
-    for (const PathLane& part : ego_path.path.lanes) ours[part.lane] = true;
+  for (const scene::EgoPath& ego_path : scene.ego_paths) {
+    for (const scene::PathLane& part : ego_path.path.lanes) ours[part.lane] = true;
   }
 
   int waits_read = 0;
   for (const Conflict& conflict : scene.map->conflicts) {
-    if (!sound(conflict)) continue;
+    if (!scene::sound(conflict)) continue;
     const bool from_second = place[conflict.second] >= 0;
     if ((place[conflict.first] >= 0) == from_second) continue;
-    const ConflictView view = view_from(conflict, from_second);
+    const scene::ConflictView view = scene::view_from(conflict, from_second);
     const float lane_start_s_m = path.lanes[place[view.own]].start_s_m;
     const float to_entry_m = lane_start_s_m + view.own_entry_m - hypothesis.start_s_m;
     const float to_exit_m = lane_start_s_m + view.own_exit_m - hypothesis.start_s_m;
@@ -168,9 +170,9 @@ void read_zones(const Scene& scene, int index, const LanePath& path, PathHypothe
 
 }  // namespace
 
-PathHypothesis read_path_hypothesis(const Scene& scene, int index, int path_index, float lead_s) {
-  const Agent& agent = scene.agents[index];
-  const LanePath& path = agent.paths[path_index];
+PathHypothesis read_path_hypothesis(const scene::Scene& scene, int index, int path_index, float lead_s) {
+  const scene::Agent& agent = scene.agents[index];
+  const scene::LanePath& path = agent.paths[path_index];
   const float s_m = agent.frenet[path_index].s_m;
   PathHypothesis hypothesis;
   hypothesis.speed_mps = agent.track.speed_mps;
@@ -188,4 +190,4 @@ PathHypothesis read_path_hypothesis(const Scene& scene, int index, int path_inde
   return hypothesis;
 }
 
-}  // namespace s4tp
+}  // namespace s4tp::satp

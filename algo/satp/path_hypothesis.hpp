@@ -6,7 +6,7 @@
 #include "algo/core/bounded.hpp"
 #include "algo/scene/scene.hpp"
 
-namespace s4tp {
+namespace s4tp::satp {
 
 /// A zone this vehicle shares with a lane that is on one of our paths.
 struct PathConflict {
@@ -41,6 +41,7 @@ struct PathHypothesis {
 };
 
 /// Reads way `path` of agent `index`. \pre scene.map is there and the agent has that path
-[[nodiscard]] PathHypothesis read_path_hypothesis(const Scene& scene, int index, int path, float lead_s);
+[[nodiscard]] PathHypothesis read_path_hypothesis(const scene::Scene& scene, int index, int path,
+                                                  float lead_s);
 
-}  // namespace s4tp
+}  // namespace s4tp::satp

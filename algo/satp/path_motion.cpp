@@ -3,7 +3,7 @@
 #include "algo/core/inline.hpp"
 #include "algo/satp/car_following.hpp"
 
-namespace s4tp {
+namespace s4tp::satp {
 namespace {
 
 constexpr int kStepsPerUpdate = 2;  // drivers are updated every 0.2 s
@@ -110,16 +110,16 @@ float time_at(const PathHypothesis& hypothesis, const PathMotion& motion, float 
   return kStepS * kHorizonSteps + (goal_s_m - before_s_m) / max(motion.end_mps, 0.5F);
 }
 
-void place(const LaneMap& map, const LanePath& path, const Frenet& start, const Track& track,
+void place(const LaneMap& map, const scene::LanePath& path, const scene::Frenet& start, const Track& track,
            const PathMotion& motion, Mode& mode) {
   const float return_s = kReturnS + kReturnSPerM * min(abs(start.d_m), kReturnLongestM);
   const float span_m = max(track.speed_mps * return_s, kReturnM);
   const float slope_max = min(kSlopeMax, kSlopeSpanM / span_m);
   const float turn_rad =
       clamp(wrap_angle(track.centre.heading_rad - start.heading_rad), -slope_max, slope_max);
-  PathCursor cursor(map, path);
+  scene::PathCursor cursor(map, path);
   for (int i = 0; i < kHorizonSteps; ++i) {
-    const PathPoint centre = cursor.at(motion.s_m[i]);
+    const scene::PathPoint centre = cursor.at(motion.s_m[i]);
     // Cubic from the present offset and slope to the centre line.
     const float u = clamp((motion.s_m[i] - start.s_m) / span_m, 0.0F, 1.0F);
     const float rest = 1.0F - u;
@@ -131,4 +131,4 @@ void place(const LaneMap& map, const LanePath& path, const Frenet& start, const 
   measure_steps(mode);
 }
 
-}  // namespace s4tp
+}  // namespace s4tp::satp

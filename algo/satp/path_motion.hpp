@@ -5,7 +5,7 @@
 #include "algo/satp/path_hypothesis.hpp"
 #include "algo/satp/prediction.hpp"
 
-namespace s4tp {
+namespace s4tp::satp {
 
 /// Progress along a hypothesis; s_m[i] is at (i + 1) * kStepS after plan start.
 struct PathMotion {
@@ -31,7 +31,7 @@ void drive(const PathHypothesis& hypothesis, const Track& track, const EgoOnPath
 
 /// Poses of the box centre along the motion: it returns to the lane centre within 1.2 s of driving, 2.8 s
 /// from the next lane.
-void place(const LaneMap& map, const LanePath& path, const Frenet& start, const Track& track,
+void place(const LaneMap& map, const scene::LanePath& path, const scene::Frenet& start, const Track& track,
            const PathMotion& motion, Mode& mode);
 
-}  // namespace s4tp
+}  // namespace s4tp::satp

@@ -2,7 +2,7 @@
 
 #include "algo/core/inline.hpp"
 
-namespace s4tp {
+namespace s4tp::satp {
 
 void measure_steps(Mode& mode) {
   float longest_m2 = 0.0F;
@@ -25,4 +25,4 @@ void likeliest_first(AgentPrediction& futures) {
   futures.modes[best] = first;
 }
 
-}  // namespace s4tp
+}  // namespace s4tp::satp

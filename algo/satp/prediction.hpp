@@ -7,7 +7,7 @@
 #include "algo/core/config.hpp"
 #include "algo/core/geometry.hpp"
 
-namespace s4tp {
+namespace s4tp::satp {
 
 /// One future of one vehicle; steps[i] is its box centre at (i + 1) * kStepS after the scene's plan start.
 struct Mode {
@@ -41,4 +41,4 @@ struct KinematicSet {
   BoundedVector<Mode, kMaxTracks> agents;  ///< in the order of Scene::agents
 };
 
-}  // namespace s4tp
+}  // namespace s4tp::satp

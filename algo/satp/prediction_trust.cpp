@@ -2,7 +2,7 @@
 
 #include "algo/core/inline.hpp"
 
-namespace s4tp {
+namespace s4tp::satp {
 namespace {
 
 constexpr int kStepsAhead = 5;           // 0.5 s
@@ -26,10 +26,10 @@ float PredictionTrust::of(std::uint8_t track) const {
   return index < 0 ? 1.0F : tracks_[index].trust;
 }
 
-void PredictionTrust::observe(const Scene& scene, float usual_residual_m) {
+void PredictionTrust::observe(const scene::Scene& scene, float usual_residual_m) {
   const float usual_m = max(usual_residual_m, kLeastResidualM);
   for (int i = 0; i < scene.watched; ++i) {
-    const Agent& agent = scene.agents[i];
+    const scene::Agent& agent = scene.agents[i];
     const int index = find(agent.track.id);
     if (index < 0 || tracks_[index].expected.empty()) continue;
     Entry& entry = tracks_[index];
@@ -47,7 +47,8 @@ void PredictionTrust::observe(const Scene& scene, float usual_residual_m) {
   }
 }
 
-void PredictionTrust::remember(const Scene& scene, const PredictionSet& prediction, std::uint32_t start_ms) {
+void PredictionTrust::remember(const scene::Scene& scene, const PredictionSet& prediction,
+                               std::uint32_t start_ms) {
   BoundedVector<Entry, kMaxAgents> now;
   for (const AgentPrediction& futures : prediction.agents) {
     const std::uint8_t track = scene.agents[futures.agent].track.id;
@@ -64,4 +65,4 @@ void PredictionTrust::remember(const Scene& scene, const PredictionSet& predicti
   tracks_ = now;
 }
 
-}  // namespace s4tp
+}  // namespace s4tp::satp

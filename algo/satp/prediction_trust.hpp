@@ -12,17 +12,17 @@
 #include "algo/satp/prediction.hpp"
 #include "algo/scene/scene.hpp"
 
-namespace s4tp {
+namespace s4tp::satp {
 
 class PredictionTrust {
  public:
   void reset() { tracks_.clear(); }
 
   /// Holds due predictions against the scene. \param usual_residual_m  WeightHeader::usual_residual_m
-  void observe(const Scene& scene, float usual_residual_m);
+  void observe(const scene::Scene& scene, float usual_residual_m);
   /// Remembers what is predicted of the watched vehicles. \param start_ms  plan start, the predictions' time
   /// zero
-  void remember(const Scene& scene, const PredictionSet& prediction, std::uint32_t start_ms);
+  void remember(const scene::Scene& scene, const PredictionSet& prediction, std::uint32_t start_ms);
 
   /// \return 0 .. 1
   [[nodiscard]] float of(std::uint8_t track) const;
@@ -39,4 +39,4 @@ class PredictionTrust {
   BoundedVector<Entry, kMaxAgents> tracks_;
 };
 
-}  // namespace s4tp
+}  // namespace s4tp::satp

@@ -3,7 +3,7 @@
 #include "algo/core/inline.hpp"
 #include "algo/satp/path_motion.hpp"
 
-namespace s4tp {
+namespace s4tp::satp {
 namespace {
 
 constexpr float kZoneMarginS = 0.5F;
@@ -73,7 +73,7 @@ float yielding(const EgoMotion& ego, const PathHypothesis& hypothesis, const Pat
 
 }  // namespace
 
-void Predictor::encode(const Scene& scene, const Parameters& parameters, std::uint32_t start_ms,
+void Predictor::encode(const scene::Scene& scene, const Parameters& parameters, std::uint32_t start_ms,
                        const YieldBeliefs* beliefs) {
   beliefs_ = beliefs;
   scene_ = &scene;
@@ -102,7 +102,7 @@ void Predictor::decode(const Trajectory* plan, int allowance, PredictionSet& pre
 }
 
 void Predictor::decode_one(const EgoMotion& ego, int index, AgentPrediction& futures) const {
-  const Agent& agent = scene_->agents[index];
+  const scene::Agent& agent = scene_->agents[index];
   futures.agent = static_cast<std::uint8_t>(index);
   futures.modes.clear();
   const int paths = agent.paths.size();
@@ -153,7 +153,7 @@ void Predictor::decode_one(const EgoMotion& ego, int index, AgentPrediction& fut
 void Predictor::hypotheses(YieldHypotheses (&result)[kMaxAgents]) const {
   S4TP_ASSERT(scene_ != nullptr);
   for (int i = 0; i < scene_->watched; ++i) {
-    const Agent& agent = scene_->agents[i];
+    const scene::Agent& agent = scene_->agents[i];
     result[i] = YieldHypotheses{};
     for (int k = 0; k < agent.paths.size() && !result[i].differ; ++k) {  // the likeliest first
       const PathHypothesis& hypothesis = hypotheses_[i][k];
@@ -175,7 +175,7 @@ void Predictor::hypotheses(YieldHypotheses (&result)[kMaxAgents]) const {
 void Predictor::constant_velocity(KinematicSet& prediction) const {
   S4TP_ASSERT(scene_ != nullptr);
   prediction.agents.clear();
-  for (const Agent& agent : scene_->agents) {
+  for (const scene::Agent& agent : scene_->agents) {
     Mode mode;
     mode.probability = 1.0F;
     if (agent.paths.empty()) {
@@ -193,4 +193,4 @@ void Predictor::constant_velocity(KinematicSet& prediction) const {
   }
 }
 
-}  // namespace s4tp
+}  // namespace s4tp::satp

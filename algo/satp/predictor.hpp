@@ -11,7 +11,7 @@
 #include "algo/satp/yield_belief.hpp"
 #include "algo/scene/scene.hpp"
 
-namespace s4tp {
+namespace s4tp::satp {
 
 /// Most work of one vehicle: every path of it, undisturbed and yielding.
 inline constexpr int kMaxAgentWork = 2 * kPathsPerAgent * kHorizonSteps;
@@ -26,7 +26,7 @@ class Predictor {
  public:
   /// Reads the scene once; `scene` must outlive the following calls of this cycle.
   /// \param start_ms  plan start: the predictions' time zero; scene.time_ms <= start_ms
-  void encode(const Scene& scene, const Parameters& parameters, std::uint32_t start_ms,
+  void encode(const scene::Scene& scene, const Parameters& parameters, std::uint32_t start_ms,
               const YieldBeliefs* beliefs = nullptr);
 
   /// What each watched vehicle would do now if it went first, and if it let us go first: on its likeliest way
@@ -57,7 +57,7 @@ class Predictor {
   [[nodiscard]] const PathHypothesis (&hypotheses() const)[kMaxAgents][kPathsPerAgent] { return hypotheses_; }
 
  private:
-  const Scene* scene_ = nullptr;
+  const scene::Scene* scene_ = nullptr;
   const Parameters* parameters_ = nullptr;
   const YieldBeliefs* beliefs_ = nullptr;
   float lead_s_ = 0.0F;  ///< plan start minus scene time
@@ -65,4 +65,4 @@ class Predictor {
   mutable int work_ = 0;
 };
 
-}  // namespace s4tp
+}  // namespace s4tp::satp

@@ -5,7 +5,7 @@
 #include "algo/core/inline.hpp"
 #include "algo/satp/input_builder.hpp"
 
-namespace s4tp {
+namespace s4tp::satp {
 namespace {
 
 constexpr float kFullTrust = 0.95F;  // above it nothing is blended in
@@ -33,9 +33,9 @@ void drop_least(AgentPrediction& futures) {
 
 }  // namespace
 
-void SatpPredictor::encode(const satp::Weights& weights, const Scene& scene, const Parameters& parameters,
-                           std::uint32_t start_ms, const YieldBeliefs* beliefs, const PredictionTrust* trust,
-                           satp::EncoderScratch& scratch) {
+void SatpPredictor::encode(const satp::Weights& weights, const scene::Scene& scene,
+                           const Parameters& parameters, std::uint32_t start_ms, const YieldBeliefs* beliefs,
+                           const PredictionTrust* trust, satp::EncoderScratch& scratch) {
   kinematic_.encode(scene, parameters, start_ms, beliefs);
   weights_ = weights;
   scene_ = &scene;
@@ -126,4 +126,4 @@ void SatpPredictor::decode(const Trajectory* plan, int allowance, PredictionSet&
   }
 }
 
-}  // namespace s4tp
+}  // namespace s4tp::satp

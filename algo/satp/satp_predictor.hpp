@@ -9,14 +9,14 @@
 #include "algo/satp/predictor.hpp"
 #include "algo/satp/weight_image.hpp"
 
-namespace s4tp {
+namespace s4tp::satp {
 
 class SatpPredictor {
  public:
   /// Reads the scene once; everything given must outlive the following calls of this cycle.
   /// \param weights  not present: all is as Predictor says \param trust  null: the network is trusted
   /// \param scratch  used during the call only
-  void encode(const satp::Weights& weights, const Scene& scene, const Parameters& parameters,
+  void encode(const satp::Weights& weights, const scene::Scene& scene, const Parameters& parameters,
               std::uint32_t start_ms, const YieldBeliefs* beliefs, const PredictionTrust* trust,
               satp::EncoderScratch& scratch);
 
@@ -42,7 +42,7 @@ class SatpPredictor {
 
   Predictor kinematic_;
   satp::Weights weights_;
-  const Scene* scene_ = nullptr;
+  const scene::Scene* scene_ = nullptr;
   const Parameters* parameters_ = nullptr;
   const YieldBeliefs* beliefs_ = nullptr;
   const PredictionTrust* trust_ = nullptr;
@@ -66,4 +66,4 @@ class SatpPredictor {
   mutable Room room_;
 };
 
-}  // namespace s4tp
+}  // namespace s4tp::satp

@@ -2,7 +2,7 @@
 
 #include "algo/core/inline.hpp"
 
-namespace s4tp {
+namespace s4tp::satp {
 namespace {
 
 constexpr float kSpreadMps2 = 1.5F;  // of what drivers do about what the model says
@@ -22,7 +22,7 @@ float YieldBeliefs::evidence(std::uint8_t track) const {
   return 0.0F;
 }
 
-void YieldBeliefs::observe(const Scene& scene, const YieldHypotheses (&hypotheses)[kMaxAgents]) {
+void YieldBeliefs::observe(const scene::Scene& scene, const YieldHypotheses (&hypotheses)[kMaxAgents]) {
   BoundedVector<Belief, kMaxAgents> now;
   for (int i = 0; i < scene.watched; ++i) {
     const Track& track = scene.agents[i].track;
@@ -46,4 +46,4 @@ float with_evidence(float prior, float log_odds) {
   return clamp(odds / (1.0F + odds), 1.0F - kSurest, kSurest);
 }
 
-}  // namespace s4tp
+}  // namespace s4tp::satp

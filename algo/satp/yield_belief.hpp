@@ -11,7 +11,7 @@
 #include "algo/satp/path_hypothesis.hpp"
 #include "algo/scene/scene.hpp"
 
-namespace s4tp {
+namespace s4tp::satp {
 
 /// What a vehicle would do now under either hypothesis [m/s^2].
 struct YieldHypotheses {
@@ -26,7 +26,7 @@ class YieldBeliefs {
   /// Log-odds of the evidence that the track lets us go first; 0: none.
   [[nodiscard]] float evidence(std::uint8_t track) const;
   /// One cycle's observation of each watched vehicle. Tracks that are no longer watched are forgotten.
-  void observe(const Scene& scene, const YieldHypotheses (&hypotheses)[kMaxAgents]);
+  void observe(const scene::Scene& scene, const YieldHypotheses (&hypotheses)[kMaxAgents]);
 
  private:
   struct Belief {
@@ -39,4 +39,4 @@ class YieldBeliefs {
 /// The probability `prior` with evidence taken into account, in 0.02 .. 0.98 of the prior's kind.
 [[nodiscard]] float with_evidence(float prior, float log_odds);
 
-}  // namespace s4tp
+}  // namespace s4tp::satp

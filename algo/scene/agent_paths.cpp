@@ -2,7 +2,7 @@
 
 #include "algo/core/inline.hpp"
 
-namespace s4tp {
+namespace s4tp::scene {
 namespace {
 
 constexpr float kAheadM = 110.0F;      // far enough for whoever reaches a zone in 7 s
@@ -270,4 +270,4 @@ bool arc_length_on(const LanePath& path, const Agent& agent, float& s_m) {
   return false;
 }
 
-}  // namespace s4tp
+}  // namespace s4tp::scene

@@ -4,7 +4,7 @@
 #include "algo/scene/lane_table.hpp"
 #include "algo/scene/scene.hpp"
 
-namespace s4tp {
+namespace s4tp::scene {
 
 /// Less probable ways are not expected to be taken.
 inline constexpr float kLikelyWay = 0.1F;
@@ -21,4 +21,4 @@ void bring_forward(const LaneMap* map, float seconds, Agent& agent);
 /// path's
 [[nodiscard]] bool arc_length_on(const LanePath& path, const Agent& agent, float& s_m);
 
-}  // namespace s4tp
+}  // namespace s4tp::scene

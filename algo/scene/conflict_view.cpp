@@ -2,7 +2,7 @@
 
 #include "algo/core/inline.hpp"
 
-namespace s4tp {
+namespace s4tp::scene {
 namespace {
 
 bool in_range(LaneIndex index) {
@@ -47,4 +47,4 @@ ConflictView view_from(const Conflict& conflict, bool from_second) {
           conflict.second_exit_m};
 }
 
-}  // namespace s4tp
+}  // namespace s4tp::scene

@@ -3,7 +3,7 @@
 
 #include "algo/core/world_state.hpp"
 
-namespace s4tp {
+namespace s4tp::scene {
 
 struct ConflictView {
   LaneIndex own = kNoLaneIndex;
@@ -21,4 +21,4 @@ struct ConflictView {
 /// \pre sound(conflict)
 [[nodiscard]] ConflictView view_from(const Conflict& conflict, bool from_second);
 
-}  // namespace s4tp
+}  // namespace s4tp::scene

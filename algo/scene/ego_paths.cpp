@@ -3,7 +3,7 @@
 #include "algo/core/inline.hpp"
 #include "algo/scene/conflict_view.hpp"
 
-namespace s4tp {
+namespace s4tp::scene {
 namespace {
 
 constexpr float kAheadM = 150.0F;          // the map's own horizon
@@ -176,4 +176,4 @@ void build_ego_paths(const LaneTable& table, LaneIndex lane, const Parameters& p
   }
 }
 
-}  // namespace s4tp
+}  // namespace s4tp::scene

@@ -5,10 +5,10 @@
 #include "algo/scene/lane_table.hpp"
 #include "algo/scene/scene.hpp"
 
-namespace s4tp {
+namespace s4tp::scene {
 
 /// Fills scene.ego_paths from the lane under us: keep, then left and right where the map allows a change.
 /// Each goes on along the route; where that ends, straight on. \pre table.valid(lane)
 void build_ego_paths(const LaneTable& table, LaneIndex lane, const Parameters& parameters, Scene& scene);
 
-}  // namespace s4tp
+}  // namespace s4tp::scene

@@ -2,7 +2,7 @@
 
 #include "algo/core/inline.hpp"
 
-namespace s4tp {
+namespace s4tp::scene {
 namespace {
 
 constexpr float kBlendM = 10.0F;       // a bend is spread over at most this far from its vertex
@@ -259,4 +259,4 @@ LaneIndex locate(const LaneMap& map, const Pose& pose, float lateral_limit_m) {
   return best;
 }
 
-}  // namespace s4tp
+}  // namespace s4tp::scene

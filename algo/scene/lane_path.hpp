@@ -11,7 +11,7 @@
 #include "algo/core/config.hpp"
 #include "algo/core/world_state.hpp"
 
-namespace s4tp {
+namespace s4tp::scene {
 
 /// One lane of a path; `start_s_m` is the path's arc length where the lane begins.
 struct PathLane {
@@ -110,4 +110,4 @@ struct LaneFix {
 /// \return kNoLaneIndex when there is none
 [[nodiscard]] LaneIndex locate(const LaneMap& map, const Pose& pose, float lateral_limit_m);
 
-}  // namespace s4tp
+}  // namespace s4tp::scene

@@ -2,7 +2,7 @@
 
 #include "algo/core/inline.hpp"
 
-namespace s4tp {
+namespace s4tp::scene {
 namespace {
 
 constexpr float kBesideM = 1.0F;           // a vehicle this far over the lane's edge still belongs to it
@@ -128,4 +128,4 @@ bool LaneTable::append(LanePath& path, LaneIndex lane) const {
   return true;
 }
 
-}  // namespace s4tp
+}  // namespace s4tp::scene

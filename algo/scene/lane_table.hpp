@@ -5,7 +5,7 @@
 #include "algo/core/world_state.hpp"
 #include "algo/scene/lane_path.hpp"
 
-namespace s4tp {
+namespace s4tp::scene {
 
 struct LaneFacts {
   bool usable = false;    ///< false: everything else is meaningless
@@ -68,4 +68,4 @@ class LaneTable {
   LaneFacts facts_[kMaxLanes];
 };
 
-}  // namespace s4tp
+}  // namespace s4tp::scene

@@ -3,7 +3,7 @@
 #include "algo/core/inline.hpp"
 #include "algo/scene/agent_paths.hpp"
 
-namespace s4tp {
+namespace s4tp::scene {
 namespace {
 
 constexpr float kSlowestMps = 2.0F;    // who stands may start: times are taken at no less than this speed
@@ -97,4 +97,4 @@ void rank_agents(Relevance relevance, const Parameters& parameters, Scene& scene
   }
 }
 
-}  // namespace s4tp
+}  // namespace s4tp::scene

@@ -3,9 +3,9 @@
 
 #include "algo/scene/scene.hpp"
 
-namespace s4tp {
+namespace s4tp::scene {
 
 /// Puts the agents that matter most first and sets scene.watched. Equals keep their order.
 void rank_agents(Relevance relevance, const Parameters& parameters, Scene& scene);
 
-}  // namespace s4tp
+}  // namespace s4tp::scene

@@ -8,7 +8,7 @@
 #include "algo/core/world_state.hpp"
 #include "algo/scene/lane_path.hpp"
 
-namespace s4tp {
+namespace s4tp::scene {
 
 /// The past of one vehicle on the dt grid, oldest first; `valid` is the mask (never x == 0).
 struct History {
@@ -163,4 +163,4 @@ class SceneBuilder {
   LaneIndex ego_lane_ = kNoLaneIndex;
 };
 
-}  // namespace s4tp
+}  // namespace s4tp::scene

@@ -5,7 +5,7 @@
 #include "algo/scene/relevance.hpp"
 #include "algo/scene/scene.hpp"
 
-namespace s4tp {
+namespace s4tp::scene {
 namespace {
 
 constexpr std::int32_t kCoastMs = 500;     // CORE-030: a list
@@ -357,4 +357,4 @@ Status SceneBuilder::build(std::uint32_t time_ms, const EgoState& ego, const Tra
   return ego_lane_ != kNoLaneIndex ? Status::kOk : Status::kNoLane;
 }
 
-}  // namespace s4tp
+}  // namespace s4tp::scene

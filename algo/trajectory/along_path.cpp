@@ -3,7 +3,7 @@
 #include "algo/core/inline.hpp"
 #include "algo/trajectory/bicycle.hpp"
 
-namespace s4tp {
+namespace s4tp::trajectory {
 namespace {
 
 constexpr float kStripM = 0.2F;          // room on both sides of our width that a vehicle may not reach into
@@ -16,16 +16,16 @@ constexpr float kFarM = 200.0F;
 constexpr float kAtGoalM = 2.0F;  // a goal at the very end of a road counts as on it
 
 /// Whether a lane is that of the path at one of its parts.
-bool on_path(const LanePath& path, LaneIndex lane) {
-  for (const PathLane& part : path.lanes) {
+bool on_path(const scene::LanePath& path, LaneIndex lane) {
+  for (const scene::PathLane& part : path.lanes) {
     if (part.lane == lane) return true;
   }
   return false;
 }
 
 /// Where lane `lane` begins along the path, or false.
-bool lane_start(const LanePath& path, LaneIndex lane, float& start_s_m) {
-  for (const PathLane& entry : path.lanes) {
+bool lane_start(const scene::LanePath& path, LaneIndex lane, float& start_s_m) {
+  for (const scene::PathLane& entry : path.lanes) {
     if (entry.lane != lane) continue;
     start_s_m = entry.start_s_m;
     return true;
@@ -34,7 +34,7 @@ bool lane_start(const LanePath& path, LaneIndex lane, float& start_s_m) {
 }
 
 /// A vehicle near the centre of a plain lane that is none of the path's cannot be in its strip.
-bool clear_of(const Scene& scene, const EgoPath& path, const Agent& agent) {
+bool clear_of(const scene::Scene& scene, const scene::EgoPath& path, const scene::Agent& agent) {
   if (agent.lane == kNoLaneIndex || agent.paths.empty()) return false;
   if (scene.map->lanes[agent.lane].in_junction) return false;
   float start_s_m = 0.0F;
@@ -44,12 +44,12 @@ bool clear_of(const Scene& scene, const EgoPath& path, const Agent& agent) {
 
 /// Whether our box, driven along the path, comes within kStripM of a vehicle that stands across or against
 /// it.
-bool sweeps(const Scene& scene, const EgoPath& path, const Agent& agent, const OnPath& seen,
-            const Parameters& parameters) {
+bool sweeps(const scene::Scene& scene, const scene::EgoPath& path, const scene::Agent& agent,
+            const OnPath& seen, const Parameters& parameters) {
   const Box other{agent.track.centre, agent.track.length_m, agent.track.width_m};
   const float from_s_m = seen.centre_s_m - seen.half_length_m - rear_axle_to_front_m(parameters);
   const float to_s_m = seen.centre_s_m + seen.half_length_m + parameters.vehicle.rear_overhang_m;
-  PathCursor cursor(*scene.map, path.path);
+  scene::PathCursor cursor(*scene.map, path.path);
   for (int i = 0; i < kMostSweeps; ++i) {
     const float s_m = from_s_m + static_cast<float>(i) * kSweepM;
     if (s_m > to_s_m) break;
@@ -63,7 +63,7 @@ bool sweeps(const Scene& scene, const EgoPath& path, const Agent& agent, const O
 
 /// Whether the vehicle is still before the path's first lane, on a way that leads into it: seen along its own
 /// way then. (A lane's start is no end of the world: who comes along behind it follows us all the same.)
-bool comes_up_behind(const EgoPath& path, const Agent& agent, OnPath& seen, float& error_rad) {
+bool comes_up_behind(const scene::EgoPath& path, const scene::Agent& agent, OnPath& seen, float& error_rad) {
   if (path.path.lanes.empty()) return false;
   for (int i = 0; i < agent.paths.size(); ++i) {
     float start_s_m = 0.0F;
@@ -79,16 +79,16 @@ bool comes_up_behind(const EgoPath& path, const Agent& agent, OnPath& seen, floa
 
 }  // namespace
 
-OnPath see_on_path(const Scene& scene, const EgoPath& path, const Agent& agent, const Parameters& parameters,
-                   bool whole_road, bool& known) {
+OnPath see_on_path(const scene::Scene& scene, const scene::EgoPath& path, const scene::Agent& agent,
+                   const Parameters& parameters, bool whole_road, bool& known) {
   OnPath seen;
   known = false;
   if (distance(position(agent.track.centre), position(scene.ego.rear_axle)) > kFarM) return seen;
   float error_rad = 0.0F;
   if (whole_road || !comes_up_behind(path, agent, seen, error_rad)) {
     if (!whole_road && clear_of(scene, path, agent)) return seen;
-    const Frenet frenet =
-        project(*scene.map, path.path, position(agent.track.centre), path.frenet.s_m, -1.0F);
+    const scene::Frenet frenet =
+        scene::project(*scene.map, path.path, position(agent.track.centre), path.frenet.s_m, -1.0F);
     error_rad = wrap_angle(agent.track.centre.heading_rad - frenet.heading_rad);
     seen.centre_s_m = frenet.s_m;
     seen.centre_d_m = frenet.d_m;
@@ -109,10 +109,10 @@ OnPath see_on_path(const Scene& scene, const EgoPath& path, const Agent& agent, 
   return seen;
 }
 
-bool joins(const Scene& scene, const EgoPath& path, const Agent& agent) {
+bool joins(const scene::Scene& scene, const scene::EgoPath& path, const scene::Agent& agent) {
   if (agent.lane == kNoLaneIndex || on_path(path.path, agent.lane)) return false;
   const Lane& own = scene.map->lanes[agent.lane];
-  for (const LanePath& way : agent.paths) {
+  for (const scene::LanePath& way : agent.paths) {
     if (way.lanes.empty()) continue;
     const LaneIndex lane = way.lanes[0].lane;
     if ((lane == own.left || lane == own.right) && on_path(path.path, lane)) return true;
@@ -120,7 +120,7 @@ bool joins(const Scene& scene, const EgoPath& path, const Agent& agent) {
   return false;
 }
 
-Leader find_leader(const Scene& scene, const EgoPath& path, float rear_axle_s_m,
+Leader find_leader(const scene::Scene& scene, const scene::EgoPath& path, float rear_axle_s_m,
                    const Parameters& parameters) {
   const float centre_s_m = rear_axle_s_m + rear_axle_to_centre_m(parameters);
   const float front_s_m = rear_axle_s_m + rear_axle_to_front_m(parameters);
@@ -136,7 +136,7 @@ Leader find_leader(const Scene& scene, const EgoPath& path, float rear_axle_s_m,
   return leader;
 }
 
-Leader find_follower(const Scene& scene, const EgoPath& path, float rear_axle_s_m,
+Leader find_follower(const scene::Scene& scene, const scene::EgoPath& path, float rear_axle_s_m,
                      const Parameters& parameters) {
   const float centre_s_m = rear_axle_s_m + rear_axle_to_centre_m(parameters);
   const float rear_s_m = rear_axle_s_m - parameters.vehicle.rear_overhang_m;
@@ -153,7 +153,7 @@ Leader find_follower(const Scene& scene, const EgoPath& path, float rear_axle_s_
   return follower;
 }
 
-float change_room_m(const Scene& scene, const EgoPath& path) {
+float change_room_m(const scene::Scene& scene, const scene::EgoPath& path) {
   if (path.path.lanes.empty()) return 0.0F;
   const Lane& last = scene.map->lanes[path.path.lanes[path.path.lanes.size() - 1].lane];
   const int changes = last.changes_needed < 0 ? -last.changes_needed : last.changes_needed;
@@ -161,8 +161,8 @@ float change_room_m(const Scene& scene, const EgoPath& path) {
   return min(kChangeWayM * static_cast<float>(changes), 0.5F * last.length_m);
 }
 
-float dead_end_s_m(const Scene& scene, const EgoPath& path) {
-  const LanePath& way = path.path;
+float dead_end_s_m(const scene::Scene& scene, const scene::EgoPath& path) {
+  const scene::LanePath& way = path.path;
   if (way.lanes.empty() || way.lanes.full()) return kNoDeadEndM;
   const Lane& last = scene.map->lanes[way.lanes[way.lanes.size() - 1].lane];
   const bool leads_to_goal = last.on_route && last.changes_needed == 0;
@@ -173,4 +173,4 @@ float dead_end_s_m(const Scene& scene, const EgoPath& path) {
   return way.length_m;
 }
 
-}  // namespace s4tp
+}  // namespace s4tp::trajectory

@@ -5,7 +5,7 @@
 #include "algo/core/parameters.hpp"
 #include "algo/scene/scene.hpp"
 
-namespace s4tp {
+namespace s4tp::trajectory {
 
 /// A vehicle seen along one of our paths.
 struct OnPath {
@@ -22,11 +22,12 @@ struct OnPath {
 
 /// \param whole_road  also vehicles that are plainly in another lane
 /// \param known  receives false for a vehicle far off, or safely in a lane that is none of the path's
-[[nodiscard]] OnPath see_on_path(const Scene& scene, const EgoPath& path, const Agent& agent,
-                                 const Parameters& parameters, bool whole_road, bool& known);
+[[nodiscard]] OnPath see_on_path(const scene::Scene& scene, const scene::EgoPath& path,
+                                 const scene::Agent& agent, const Parameters& parameters, bool whole_road,
+                                 bool& known);
 
 /// Whether the vehicle is coming into a lane of the path from the lane beside it.
-[[nodiscard]] bool joins(const Scene& scene, const EgoPath& path, const Agent& agent);
+[[nodiscard]] bool joins(const scene::Scene& scene, const scene::EgoPath& path, const scene::Agent& agent);
 
 /// The nearest vehicle ahead of us in the strip; crossing ones are the business of conflict zones.
 struct Leader {
@@ -37,19 +38,19 @@ struct Leader {
 };
 
 /// \param rear_axle_s_m  ours, along `path`, at the scene's time
-[[nodiscard]] Leader find_leader(const Scene& scene, const EgoPath& path, float rear_axle_s_m,
+[[nodiscard]] Leader find_leader(const scene::Scene& scene, const scene::EgoPath& path, float rear_axle_s_m,
                                  const Parameters& parameters);
 
 /// The nearest vehicle behind us in the strip, moving along; gap_m from its front to our rear bumper.
-[[nodiscard]] Leader find_follower(const Scene& scene, const EgoPath& path, float rear_axle_s_m,
+[[nodiscard]] Leader find_follower(const scene::Scene& scene, const scene::EgoPath& path, float rear_axle_s_m,
                                    const Parameters& parameters);
 
 /// Arc length where `path` ends for good, or kNoDeadEndM: not where only our knowledge ends, nor at the goal.
 inline constexpr float kNoDeadEndM = 1e6F;
-[[nodiscard]] float dead_end_s_m(const Scene& scene, const EgoPath& path);
+[[nodiscard]] float dead_end_s_m(const scene::Scene& scene, const scene::EgoPath& path);
 /// Way of a slow lane change: a quintic over 3.2 m, bent as gently as roll_out.cpp bends it, takes 14.3 m.
 inline constexpr float kChangeWayM = 15.0F;
 /// Room before such an end in which the lane changes still due can be made, even from rest.
-[[nodiscard]] float change_room_m(const Scene& scene, const EgoPath& path);
+[[nodiscard]] float change_room_m(const scene::Scene& scene, const scene::EgoPath& path);
 
-}  // namespace s4tp
+}  // namespace s4tp::trajectory

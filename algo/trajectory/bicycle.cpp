@@ -2,7 +2,7 @@
 
 #include "algo/core/inline.hpp"
 
-namespace s4tp {
+namespace s4tp::trajectory {
 namespace {
 
 // Rounding, and a running plan sampled between its points, may touch a limit: one percent and one per mille
@@ -104,4 +104,4 @@ bool feasible(const Trajectory& trajectory, const Parameters& parameters) {
   return as_far_as_driven(trajectory);
 }
 
-}  // namespace s4tp
+}  // namespace s4tp::trajectory

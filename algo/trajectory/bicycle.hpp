@@ -4,7 +4,7 @@
 #include "algo/core/parameters.hpp"
 #include "algo/core/trajectory.hpp"
 
-namespace s4tp {
+namespace s4tp::trajectory {
 
 /// One midpoint step of `duration_s` at constant acceleration and curvature rate; speed stops at 0, and at
 /// rest the pose stays as it is, bit for bit (CAND-001). On a constant curvature k the path closes after
@@ -31,4 +31,4 @@ namespace s4tp {
 /// to that value: the past never makes every motion infeasible (CAND-004).
 [[nodiscard]] bool feasible(const Trajectory& trajectory, const Parameters& parameters);
 
-}  // namespace s4tp
+}  // namespace s4tp::trajectory

@@ -5,7 +5,7 @@
 #include "algo/trajectory/bicycle.hpp"
 #include "algo/trajectory/roll_out.hpp"
 
-namespace s4tp {
+namespace s4tp::trajectory {
 namespace {
 
 constexpr float kHardest = -100.0F;  // as hard as the fail-safe: what that can still do, a plan can
@@ -74,18 +74,19 @@ void add_stop(float s_m, Course& course) {
 }
 
 /// Whether our box, standing there, keeps clear of the ground shared with others.
-bool clear_of_zones(const EgoPath& path, float rear_axle_s_m, const Parameters& parameters) {
+bool clear_of_zones(const scene::EgoPath& path, float rear_axle_s_m, const Parameters& parameters) {
   const float centre_s_m = rear_axle_s_m + rear_axle_to_centre_m(parameters);
-  for (const ConflictZone& zone : path.zones) {
+  for (const scene::ConflictZone& zone : path.zones) {
     if (centre_s_m > zone.entry_s_m - kPassedM && centre_s_m < zone.exit_s_m) return false;
   }
   return true;
 }
 
-void find_stops(const Scene& scene, const EgoPath& path, const Parameters& parameters, Course& course) {
+void find_stops(const scene::Scene& scene, const scene::EgoPath& path, const Parameters& parameters,
+                Course& course) {
   const float front_m = rear_axle_to_front_m(parameters);
   const float centre_m = rear_axle_to_centre_m(parameters);
-  for (const ConflictZone& zone : path.zones) {
+  for (const scene::ConflictZone& zone : path.zones) {
     // Beyond the stop line there is still the zone itself to stop before.
     const float line_s_m = zone.stop_s_m - front_m;
     const float edge_s_m = zone.entry_s_m - centre_m - kStopBeforeZoneM;
@@ -100,10 +101,11 @@ void find_stops(const Scene& scene, const EgoPath& path, const Parameters& param
   add_stop(last_s_m - change_room_m(scene, path), course);
 }
 
-void prepare(const Scene& scene, const EgoPath& path, const TrajectoryPoint& start, float lead_s,
-             const Parameters& parameters, ReferenceLine& line, Course& course) {
+void prepare(const scene::Scene& scene, const scene::EgoPath& path, const TrajectoryPoint& start,
+             float lead_s, const Parameters& parameters, ReferenceLine& line, Course& course) {
   const float guess_s_m = path.frenet.s_m + lead_s * scene.ego.speed_mps;
-  const Frenet frenet = project(*scene.map, path.path, position(start.rear_axle), guess_s_m, 10.0F);
+  const scene::Frenet frenet =
+      scene::project(*scene.map, path.path, position(start.rear_axle), guess_s_m, 10.0F);
   build_reference(*scene.map, path.path, frenet.s_m, start.speed_mps, parameters, line);
   line.aside_m = path.aside_m;
   course.where = locate_on(line, position(start.rear_axle), frenet.s_m);
@@ -140,7 +142,7 @@ bool has_twin(const Reach* reaches, int count, const Reach& reach) {
 }
 
 /// The gap's place; in our own lane one behind our leader where that is nearer, now or at the horizon's end.
-bool aim_at_gap(const Scene& scene, const Course& course, float lead_s, const MergeTarget& aim,
+bool aim_at_gap(const scene::Scene& scene, const Course& course, float lead_s, const MergeTarget& aim,
                 const Parameters& parameters, Candidate& candidate) {
   if (aim.path == 0 || (candidate.path != 0 && candidate.path != aim.path)) return false;
   candidate.in_gap = true;
@@ -158,7 +160,7 @@ bool aim_at_gap(const Scene& scene, const Course& course, float lead_s, const Me
 }
 
 /// The longitudinal half of a recipe. \return false when this path has no such thing
-bool shape_longitudinal(const Scene& scene, const Trial& trial, const ReferenceLine& line,
+bool shape_longitudinal(const scene::Scene& scene, const Trial& trial, const ReferenceLine& line,
                         const Course& course, const TrajectoryPoint& start, const Plan& running,
                         std::uint32_t start_ms, float lead_s, const MergeTarget& aim,
                         const Parameters& parameters, Candidate& candidate) {
@@ -214,7 +216,7 @@ class NobodyLooks final : public CandidateVisitor {
 
 }  // namespace
 
-void generate_candidates(const Scene& scene, const TrajectoryPoint& start, const Plan& running,
+void generate_candidates(const scene::Scene& scene, const TrajectoryPoint& start, const Plan& running,
                          std::uint32_t start_ms, const Parameters& parameters, int most,
                          ReferenceLines& lines, CandidateList& candidates, int& left_out,
                          const MergeTarget& aim) {
@@ -224,7 +226,7 @@ void generate_candidates(const Scene& scene, const TrajectoryPoint& start, const
                       aim);
 }
 
-void generate_candidates(const Scene& scene, const TrajectoryPoint& start, const Plan& running,
+void generate_candidates(const scene::Scene& scene, const TrajectoryPoint& start, const Plan& running,
                          std::uint32_t start_ms, const Parameters& parameters, int most,
                          ReferenceLines& lines, CandidateList& candidates, int& left_out,
                          CandidateVisitor& visitor, const MergeTarget& aim) {
@@ -233,7 +235,7 @@ void generate_candidates(const Scene& scene, const TrajectoryPoint& start, const
   if (scene.map == nullptr) return;
   const std::int32_t lead_ms = static_cast<std::int32_t>(start_ms - scene.time_ms);
   const float lead_s = clamp(0.001F * static_cast<float>(lead_ms), 0.0F, kMaxLeadS);
-  Course courses[decltype(Scene::ego_paths)::kCapacity];
+  Course courses[decltype(scene::Scene::ego_paths)::kCapacity];
   for (int path = 0; path < scene.ego_paths.size(); ++path) {
     prepare(scene, scene.ego_paths[path], start, lead_s, parameters, lines[path], courses[path]);
   }
@@ -272,4 +274,4 @@ void generate_candidates(const Scene& scene, const TrajectoryPoint& start, const
   }
 }
 
-}  // namespace s4tp
+}  // namespace s4tp::trajectory

@@ -12,7 +12,7 @@
 #include "algo/scene/scene.hpp"
 #include "algo/trajectory/reference_line.hpp"
 
-namespace s4tp {
+namespace s4tp::trajectory {
 
 enum class Intent : std::uint8_t {
   kAccelerate = 0,  ///< one of the fixed accelerations, speed kept in [0, limit]
@@ -55,7 +55,7 @@ enum class Rejection : std::uint8_t {
 using CandidateList = BoundedVector<Candidate, kMaxCandidates>;
 
 /// One line for each of Scene::ego_paths, in their order.
-using ReferenceLines = ReferenceLine[decltype(Scene::ego_paths)::kCapacity];
+using ReferenceLines = ReferenceLine[decltype(scene::Scene::ego_paths)::kCapacity];
 
 /// Whether `time_ms` lies within the plan's validity. False for a plan of kind none.
 [[nodiscard]] bool plan_covers(const Plan& plan, std::uint32_t time_ms);
@@ -89,12 +89,12 @@ inline constexpr int kMaxRollOuts = 60;
 /// always among those tried first. \param lines  receives what the candidates are rolled out on \param
 /// left_out  receives how many feasible ones did not fit, and how many `most` left untried \param aim  adds
 /// a candidate that settles there, and one beside it in our own lane, behind our own leader (CAND-015)
-void generate_candidates(const Scene& scene, const TrajectoryPoint& start, const Plan& running,
+void generate_candidates(const scene::Scene& scene, const TrajectoryPoint& start, const Plan& running,
                          std::uint32_t start_ms, const Parameters& parameters, int most,
                          ReferenceLines& lines, CandidateList& candidates, int& left_out,
                          CandidateVisitor& visitor, const MergeTarget& aim = {});
 /// The same without a visitor.
-void generate_candidates(const Scene& scene, const TrajectoryPoint& start, const Plan& running,
+void generate_candidates(const scene::Scene& scene, const TrajectoryPoint& start, const Plan& running,
                          std::uint32_t start_ms, const Parameters& parameters, int most,
                          ReferenceLines& lines, CandidateList& candidates, int& left_out,
                          const MergeTarget& aim = {});
@@ -107,4 +107,4 @@ void roll_out(const ReferenceLine& line, const Candidate& candidate, const Traje
               const Plan& running, std::uint32_t start_ms, const Parameters& parameters,
               Trajectory& trajectory);
 
-}  // namespace s4tp
+}  // namespace s4tp::trajectory

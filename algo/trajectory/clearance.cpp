@@ -3,7 +3,7 @@
 #include "algo/core/inline.hpp"
 #include "algo/trajectory/bicycle.hpp"
 
-namespace s4tp {
+namespace s4tp::trajectory {
 namespace {
 
 constexpr int kConstantVelocitySteps = 15;  // as the check: longer nobody just keeps going
@@ -78,11 +78,11 @@ void insert(const Nearest& nearest, RefinementStep& step, float (&gaps_m)[kMaxHa
   step.half_planes[i] = nearest.plane;
 }
 
-void look_at(const Shape& own, const PredictionSet& prediction, int agent, int index, const Track& track,
-             Nearest& nearest) {
-  for (const AgentPrediction& predicted : prediction.agents) {
+void look_at(const Shape& own, const satp::PredictionSet& prediction, int agent, int index,
+             const Track& track, Nearest& nearest) {
+  for (const satp::AgentPrediction& predicted : prediction.agents) {
     if (predicted.agent != agent) continue;
-    for (const Mode& mode : predicted.modes) look_at(own, mode.steps[index], track, nearest);
+    for (const satp::Mode& mode : predicted.modes) look_at(own, mode.steps[index], track, nearest);
   }
 }
 
@@ -90,7 +90,7 @@ void look_at(const Shape& own, const PredictionSet& prediction, int agent, int i
 
 void find_half_planes(const Surroundings& surroundings, const Trajectory& trajectory, Point origin,
                       float reach_m, const Parameters& parameters, RefinementProblem& problem) {
-  const Scene& scene = surroundings.scene;
+  const scene::Scene& scene = surroundings.scene;
   const float margin_m = parameters.safety.margin_m + kOverMarginM;
   for (int i = 0; i < kHorizonSteps; ++i) {
     RefinementStep& step = problem.steps[i];
@@ -113,4 +113,4 @@ void find_half_planes(const Surroundings& surroundings, const Trajectory& trajec
   }
 }
 
-}  // namespace s4tp
+}  // namespace s4tp::trajectory

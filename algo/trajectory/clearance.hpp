@@ -6,14 +6,14 @@
 #include "algo/scene/scene.hpp"
 #include "algo/trajectory/ilqr_problem.hpp"
 
-namespace s4tp {
+namespace s4tp::trajectory {
 
 /// Everybody's futures, as the check reads them.
 struct Surroundings {
-  const Scene& scene;
-  const PredictionSet& marginal;
-  const PredictionSet& conditioned;
-  const KinematicSet& constant_velocity;
+  const scene::Scene& scene;
+  const satp::PredictionSet& marginal;
+  const satp::PredictionSet& conditioned;
+  const satp::KinematicSet& constant_velocity;
 };
 
 /// Writes half_planes of every step: of each vehicle the future nearest to our box on `trajectory`, of these
@@ -23,4 +23,4 @@ struct Surroundings {
 void find_half_planes(const Surroundings& surroundings, const Trajectory& trajectory, Point origin,
                       float reach_m, const Parameters& parameters, RefinementProblem& problem);
 
-}  // namespace s4tp
+}  // namespace s4tp::trajectory

@@ -3,7 +3,7 @@
 #include "algo/core/inline.hpp"
 #include "algo/trajectory/ilqr_backward.hpp"
 
-namespace s4tp {
+namespace s4tp::trajectory {
 namespace {
 
 constexpr float kShares[] = {1.0F, 0.4F, 0.1F};  // of a correction, tried in this order
@@ -135,4 +135,4 @@ IlqrResult Ilqr::solve(const RefinementProblem& problem, int allowance, Motion& 
   return result;
 }
 
-}  // namespace s4tp
+}  // namespace s4tp::trajectory

@@ -6,7 +6,7 @@
 
 #include "algo/trajectory/ilqr_problem.hpp"
 
-namespace s4tp {
+namespace s4tp::trajectory {
 
 inline constexpr int kMotionStates = 6;  ///< x, y, psi, v, a, kappa
 
@@ -52,4 +52,4 @@ class Ilqr {
   BoundState bounds_;
 };
 
-}  // namespace s4tp
+}  // namespace s4tp::trajectory

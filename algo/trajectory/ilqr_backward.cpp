@@ -2,7 +2,7 @@
 
 #include "algo/core/inline.hpp"
 
-namespace s4tp {
+namespace s4tp::trajectory {
 namespace {
 
 constexpr float kHalfStepS = 0.5F * kStepS;
@@ -119,4 +119,4 @@ float backward_pass(const RefinementProblem& problem, const BoundState& bounds, 
   return max(0.0F, promised);
 }
 
-}  // namespace s4tp
+}  // namespace s4tp::trajectory

@@ -4,7 +4,7 @@
 
 #include "algo/trajectory/ilqr_model.hpp"
 
-namespace s4tp {
+namespace s4tp::trajectory {
 
 /// Least of 1/2 u'Hu + g'u within [low, high]; H positive definite.
 struct BoxStep {
@@ -20,4 +20,4 @@ struct BoxStep {
                                   const Motion& nominal, float damping,
                                   InputCorrection (&corrections)[kHorizonSteps]);
 
-}  // namespace s4tp
+}  // namespace s4tp::trajectory

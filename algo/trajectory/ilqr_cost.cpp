@@ -1,7 +1,7 @@
 #include "algo/core/inline.hpp"
 #include "algo/trajectory/ilqr_model.hpp"
 
-namespace s4tp {
+namespace s4tp::trajectory {
 namespace {
 
 /// How much of each bounded quantity matters as much as the others: penalties grow with 1 / unit^2.
@@ -355,4 +355,4 @@ void update_multipliers(const RefinementProblem& problem, const Motion& motion, 
   }
 }
 
-}  // namespace s4tp
+}  // namespace s4tp::trajectory

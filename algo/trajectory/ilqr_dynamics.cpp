@@ -1,7 +1,7 @@
 #include "algo/core/inline.hpp"
 #include "algo/trajectory/ilqr_model.hpp"
 
-namespace s4tp {
+namespace s4tp::trajectory {
 namespace {
 
 /// The smooth clamp and its slope: w t^2 (2 - t) meets 0 and u with their values and slopes.
@@ -66,4 +66,4 @@ MotionJacobian motion_jacobian(const MotionState& state, const MotionInput& inpu
   return jacobian;
 }
 
-}  // namespace s4tp
+}  // namespace s4tp::trajectory

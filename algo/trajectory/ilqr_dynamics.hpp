@@ -14,7 +14,7 @@
 #include "algo/core/config.hpp"
 #include "algo/core/trajectory.hpp"
 
-namespace s4tp {
+namespace s4tp::trajectory {
 
 inline constexpr float kRestBlendMps = 0.1F;
 
@@ -41,4 +41,4 @@ struct Motion {
 /// One step of kStepS.
 [[nodiscard]] MotionState motion_step(const MotionState& state, const MotionInput& input);
 
-}  // namespace s4tp
+}  // namespace s4tp::trajectory

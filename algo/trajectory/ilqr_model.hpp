@@ -5,7 +5,7 @@
 #include "algo/core/linear_algebra.hpp"
 #include "algo/trajectory/ilqr.hpp"
 
-namespace s4tp {
+namespace s4tp::trajectory {
 
 using StateVector = Vector<kMotionStates>;  ///< x, y, psi, v, a, kappa
 using InputVector = Vector<2>;              ///< jerk, curvature rate
@@ -57,4 +57,4 @@ struct InputCost {
 };
 [[nodiscard]] InputCost input_cost(const RefinementProblem& problem, int index, const MotionInput& input);
 
-}  // namespace s4tp
+}  // namespace s4tp::trajectory

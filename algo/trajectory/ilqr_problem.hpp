@@ -15,7 +15,7 @@
 
 #include "algo/trajectory/ilqr_dynamics.hpp"
 
-namespace s4tp {
+namespace s4tp::trajectory {
 
 inline constexpr int kMaxHalfPlanes = 3;  ///< of each step, the nearest
 
@@ -144,4 +144,4 @@ struct Deviation {
 /// multiplier.
 void update_multipliers(const RefinementProblem& problem, const Motion& motion, BoundState& bounds);
 
-}  // namespace s4tp
+}  // namespace s4tp::trajectory

@@ -3,7 +3,7 @@
 #include "algo/core/inline.hpp"
 #include "algo/trajectory/bicycle.hpp"
 
-namespace s4tp {
+namespace s4tp::trajectory {
 namespace {
 
 constexpr float kStandsMps = 0.3F;  // all that a standing car's measured speed may be
@@ -17,7 +17,7 @@ constexpr float kAsidesM[] = {0.0F, -0.35F, 0.35F, -0.7F, 0.7F};
 constexpr int kAsides = static_cast<int>(sizeof(kAsidesM) / sizeof(kAsidesM[0]));
 constexpr unsigned kAnywhere = (1U << kAsides) - 1U;
 
-Box box_of(const Agent& agent) {
+Box box_of(const scene::Agent& agent) {
   return {agent.track.centre, agent.track.length_m, agent.track.width_m};
 }
 
@@ -56,16 +56,16 @@ unsigned within_lane(float width_m, const Parameters& parameters) {
   return within;
 }
 
-float find_aside_m(const Scene& scene, const EgoPath& path, const Parameters& parameters) {
+float find_aside_m(const scene::Scene& scene, const scene::EgoPath& path, const Parameters& parameters) {
   unsigned from[kMaxTracks];
   for (unsigned& one : from) one = kAnywhere;
   float width_m = kWideM;
-  PathCursor cursor(*scene.map, path.path);
+  scene::PathCursor cursor(*scene.map, path.path);
   for (int i = 0; i < kStepsAhead; ++i) {
-    const PathPoint point = cursor.at(path.frenet.s_m + static_cast<float>(i) * kStepM);
+    const scene::PathPoint point = cursor.at(path.frenet.s_m + static_cast<float>(i) * kStepM);
     width_m = min(width_m, point.width_m);
     for (int k = 0; k < scene.agents.size(); ++k) {
-      const Agent& agent = scene.agents[k];
+      const scene::Agent& agent = scene.agents[k];
       if (is_standing(agent) && from[k] != 0)
         from[k] = passed_from(point.pose, box_of(agent), from[k], parameters);
     }
@@ -81,16 +81,16 @@ float find_aside_m(const Scene& scene, const EgoPath& path, const Parameters& pa
 
 }  // namespace
 
-bool is_standing(const Agent& agent) {
+bool is_standing(const scene::Agent& agent) {
   return agent.track.speed_mps < kStandsMps;
 }
 
-void set_lateral_offsets(const Parameters& parameters, Scene& scene) {
+void set_lateral_offsets(const Parameters& parameters, scene::Scene& scene) {
   bool somebody_stands = false;
-  for (const Agent& agent : scene.agents) somebody_stands = somebody_stands || is_standing(agent);
-  for (EgoPath& path : scene.ego_paths) {
+  for (const scene::Agent& agent : scene.agents) somebody_stands = somebody_stands || is_standing(agent);
+  for (scene::EgoPath& path : scene.ego_paths) {
     path.aside_m = somebody_stands ? find_aside_m(scene, path, parameters) : 0.0F;
   }
 }
 
-}  // namespace s4tp
+}  // namespace s4tp::trajectory

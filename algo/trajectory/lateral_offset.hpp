@@ -4,18 +4,18 @@
 #include "algo/core/parameters.hpp"
 #include "algo/scene/scene.hpp"
 
-namespace s4tp {
+namespace s4tp::trajectory {
 
 /// Gap our box needs beside one who stands.
 inline constexpr float kBystanderGapM = 0.4F;
 
 /// Whether the vehicle stands, as far as its measured speed tells.
-[[nodiscard]] bool is_standing(const Agent& agent);
+[[nodiscard]] bool is_standing(const scene::Agent& agent);
 
 /// Sets EgoPath::aside_m of every path (CAND-018): the least of 0, 0.35 and 0.7 m to either side from which
 /// our box passes all who stand across or against it, over the next 30 m, with kBystanderGapM. Never beyond
 /// the lanes' edges; who cannot be passed so is not minded, and who stands along the path is a leader, not a
 /// bystander. \pre scene.map is there, or there are no ego paths
-void set_lateral_offsets(const Parameters& parameters, Scene& scene);
+void set_lateral_offsets(const Parameters& parameters, scene::Scene& scene);
 
-}  // namespace s4tp
+}  // namespace s4tp::trajectory

@@ -3,7 +3,7 @@
 #include "algo/core/inline.hpp"
 #include "algo/trajectory/bicycle.hpp"
 
-namespace s4tp {
+namespace s4tp::trajectory {
 namespace {
 
 constexpr float kOrdinaryJerkMps3 = 12.0F;  // allowed everywhere; more only where the candidate has it
@@ -231,4 +231,4 @@ RefinementResult Optimizer::refine(const ReferenceLine& line, float start_s_m,
   return result;
 }
 
-}  // namespace s4tp
+}  // namespace s4tp::trajectory

@@ -10,7 +10,7 @@
 #include "algo/trajectory/reference_line.hpp"
 #include "algo/trajectory/refinement_field.hpp"
 
-namespace s4tp {
+namespace s4tp::trajectory {
 
 inline constexpr float kRefinedAlongM = 2.0F;   ///< of the candidate
 inline constexpr float kRefinedWithinS = 0.5F;  ///< of it in time: a stop stays where it is
@@ -80,4 +80,4 @@ class Optimizer {
   Ilqr ilqr_;
 };
 
-}  // namespace s4tp
+}  // namespace s4tp::trajectory

@@ -2,7 +2,7 @@
 
 #include "algo/core/inline.hpp"
 
-namespace s4tp {
+namespace s4tp::trajectory {
 
 void PathWalk::place(float way_m, TrajectoryPoint& point) {
   constexpr float kTinyM = 1e-4F;  // shorter pieces are standstill
@@ -28,4 +28,4 @@ void PathWalk::place(float way_m, TrajectoryPoint& point) {
   point.curvature_1pm = lerp(a.curvature_1pm, b.curvature_1pm, t);
 }
 
-}  // namespace s4tp
+}  // namespace s4tp::trajectory

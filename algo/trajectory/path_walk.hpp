@@ -3,7 +3,7 @@
 
 #include "algo/core/trajectory.hpp"
 
-namespace s4tp {
+namespace s4tp::trajectory {
 
 /// Pose and curvature of a trajectory's path by the way driven along it, for growing ways. The path must
 /// outlive it.
@@ -19,4 +19,4 @@ class PathWalk {
   float passed_m_ = 0.0F;  ///< way from points[0] to points[segment_]
 };
 
-}  // namespace s4tp
+}  // namespace s4tp::trajectory

@@ -3,7 +3,7 @@
 #include "algo/core/inline.hpp"
 #include "algo/trajectory/bicycle.hpp"
 
-namespace s4tp {
+namespace s4tp::trajectory {
 namespace {
 
 constexpr float kFarthestM =
@@ -58,4 +58,4 @@ bool keeps_limits(const Trajectory& trajectory, const Parameters& parameters) {
   return as_far_as_driven(trajectory);
 }
 
-}  // namespace s4tp
+}  // namespace s4tp::trajectory

@@ -5,7 +5,7 @@
 #include "algo/core/parameters.hpp"
 #include "algo/core/trajectory.hpp"
 
-namespace s4tp {
+namespace s4tp::trajectory {
 
 /// CAND-019 Every value finite and where the arithmetic is good for it: position within 110 km, heading in
 /// [-pi, pi], speed 0 .. 100 m/s, acceleration within 13 m/s^2, curvature within 2 / m.
@@ -17,4 +17,4 @@ namespace s4tp {
 /// bounded work: two cosines and a sine a point
 [[nodiscard]] bool keeps_limits(const Trajectory& trajectory, const Parameters& parameters);
 
-}  // namespace s4tp
+}  // namespace s4tp::trajectory

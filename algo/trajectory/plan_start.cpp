@@ -2,7 +2,7 @@
 #include "algo/trajectory/bicycle.hpp"
 #include "algo/trajectory/candidates.hpp"
 
-namespace s4tp {
+namespace s4tp::trajectory {
 namespace {
 
 // How far we may be from the running plan and still go on from it (commands are continuous).
@@ -48,4 +48,4 @@ TrajectoryPoint plan_start(const EgoState& ego, std::uint32_t now_ms, const Plan
   return state;
 }
 
-}  // namespace s4tp
+}  // namespace s4tp::trajectory

@@ -3,7 +3,7 @@
 #include "algo/core/inline.hpp"
 #include "algo/trajectory/bicycle.hpp"
 
-namespace s4tp {
+namespace s4tp::trajectory {
 namespace {
 
 constexpr float kBehind = 16.0F;             // samples behind the start: a corner is smoothed as a whole
@@ -138,15 +138,15 @@ void cap_speeds(const Parameters& parameters, ReferenceLine& line) {
 
 }  // namespace
 
-void build_reference(const LaneMap& map, const LanePath& path, float from_s_m, float speed_mps,
+void build_reference(const LaneMap& map, const scene::LanePath& path, float from_s_m, float speed_mps,
                      const Parameters& parameters, ReferenceLine& line) {
   line.spacing_m = max(1.0F, kSpacingPerSpeed * speed_mps);
   line.aside_m = 0.0F;
   // Samples lie on a fixed grid of the path: lines built from slightly different places agree.
   line.start_s_m = (floor(from_s_m / line.spacing_m) - kBehind) * line.spacing_m;
-  PathCursor cursor(map, path);
+  scene::PathCursor cursor(map, path);
   for (int i = 0; i < kReferenceSamples; ++i) {
-    const PathPoint point = cursor.at(line.start_s_m + static_cast<float>(i) * line.spacing_m);
+    const scene::PathPoint point = cursor.at(line.start_s_m + static_cast<float>(i) * line.spacing_m);
     line.samples[i].pose = point.pose;
     line.samples[i].speed_cap_mps = point.speed_limit_mps;
   }
@@ -227,4 +227,4 @@ ReferenceCoordinates locate_on(const ReferenceLine& line, Point point, float gue
   return found;
 }
 
-}  // namespace s4tp
+}  // namespace s4tp::trajectory

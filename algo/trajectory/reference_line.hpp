@@ -13,7 +13,7 @@
 #include "algo/core/parameters.hpp"
 #include "algo/scene/lane_path.hpp"
 
-namespace s4tp {
+namespace s4tp::trajectory {
 
 inline constexpr int kReferenceSamples = 84;
 
@@ -38,7 +38,7 @@ struct ReferenceCoordinates {
 
 /// Samples `path` from a little behind `from_s_m` on. \param speed_mps  widens the spacing, so that 3 s and
 /// the way to brake fit at any speed. \pre the path has at least one lane
-void build_reference(const LaneMap& map, const LanePath& path, float from_s_m, float speed_mps,
+void build_reference(const LaneMap& map, const scene::LanePath& path, float from_s_m, float speed_mps,
                      const Parameters& parameters, ReferenceLine& line);
 
 /// The line at `s_m`, interpolated; the heading may be outside [-pi, pi) by a step's turn.
@@ -51,4 +51,4 @@ void build_reference(const LaneMap& map, const LanePath& path, float from_s_m, f
 /// Foot of `point` on the line, near `guess_s_m`.
 [[nodiscard]] ReferenceCoordinates locate_on(const ReferenceLine& line, Point point, float guess_s_m);
 
-}  // namespace s4tp
+}  // namespace s4tp::trajectory

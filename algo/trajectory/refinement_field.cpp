@@ -3,7 +3,7 @@
 #include "algo/core/inline.hpp"
 #include "algo/sadrf/risk.hpp"
 
-namespace s4tp {
+namespace s4tp::trajectory {
 namespace {
 
 /// R_0: keeps the root from falling steeply where there is hardly any risk.
@@ -40,14 +40,14 @@ float evaluate_field(const Surroundings& surroundings, const RefinementProblem& 
     point.speed_mps = state.speed_mps;
     point.curvature_1pm = state.curvature_1pm;
   }
-  SmoothRisk(&risks)[kHorizonSteps] = scratch.risks;
-  smooth_risk(surroundings.scene, surroundings.conditioned, surroundings.constant_velocity, trajectory,
-              parameters, kFieldStride - 1, kFieldStride, risks);
+  sadrf::SmoothRisk(&risks)[kHorizonSteps] = scratch.risks;
+  sadrf::smooth_risk(surroundings.scene, surroundings.conditioned, surroundings.constant_velocity, trajectory,
+                     parameters, kFieldStride - 1, kFieldStride, risks);
   const float wheelbase_m = parameters.vehicle.wheelbase_m;
   for (int k = 0; k < kFieldKnots; ++k) {
     const int i = k * kFieldStride + kFieldStride - 1;
     const RefinementStep& step = problem.steps[i];
-    const FieldGradient& slope = risks[i].slope;
+    const sadrf::FieldGradient& slope = risks[i].slope;
     const float bend = wheelbase_m * motion.states[i + 1].curvature_1pm;
     field.knots[k] = {risks[i].value,
                       step.along_x * slope.x + step.along_y * slope.y,
@@ -102,4 +102,4 @@ void put_field(const FieldAlong& field, const Motion& motion, float trust_m, con
   }
 }
 
-}  // namespace s4tp
+}  // namespace s4tp::trajectory

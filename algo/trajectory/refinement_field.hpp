@@ -15,7 +15,7 @@
 #include "algo/trajectory/clearance.hpp"
 #include "algo/trajectory/ilqr_problem.hpp"
 
-namespace s4tp {
+namespace s4tp::trajectory {
 
 inline constexpr int kFieldStride = 3;  ///< steps from one place evaluated to the next
 inline constexpr int kFieldKnots = kHorizonSteps / kFieldStride;  ///< the last one is the last step
@@ -38,7 +38,7 @@ struct FieldAlong {
 /// Working memory of evaluate_field; nothing in it outlives the call.
 struct FieldScratch {
   Trajectory trajectory;
-  SmoothRisk risks[kHorizonSteps];
+  sadrf::SmoothRisk risks[kHorizonSteps];
 };
 
 /// CAND-019 Evaluates the field along a motion, with its slopes by pose, speed and curvature. \param origin  what
@@ -56,4 +56,4 @@ void without_field(RefinementProblem& problem);
 void put_field(const FieldAlong& field, const Motion& motion, float trust_m, const Parameters& parameters,
                RefinementProblem& problem);
 
-}  // namespace s4tp
+}  // namespace s4tp::trajectory

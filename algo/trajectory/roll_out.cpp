@@ -4,7 +4,7 @@
 #include "algo/trajectory/speed_profile.hpp"
 #include "algo/trajectory/steering.hpp"
 
-namespace s4tp {
+namespace s4tp::trajectory {
 namespace {
 
 constexpr float kMaxSlope = 2.0F;         // tangent of the largest heading error a path can start with
@@ -213,4 +213,4 @@ void roll_out(const ReferenceLine& line, const Candidate& candidate, const Traje
   }
 }
 
-}  // namespace s4tp
+}  // namespace s4tp::trajectory

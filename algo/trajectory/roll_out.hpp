@@ -4,7 +4,7 @@
 #include "algo/trajectory/candidates.hpp"
 #include "algo/trajectory/reference_line.hpp"
 
-namespace s4tp {
+namespace s4tp::trajectory {
 
 /// Way a lateral motion to the centre takes: at speed by lateral acceleration, slow by what can be steered;
 /// one that is under way already goes on as fast as it is.
@@ -20,4 +20,4 @@ void shape_lateral(const ReferenceLine& line, const TrajectoryPoint& start, Refe
 /// other way at the start would be turned back over its whole length. It is steered instead (CAND-017).
 [[nodiscard]] bool overshoots(const Candidate& candidate);
 
-}  // namespace s4tp
+}  // namespace s4tp::trajectory

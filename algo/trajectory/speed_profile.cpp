@@ -3,7 +3,7 @@
 #include "algo/core/inline.hpp"
 #include "algo/occupancy/safe_distance.hpp"
 
-namespace s4tp {
+namespace s4tp::trajectory {
 namespace {
 
 constexpr float kReactS = 0.6F;          // a cap is approached exponentially with this time constant
@@ -42,7 +42,8 @@ float for_leader(float gap_m, float speed_mps, float leader_mps, const Parameter
   const float closing =
       speed_mps * (speed_mps - leader_mps) / (2.0F * sqrt(comfort.acceleration_mps2 * comfort.braking_mps2));
   const float idm_m = comfort.standstill_gap_m + max(0.0F, comfort.headway_s * speed_mps + closing);
-  const float wanted_m = max(idm_m, safe_distance_m(speed_mps, leader_mps, parameters) + kFollowGapM);
+  const float wanted_m =
+      max(idm_m, occupancy::safe_distance_m(speed_mps, leader_mps, parameters) + kFollowGapM);
   if (speed_mps < kHoldMps && leader_mps < kHoldMps && gap_m < wanted_m + kHoldM) return -kRestMps2;
   return comfort.acceleration_mps2 * (1.0F - square(wanted_m / max(gap_m, 0.5F)));
 }
@@ -100,4 +101,4 @@ float advance(float wanted_mps2, const Parameters& parameters, LongitudinalState
   return 0.5F * (before_mps + now_mps) * kStepS;
 }
 
-}  // namespace s4tp
+}  // namespace s4tp::trajectory

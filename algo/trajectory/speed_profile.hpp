@@ -4,7 +4,7 @@
 #include "algo/trajectory/candidates.hpp"
 #include "algo/trajectory/reference_line.hpp"
 
-namespace s4tp {
+namespace s4tp::trajectory {
 
 /// Longitudinal state along the reference line.
 struct LongitudinalState {
@@ -24,4 +24,4 @@ struct LongitudinalState {
 /// \return distance travelled [m] >= 0
 [[nodiscard]] float advance(float wanted_mps2, const Parameters& parameters, LongitudinalState& state);
 
-}  // namespace s4tp
+}  // namespace s4tp::trajectory

@@ -3,7 +3,7 @@
 #include "algo/core/inline.hpp"
 #include "algo/trajectory/bicycle.hpp"
 
-namespace s4tp {
+namespace s4tp::trajectory {
 namespace {
 
 constexpr float kShare = 0.95F;           // of steering angle, rate and lateral acceleration
@@ -52,4 +52,4 @@ void steer_step(const ReferenceLine& line, float way_m, const SteeringLimits& li
   s_m = locate_on(line, position(point.rear_axle), s_m + way_m).s_m;
 }
 
-}  // namespace s4tp
+}  // namespace s4tp::trajectory

@@ -6,7 +6,7 @@
 #include "algo/core/trajectory.hpp"
 #include "algo/trajectory/reference_line.hpp"
 
-namespace s4tp {
+namespace s4tp::trajectory {
 
 /// What all steps share: a part of what the vehicle can do is left to follow the plan with.
 struct SteeringLimits {
@@ -21,4 +21,4 @@ struct SteeringLimits {
 void steer_step(const ReferenceLine& line, float way_m, const SteeringLimits& limits, float& s_m,
                 TrajectoryPoint& point);
 
-}  // namespace s4tp
+}  // namespace s4tp::trajectory

@@ -10,7 +10,7 @@ namespace s4tp::ecu {
 
 /// The world at a boundary: control -> planning. `input` points into this very object.
 struct Snapshot {
-  PlannerInput input;
+  planner::PlannerInput input;
   LaneMap map;
   std::uint32_t map_revision = 0;  ///< of `map`, so that an unchanged one is not converted again
   Plan running;
@@ -24,7 +24,7 @@ struct CycleResult {
   std::uint32_t start_ms = 0;  ///< the boundary it was asked for
   Status status = Status::kNotInitialized;
   Plan plan;
-  Explanation explanation;
+  planner::Explanation explanation;
   std::uint32_t cycles = 0;  ///< of the cycle counter
 };
 

@@ -176,7 +176,7 @@ void EcuCore::give_snapshot() {
   if (!planning_idle_ || !inputs_.ego_known()) return;
   Snapshot* snapshot = snapshots_.claim();
   if (snapshot == nullptr) return;
-  PlannerInput& input = snapshot->input;
+  planner::PlannerInput& input = snapshot->input;
   input.now_ms = inputs_.now_ms();
   input.start_ms = boundary_ms_ + kPeriodMs;
   input.ego = inputs_.ego();
@@ -209,7 +209,7 @@ const Snapshot& EcuCore::begin_cycle(CycleResult*& result) {
   result->start_ms = snapshot.input.start_ms;
   result->status = Status::kNotInitialized;
   result->plan = Plan{};
-  result->explanation = Explanation{};
+  result->explanation = planner::Explanation{};
   result->cycles = ports_.cycles->now();
   return snapshot;
 }

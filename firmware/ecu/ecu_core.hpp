@@ -92,7 +92,7 @@ class EcuCore {
   Tracker tracker_;
   Reporter reporter_;
   Plan plan_;  ///< in force
-  Explanation explanation_;
+  planner::Explanation explanation_;
   Status planner_status_ = Status::kNotInitialized;
   CycleStatistics statistics_;
   Age plan_age_;  ///< since it took effect

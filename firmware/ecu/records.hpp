@@ -16,7 +16,7 @@ enum class RecordKind : std::uint16_t { kPlan = 1, kControl = 2, kModeChange = 3
 struct PlanRecord {
   std::uint32_t computed_ms = 0;  ///< vehicle time of the snapshot it was made from
   Plan plan;
-  Explanation explanation;
+  planner::Explanation explanation;
   std::uint32_t digest = 0;
 };
 

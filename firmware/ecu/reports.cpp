@@ -66,15 +66,15 @@ void Reporter::version(hal::Can& can) {
 }
 
 void Reporter::plan(hal::Can& can, std::uint32_t sequence, std::uint32_t digest,
-                    const Explanation& explanation) {
+                    const planner::Explanation& explanation) {
   wire::PlanDigest plan;
   plan.sequence = static_cast<std::uint16_t>(sequence & 0xFFFFU);
   plan.digest = digest;
   send(can, plan, digest_);
 
   std::uint32_t rejected = 0;
-  for (const Rejection rejection : explanation.rejections) {
-    if (rejection != Rejection::kNone) ++rejected;
+  for (const trajectory::Rejection rejection : explanation.rejections) {
+    if (rejection != trajectory::Rejection::kNone) ++rejected;
   }
   wire::PlanReason reason;
   reason.path = at_most<std::uint8_t>(explanation.chosen.path, 3);

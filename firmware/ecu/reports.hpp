@@ -34,7 +34,8 @@ class Reporter {
   void version(hal::Can& can);                                    ///< ECU-068 every 1000 ms
   /// ECU-069 When a plan takes effect: its digest, and why it was chosen. ECU-101 How many vehicles and lanes
   /// it was not told of (31: or more), and whether one of those is what keeps it from going further.
-  void plan(hal::Can& can, std::uint32_t sequence, std::uint32_t digest, const Explanation& explanation);
+  void plan(hal::Can& can, std::uint32_t sequence, std::uint32_t digest,
+            const planner::Explanation& explanation);
 
  private:
   wire::E2eSender command_;

@@ -32,7 +32,7 @@ hal::mps::Timer timer;
 hal::mps::Uart console;
 hal::mps::SlcanCan can;
 hal::mps::CmsdkWatchdog watchdog;
-ecu::Ecu<Planner> the_ecu;
+ecu::Ecu<planner::Planner> the_ecu;
 InterruptMeter meter(timer);
 volatile std::uint32_t ticks = 0;
 volatile bool planning = false;
@@ -60,7 +60,8 @@ void begin_cycle() {
 void print_cycle() {
   Text line;
   line << "cycle";
-  for (int i = 0; i < kStageCount; ++i) line << " " << StageCounter::name(i) << " " << stages.row(i).last;
+  for (int i = 0; i < planner::kStageCount; ++i)
+    line << " " << StageCounter::name(i) << " " << stages.row(i).last;
   line << " preemptions " << preemptions << " control " << control_counts << "\n";
   console.print(line.c_str());
 }

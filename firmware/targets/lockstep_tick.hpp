@@ -26,7 +26,7 @@ class LockstepTick final : public hal::Tick {
     const hal::mps::SlcanCan& line;  ///< below it
     const hal::Clock& clock;         ///< of the board
     hal::Watchdog& watchdog;
-    const ecu::Ecu<Planner>& ecu;
+    const ecu::Ecu<planner::Planner>& ecu;
   };
   explicit LockstepTick(const Ports& ports) : ports_(ports) {}
 

@@ -10,7 +10,7 @@
 
 namespace s4tp::targets {
 
-class PacedProbe final : public Probe {
+class PacedProbe final : public planner::Probe {
  public:
   /// What the interrupts count; plain memory, so that the loop costs an emulator little.
   struct Counts {
@@ -18,18 +18,19 @@ class PacedProbe final : public Probe {
     const volatile std::uint32_t& timers;  ///< timer interrupts
   };
   /// \param measure  told of each stage, without the stretching
-  PacedProbe(Probe& measure, const Counts& counts) : measure_(measure), counts_(counts) {}
+  PacedProbe(planner::Probe& measure, const Counts& counts) : measure_(measure), counts_(counts) {}
 
   void begin_cycle() { began_ = counts_.timers; }
 
-  void stage_begin(Stage stage) override { measure_.stage_begin(stage); }
-  void stage_end(Stage stage) override {
+  void stage_begin(planner::Stage stage) override { measure_.stage_begin(stage); }
+  void stage_end(planner::Stage stage) override {
     measure_.stage_end(stage);
-    const std::uint32_t share = kTicks * (static_cast<std::uint32_t>(stage) + 1U) / kStageCount;
+    const std::uint32_t share = kTicks * (static_cast<std::uint32_t>(stage) + 1U) / planner::kStageCount;
     while (counts_.ticks < share && counts_.timers - began_ < kPatience) {
     }
   }
-  void cycle_done(const Scene& scene, const PredictionSet& prediction, const RiskProfile& risk) override {
+  void cycle_done(const scene::Scene& scene, const satp::PredictionSet& prediction,
+                  const sadrf::RiskProfile& risk) override {
     measure_.cycle_done(scene, prediction, risk);
   }
 
@@ -38,7 +39,7 @@ class PacedProbe final : public Probe {
   /// Timer interrupts, 1 ms of 64 ns an instruction each: a world that has ended is not waited for.
   static constexpr std::uint32_t kPatience = 20'000;
 
-  Probe& measure_;
+  planner::Probe& measure_;
   Counts counts_;
   std::uint32_t began_ = 0;
 };

@@ -65,7 +65,7 @@ class Replay {
   [[nodiscard]] bool valid() const { return valid_ && ticks_ > 0; }
   void print_summary() const;
 
-  [[nodiscard]] Planner& planner() { return ecu_.planner(); }
+  [[nodiscard]] planner::Planner& planner() { return ecu_.planner(); }
 
  private:
   void comment(const char* text, int size);
@@ -75,7 +75,7 @@ class Replay {
   void differs(const wire::Frame* recorded, const wire::Frame* sent);
   void invalid(const char* reason);
 
-  ecu::Ecu<Planner> ecu_;
+  ecu::Ecu<planner::Planner> ecu_;
   LogCan can_;
   hal::sim::SimClock clock_;
   hal::sim::NullCycleCounter cycles_;

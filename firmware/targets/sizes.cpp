@@ -3,6 +3,6 @@
 #include "algo/planner/planner.hpp"
 
 extern "C" {
-extern const char s4tp_size_of_planner[sizeof(s4tp::Planner)];
-const char s4tp_size_of_planner[sizeof(s4tp::Planner)] = {};
+extern const char s4tp_size_of_planner[sizeof(s4tp::planner::Planner)];
+const char s4tp_size_of_planner[sizeof(s4tp::planner::Planner)] = {};
 }

@@ -19,19 +19,19 @@ void StageCounter::Row::close() {
   if (last > maximum) maximum = last;
 }
 
-void StageCounter::stage_begin(Stage) {
+void StageCounter::stage_begin(planner::Stage) {
   began_ = counts_now();
   if (in_cycle_) return;
   in_cycle_ = true;
   cycle_began_ = began_;
 }
 
-void StageCounter::stage_end(Stage stage) {
+void StageCounter::stage_end(planner::Stage stage) {
   rows_[static_cast<int>(stage)].running += counts_now() - began_;
 }
 
-void StageCounter::cycle_done(const Scene&, const PredictionSet&, const RiskProfile&) {
-  if (in_cycle_) rows_[kStageCount].running = counts_now() - cycle_began_;
+void StageCounter::cycle_done(const scene::Scene&, const satp::PredictionSet&, const sadrf::RiskProfile&) {
+  if (in_cycle_) rows_[planner::kStageCount].running = counts_now() - cycle_began_;
   in_cycle_ = false;
   for (Row& row : rows_) row.close();
 }

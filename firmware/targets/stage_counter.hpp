@@ -7,11 +7,12 @@
 
 namespace s4tp::targets {
 
-class StageCounter final : public Probe {
+class StageCounter final : public planner::Probe {
  public:
-  void stage_begin(Stage stage) override;
-  void stage_end(Stage stage) override;
-  void cycle_done(const Scene& scene, const PredictionSet& prediction, const RiskProfile& risk) override;
+  void stage_begin(planner::Stage stage) override;
+  void stage_end(planner::Stage stage) override;
+  void cycle_done(const scene::Scene& scene, const satp::PredictionSet& prediction,
+                  const sadrf::RiskProfile& risk) override;
 
   struct Row {
     std::uint32_t cycles = 0;  ///< it ran in
@@ -21,7 +22,8 @@ class StageCounter final : public Probe {
     std::uint32_t running = 0;  ///< counts so far in the cycle that is running
     void close();
   };
-  static constexpr int kRows = kStageCount + 1;  ///< the last is the whole cycle, what is between stages too
+  static constexpr int kRows =
+      planner::kStageCount + 1;  ///< the last is the whole cycle, what is between stages too
   [[nodiscard]] static const char* name(int row);
   /// \pre 0 <= index < kRows
   [[nodiscard]] const Row& row(int index) const { return rows_[index]; }

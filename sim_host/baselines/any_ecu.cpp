@@ -13,7 +13,7 @@ std::vector<std::string> planner_names() {
 }
 
 std::unique_ptr<AnyEcu> make_ecu(const std::string& planner, bool guarded, const Parameters& parameters,
-                                 const ecu::Ports& ports, Probe* probe) {
+                                 const ecu::Ports& ports, planner::Probe* probe) {
   const PlannerEntry& entry = find_planner(planner);
   if (entry.drives_in_sumo) {
     throw std::invalid_argument(planner + " is a driver of SUMO's and runs on no ECU");

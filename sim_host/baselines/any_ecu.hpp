@@ -30,6 +30,6 @@ class AnyEcu {
 /// \throws std::invalid_argument naming the planners there are, or the first bad parameter
 [[nodiscard]] std::unique_ptr<AnyEcu> make_ecu(const std::string& planner, bool guarded,
                                                const Parameters& parameters, const ecu::Ports& ports,
-                                               Probe* probe);
+                                               planner::Probe* probe);
 
 }  // namespace s4tp::baselines

@@ -6,7 +6,7 @@
 
 namespace s4tp::baselines {
 
-class BarePlanner final : public PlanningCycle {
+class BarePlanner final : public planner::PlanningCycle {
   [[nodiscard]] safety::Verdict verify(int, const Trajectory&) const override { return {}; }
 };
 

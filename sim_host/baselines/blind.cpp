@@ -10,8 +10,8 @@ const RegisterPlanner kRegistered{
 
 }  // namespace
 
-Status BlindPlanner::plan(const PlannerInput& input, Plan& plan, Explanation& explanation) {
-  PlannerInput empty_road = input;
+Status BlindPlanner::plan(const planner::PlannerInput& input, Plan& plan, planner::Explanation& explanation) {
+  planner::PlannerInput empty_road = input;
   empty_road.tracks.clear();
   return planner_.plan(empty_road, plan, explanation);
 }

@@ -9,11 +9,12 @@ namespace s4tp::baselines {
 class BlindPlanner {
  public:
   [[nodiscard]] Status init(const Parameters& parameters) { return planner_.init(parameters); }
-  [[nodiscard]] Status plan(const PlannerInput& input, Plan& plan, Explanation& explanation);
-  [[nodiscard]] Planner& inner() { return planner_; }
+  [[nodiscard]] Status plan(const planner::PlannerInput& input, Plan& plan,
+                            planner::Explanation& explanation);
+  [[nodiscard]] planner::Planner& inner() { return planner_; }
 
  private:
-  Planner planner_;
+  planner::Planner planner_;
 };
 
 }  // namespace s4tp::baselines

@@ -8,12 +8,13 @@ namespace s4tp::baselines {
 class ConstantSpeedPlanner {
  public:
   [[nodiscard]] Status init(const Parameters& parameters);
-  [[nodiscard]] Status plan(const PlannerInput& input, Plan& plan, Explanation& explanation);
+  [[nodiscard]] Status plan(const planner::PlannerInput& input, Plan& plan,
+                            planner::Explanation& explanation);
 
  private:
   Parameters parameters_;
-  SceneBuilder scene_builder_;
-  Scene scene_;
+  scene::SceneBuilder scene_builder_;
+  scene::Scene scene_;
   float speed_mps_ = -1.0F;  ///< held; < 0: not seen yet
 };
 

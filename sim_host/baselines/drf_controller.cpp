@@ -29,9 +29,9 @@ constexpr int kAcross = 13;
 constexpr float kAcrossSigma = 3.0F;
 
 /// The lane beside ours when that brings us nearer to the route's, else ours.
-const EgoPath& wanted_path(const Scene& scene) {
+const scene::EgoPath& wanted_path(const scene::Scene& scene) {
   return *std::min_element(scene.ego_paths.begin(), scene.ego_paths.end(),
-                           [](const EgoPath& a, const EgoPath& b) {
+                           [](const scene::EgoPath& a, const scene::EgoPath& b) {
                              return std::abs(a.changes_needed) < std::abs(b.changes_needed);
                            });
 }
@@ -84,41 +84,44 @@ Status DrfControllerPlanner::init(const Parameters& parameters) {
   return validate(parameters, first_bad);
 }
 
-Status DrfControllerPlanner::plan(const PlannerInput& input, Plan& plan, Explanation& explanation) {
-  explanation = Explanation{};
+Status DrfControllerPlanner::plan(const planner::PlannerInput& input, Plan& plan,
+                                  planner::Explanation& explanation) {
+  explanation = planner::Explanation{};
   const Plan running = input.running != nullptr ? *input.running : Plan{};
   const Status status = scene_builder_.build(input.now_ms, input.ego, input.tracks, input.tracks_ms,
                                              input.map, parameters_, scene_);
   explanation.status = status;
-  TrajectoryPoint state = plan_start(input.ego, input.now_ms, running, input.start_ms, parameters_);
+  TrajectoryPoint state =
+      trajectory::plan_start(input.ego, input.now_ms, running, input.start_ms, parameters_);
   plan.start_ms = input.start_ms;
   plan.kind = PlanKind::kDrive;
   plan.trajectory.points[0] = state;
   has_road_ = status == Status::kOk;
-  build_drivable(has_road_ ? input.map : nullptr, area_);
+  sadrf::build_drivable(has_road_ ? input.map : nullptr, area_);
   const Point half{0.5F * kGroundCells * kGroundCellM, 0.5F * kGroundCells * kGroundCellM};
   ground_corner_ = offset_point(state.rear_axle, 0.75F * half.x_m, 0.0F) - half;
   std::memset(ground_, -1, sizeof(ground_));
   float s_m = 0.0F;
   if (has_road_) {
-    const EgoPath& path = wanted_path(scene_);
-    s_m = project(*input.map, path.path, position(state.rear_axle), path.frenet.s_m, 20.0F).s_m;
-    build_reference(*input.map, path.path, s_m, state.speed_mps, parameters_, line_);
+    const scene::EgoPath& path = wanted_path(scene_);
+    s_m = scene::project(*input.map, path.path, position(state.rear_axle), path.frenet.s_m, 20.0F).s_m;
+    trajectory::build_reference(*input.map, path.path, s_m, state.speed_mps, parameters_, line_);
   }
 
   const auto& vehicle = parameters_.vehicle;
   DrfCommand command;
   for (int i = 1; i < kTrajectoryPoints; ++i) {
     if ((i - 1) % kLawSteps == 0) command = command_at(state, s_m);
-    const float steering_rad = steering_for(state.curvature_1pm, vehicle.wheelbase_m);
+    const float steering_rad = trajectory::steering_for(state.curvature_1pm, vehicle.wheelbase_m);
     const float step_rad = vehicle.steering_rate_max_radps * kStepS;
     const float next_rad = std::clamp(command.steering_rad, steering_rad - step_rad, steering_rad + step_rad);
-    const float rate_1pms = (curvature_for(next_rad, vehicle.wheelbase_m) - state.curvature_1pm) / kStepS;
+    const float rate_1pms =
+        (trajectory::curvature_for(next_rad, vehicle.wheelbase_m) - state.curvature_1pm) / kStepS;
     const float acceleration = std::clamp(command.acceleration_mps2, state.acceleration_mps2 - kBrakeStepMps2,
                                           state.acceleration_mps2 + kDriveStepMps2);
     const float before_mps = state.speed_mps;
     const bool rests = before_mps <= 0.0F && acceleration <= 0.0F;
-    state = bicycle_step(state, acceleration, rests ? 0.0F : rate_1pms, kStepS);
+    state = trajectory::bicycle_step(state, acceleration, rests ? 0.0F : rate_1pms, kStepS);
     s_m += 0.5F * kStepS * (before_mps + state.speed_mps);
     plan.trajectory.points[i] = state;
   }
@@ -130,16 +133,20 @@ DrfCommand DrfControllerPlanner::command_at(const TrajectoryPoint& state, float 
   const float speed_mps = state.speed_mps;
   // What lateral acceleration and the wheels allow.
   const float bend_1pm = parameters_.comfort.lateral_mps2 / std::max(speed_mps * speed_mps, 1.0F);
-  const float most_rad = std::min(steering_for(bend_1pm, vehicle.wheelbase_m), vehicle.steering_max_rad);
+  const float most_rad =
+      std::min(trajectory::steering_for(bend_1pm, vehicle.wheelbase_m), vehicle.steering_max_rad);
   float heading_rad = 0.0F;
   float desired_mps = std::min(law.desired_mps, std::max(speed_mps, 1.0F));
   if (has_road_) {
-    const ReferenceCoordinates where = locate_on(line_, position(state.rear_axle), guess_s_m);
+    const trajectory::ReferenceCoordinates where =
+        trajectory::locate_on(line_, position(state.rear_axle), guess_s_m);
     const float ahead_m = std::max(kAimS * speed_mps, kAimM);
-    const Point aim = to_local(state.rear_axle, position(reference_at(line_, where.s_m + ahead_m).pose));
-    heading_rad = steering_for(2.0F * aim.y_m / std::max(dot(aim, aim), 1.0F), vehicle.wheelbase_m);
-    desired_mps = std::min({law.desired_mps, reference_at(line_, where.s_m).speed_cap_mps,
-                            reference_at(line_, where.s_m + kLookS * speed_mps).speed_cap_mps});
+    const Point aim =
+        to_local(state.rear_axle, position(trajectory::reference_at(line_, where.s_m + ahead_m).pose));
+    heading_rad =
+        trajectory::steering_for(2.0F * aim.y_m / std::max(dot(aim, aim), 1.0F), vehicle.wheelbase_m);
+    desired_mps = std::min({law.desired_mps, trajectory::reference_at(line_, where.s_m).speed_cap_mps,
+                            trajectory::reference_at(line_, where.s_m + kLookS * speed_mps).speed_cap_mps});
   }
   return drf_command(
       law, [&](float steering_rad) { return risk_of(state, steering_rad); },
@@ -148,17 +155,18 @@ DrfCommand DrfControllerPlanner::command_at(const TrajectoryPoint& state, float 
 
 float DrfControllerPlanner::risk_of(const TrajectoryPoint& state, float steering_rad) const {
   const auto& vehicle = parameters_.vehicle;
-  const Field field = prepare_field(kolekar2020_preset(vehicle.width_m),
-                                    {state.rear_axle, state.speed_mps, steering_rad, vehicle.wheelbase_m});
+  const sadrf::Field field =
+      sadrf::prepare_field(sadrf::kolekar2020_preset(vehicle.width_m),
+                           {state.rear_axle, state.speed_mps, steering_rad, vehicle.wheelbase_m});
   float obstacles = 0.0F;
-  for (const Agent& agent : scene_.agents) {
+  for (const scene::Agent& agent : scene_.agents) {
     const Track& track = agent.track;
-    obstacles += field_over_box(field, {track.centre, track.length_m, track.width_m});
+    obstacles += sadrf::field_over_box(field, {track.centre, track.length_m, track.width_m});
   }
   return parameters_.risk.cost_obstacle * obstacles + road_risk(field);
 }
 
-float DrfControllerPlanner::road_risk(const Field& field) const {
+float DrfControllerPlanner::road_risk(const sadrf::Field& field) const {
   if (area_.map == nullptr) return 0.0F;
   // Samples along and across the field's path, an arc from the rear axle.
   const float reach_m = std::min(field.look_ahead_m, kPi / std::max(std::abs(field.curvature_1pm), 1e-3F));
@@ -179,29 +187,29 @@ float DrfControllerPlanner::road_risk(const Field& field) const {
     for (int k = 0; k < kAcross; ++k) {
       const float e_m = low_m + (static_cast<float>(k) + 0.5F) * across_m;
       const Point point = at + e_m * side;
-      const Ground below = ground(point);
-      if (below == Ground::kOurs) continue;
+      const sadrf::Ground below = ground(point);
+      if (below == sadrf::Ground::kOurs) continue;
       const float cost =
-          below == Ground::kOffRoad ? parameters_.risk.cost_off_road : parameters_.risk.cost_opposite;
+          below == sadrf::Ground::kOffRoad ? parameters_.risk.cost_off_road : parameters_.risk.cost_opposite;
       const float area_m2 = along_m * across_m * std::max(0.0F, 1.0F - field.curvature_1pm * e_m);
-      sum += cost * field_at(field, point) * area_m2;
+      sum += cost * sadrf::field_at(field, point) * area_m2;
     }
   }
   return sum;
 }
 
-Ground DrfControllerPlanner::ground(Point point) const {
+sadrf::Ground DrfControllerPlanner::ground(Point point) const {
   const float column = (point.x_m - ground_corner_.x_m) / kGroundCellM;
   const float row = (point.y_m - ground_corner_.y_m) / kGroundCellM;
   if (!(column >= 0.0F && row >= 0.0F && column < kGroundCells && row < kGroundCells))
-    return ground_at(area_, point);
+    return sadrf::ground_at(area_, point);
   std::int8_t& cell = ground_[static_cast<int>(row)][static_cast<int>(column)];
   if (cell < 0) {
     const Point middle = ground_corner_ + Point{(std::floor(column) + 0.5F) * kGroundCellM,
                                                 (std::floor(row) + 0.5F) * kGroundCellM};
-    cell = static_cast<std::int8_t>(ground_at(area_, middle));
+    cell = static_cast<std::int8_t>(sadrf::ground_at(area_, middle));
   }
-  return static_cast<Ground>(cell);
+  return static_cast<sadrf::Ground>(cell);
 }
 
 }  // namespace s4tp::baselines

@@ -49,7 +49,8 @@ struct DrfCommand {
 class DrfControllerPlanner {
  public:
   [[nodiscard]] Status init(const Parameters& parameters);
-  [[nodiscard]] Status plan(const PlannerInput& input, Plan& plan, Explanation& explanation);
+  [[nodiscard]] Status plan(const planner::PlannerInput& input, Plan& plan,
+                            planner::Explanation& explanation);
 
   /// Risk of steering so from `state`, in the world of the last plan().
   [[nodiscard]] float risk_of(const TrajectoryPoint& state, float steering_rad) const;
@@ -58,18 +59,18 @@ class DrfControllerPlanner {
 
  private:
   [[nodiscard]] DrfCommand command_at(const TrajectoryPoint& state, float guess_s_m) const;
-  [[nodiscard]] float road_risk(const Field& field) const;
-  [[nodiscard]] Ground ground(Point point) const;
+  [[nodiscard]] float road_risk(const sadrf::Field& field) const;
+  [[nodiscard]] sadrf::Ground ground(Point point) const;
 
   // The ground around us, looked up once a cell.
   static constexpr int kGroundCells = 256;
   static constexpr float kGroundCellM = 0.5F;
 
   Parameters parameters_;
-  SceneBuilder scene_builder_;
-  Scene scene_;
-  DrivableArea area_;
-  ReferenceLine line_;
+  scene::SceneBuilder scene_builder_;
+  scene::Scene scene_;
+  sadrf::DrivableArea area_;
+  trajectory::ReferenceLine line_;
   bool has_road_ = false;
   Point ground_corner_;
   mutable std::int8_t ground_[kGroundCells][kGroundCells];  ///< a Ground; < 0: not looked up yet

@@ -10,12 +10,13 @@ namespace s4tp::baselines {
 namespace {
 
 /// The ego path in whose lane the trajectory ends.
-int path_of(const Scene& scene, const Trajectory& trajectory) {
+int path_of(const scene::Scene& scene, const Trajectory& trajectory) {
   const TrajectoryPoint& end = trajectory.points[kHorizonSteps];
   int nearest = 0;
   float least_m = 1e9F;
   for (int i = 0; i < scene.ego_paths.size(); ++i) {
-    const Frenet there = project(*scene.map, scene.ego_paths[i].path, position(end.rear_axle), 0.0F, -1.0F);
+    const scene::Frenet there =
+        scene::project(*scene.map, scene.ego_paths[i].path, position(end.rear_axle), 0.0F, -1.0F);
     if (std::abs(there.d_m) >= least_m) continue;
     least_m = std::abs(there.d_m);
     nearest = i;
@@ -33,7 +34,8 @@ Status Guard::init(const Parameters& parameters) {
   return validate(parameters, first_bad);
 }
 
-Status Guard::apply(const PlannerInput& input, Status status, Plan& plan, Explanation& explanation) {
+Status Guard::apply(const planner::PlannerInput& input, Status status, Plan& plan,
+                    planner::Explanation& explanation) {
   const Plan running = input.running != nullptr ? *input.running : Plan{};
   const Status seen = scene_builder_.build(input.now_ms, input.ego, input.tracks, input.tracks_ms, input.map,
                                            parameters_, scene_);
@@ -43,7 +45,7 @@ Status Guard::apply(const PlannerInput& input, Status status, Plan& plan, Explan
                 1e-3F * static_cast<float>(input.start_ms - scene_.time_ms), parameters_);
     const int path = path_of(scene_, plan.trajectory);
     const safety::Verdict verdict = guard_.judge(path, plan.trajectory);
-    if (verdict.safe() && feasible(plan.trajectory, parameters_)) {
+    if (verdict.safe() && trajectory::feasible(plan.trajectory, parameters_)) {
       guard_.commit(path, verdict);
       plan.fail_safe = verdict.fail_safe;
     } else {
@@ -55,7 +57,8 @@ Status Guard::apply(const PlannerInput& input, Status status, Plan& plan, Explan
   }
   explanation.status = status;
   if (status == Status::kOk) return status;
-  const TrajectoryPoint start = plan_start(input.ego, input.now_ms, running, input.start_ms, parameters_);
+  const TrajectoryPoint start =
+      trajectory::plan_start(input.ego, input.now_ms, running, input.start_ms, parameters_);
   safety::drive_fail_safe(running, start, input.start_ms, parameters_.guard.braking_mps2, parameters_, plan);
   return status;
 }

@@ -15,12 +15,13 @@ class Guard {
   [[nodiscard]] Status init(const Parameters& parameters);
   /// \param status  what the planner said of `plan`; anything but kOk is a plan that does not pass
   /// \return kOk, or why the plan is now the minimum-risk manoeuvre: `status`, kNoLane, kNoSafePlan
-  [[nodiscard]] Status apply(const PlannerInput& input, Status status, Plan& plan, Explanation& explanation);
+  [[nodiscard]] Status apply(const planner::PlannerInput& input, Status status, Plan& plan,
+                             planner::Explanation& explanation);
 
  private:
   Parameters parameters_;
-  SceneBuilder scene_builder_;
-  Scene scene_;
+  scene::SceneBuilder scene_builder_;
+  scene::Scene scene_;
   safety::Guard guard_;
 };
 
@@ -32,7 +33,8 @@ class Guarded {
     const Status status = planner_.init(parameters);
     return status == Status::kOk ? guard_.init(parameters) : status;
   }
-  [[nodiscard]] Status plan(const PlannerInput& input, Plan& plan, Explanation& explanation) {
+  [[nodiscard]] Status plan(const planner::PlannerInput& input, Plan& plan,
+                            planner::Explanation& explanation) {
     const Status status = planner_.plan(input, plan, explanation);
     return guard_.apply(input, status, plan, explanation);
   }

@@ -46,17 +46,17 @@ float time_to_cover_s(float way_m, float speed_mps, float gain_mps2, float top_m
   return (top - speed_mps) / gain_mps2 + (way_m - gaining_m) / std::max(top, 0.1F);
 }
 
-const EgoPath* path_with(const Scene& scene, Manoeuvre manoeuvre) {
-  for (const EgoPath& path : scene.ego_paths) {
+const scene::EgoPath* path_with(const scene::Scene& scene, scene::Manoeuvre manoeuvre) {
+  for (const scene::EgoPath& path : scene.ego_paths) {
     if (path.manoeuvre == manoeuvre) return &path;
   }
   return nullptr;
 }
 
 /// The change the route needs from the lane of `path`.
-Manoeuvre needed_change(const EgoPath& path) {
-  if (path.changes_needed == 0) return Manoeuvre::kKeep;
-  return path.changes_needed > 0 ? Manoeuvre::kLeft : Manoeuvre::kRight;
+scene::Manoeuvre needed_change(const scene::EgoPath& path) {
+  if (path.changes_needed == 0) return scene::Manoeuvre::kKeep;
+  return path.changes_needed > 0 ? scene::Manoeuvre::kLeft : scene::Manoeuvre::kRight;
 }
 
 }  // namespace
@@ -74,7 +74,8 @@ float idm_behind(const IdmDriver& driver, float speed_mps, float gap_m, float le
   return driver.acceleration_mps2 * (1.0F - share * share);
 }
 
-bool change_accepted(const IdmDriver& driver, float speed_mps, const Leader& ahead, const Leader& behind) {
+bool change_accepted(const IdmDriver& driver, float speed_mps, const trajectory::Leader& ahead,
+                     const trajectory::Leader& behind) {
   const float least = -driver.asked_braking_mps2;
   const bool ahead_fits =
       ahead.agent < 0 ||
@@ -98,15 +99,16 @@ Status IdmLanePlanner::init(const Parameters& parameters) {
   int first_bad = 0;
   parameters_ = parameters;
   scene_builder_.reset();
-  changing_ = Manoeuvre::kKeep;
+  changing_ = scene::Manoeuvre::kKeep;
   going_ = false;
   return validate(parameters, first_bad);
 }
 
-Status IdmLanePlanner::plan(const PlannerInput& input, Plan& plan, Explanation& explanation) {
-  explanation = Explanation{};
+Status IdmLanePlanner::plan(const planner::PlannerInput& input, Plan& plan,
+                            planner::Explanation& explanation) {
+  explanation = planner::Explanation{};
   const Plan running = input.running != nullptr ? *input.running : Plan{};
-  start_ = plan_start(input.ego, input.now_ms, running, input.start_ms, parameters_);
+  start_ = trajectory::plan_start(input.ego, input.now_ms, running, input.start_ms, parameters_);
   plan.start_ms = input.start_ms;
   plan.kind = PlanKind::kDrive;
   const Status status = scene_builder_.build(input.now_ms, input.ego, input.tracks, input.tracks_ms,
@@ -115,33 +117,34 @@ Status IdmLanePlanner::plan(const PlannerInput& input, Plan& plan, Explanation& 
   if (status != Status::kOk) {  // he knows no way: he brakes
     plan.trajectory.points[0] = start_;
     for (int i = 1; i < kTrajectoryPoints; ++i) {
-      plan.trajectory.points[i] =
-          bicycle_step(plan.trajectory.points[i - 1], -parameters_.comfort.braking_mps2, 0.0F, kStepS);
+      plan.trajectory.points[i] = trajectory::bicycle_step(plan.trajectory.points[i - 1],
+                                                           -parameters_.comfort.braking_mps2, 0.0F, kStepS);
     }
     return status;
   }
-  const EgoPath& path = choose_path();
+  const scene::EgoPath& path = choose_path();
   look_ahead(path, 1e-3F * static_cast<float>(input.start_ms - input.now_ms));
   stop_s_m_ = std::min(stop_s_m_, stop_for_zones(path, explanation));
   drive(plan.trajectory);
   return Status::kOk;
 }
 
-float IdmLanePlanner::prospect_mps2(const EgoPath& path, const Leader& ahead) const {
-  const float limit_mps = path_point(*scene_.map, path.path, path.frenet.s_m).speed_limit_mps;
+float IdmLanePlanner::prospect_mps2(const scene::EgoPath& path, const trajectory::Leader& ahead) const {
+  const float limit_mps = scene::path_point(*scene_.map, path.path, path.frenet.s_m).speed_limit_mps;
   const float free_mps2 = idm_free(driver, start_.speed_mps, limit_mps);
   if (ahead.agent < 0) return free_mps2;
   return std::min(free_mps2, idm_behind(driver, start_.speed_mps, ahead.gap_m, ahead.speed_mps));
 }
 
-const EgoPath& IdmLanePlanner::choose_path() {
-  const EgoPath& keep = scene_.ego_paths[0];
-  const Manoeuvre under_way = changing_;
-  changing_ = Manoeuvre::kKeep;
-  const Manoeuvre needed = needed_change(keep);
-  const float here_mps2 = prospect_mps2(keep, find_leader(scene_, keep, keep.frenet.s_m, parameters_));
-  for (const EgoPath& path : scene_.ego_paths) {
-    if (path.manoeuvre == Manoeuvre::kKeep) continue;
+const scene::EgoPath& IdmLanePlanner::choose_path() {
+  const scene::EgoPath& keep = scene_.ego_paths[0];
+  const scene::Manoeuvre under_way = changing_;
+  changing_ = scene::Manoeuvre::kKeep;
+  const scene::Manoeuvre needed = needed_change(keep);
+  const float here_mps2 =
+      prospect_mps2(keep, trajectory::find_leader(scene_, keep, keep.frenet.s_m, parameters_));
+  for (const scene::EgoPath& path : scene_.ego_paths) {
+    if (path.manoeuvre == scene::Manoeuvre::kKeep) continue;
     const bool towards_route = path.manoeuvre == needed;
     const bool going_on = path.manoeuvre == under_way;
     if (!towards_route && !going_on && change_room_s_m(path) - path.frenet.s_m < kOvertakingRoomM) continue;
@@ -149,8 +152,8 @@ const EgoPath& IdmLanePlanner::choose_path() {
     const float room_m = change_room_s_m(keep) - keep.frenet.s_m;
     if (going_on || (towards_route && room_m < kPressingM))
       mood.asked_braking_mps2 = driver.pressed_braking_mps2;
-    const Leader ahead = find_leader(scene_, path, path.frenet.s_m, parameters_);
-    const Leader behind = find_follower(scene_, path, path.frenet.s_m, parameters_);
+    const trajectory::Leader ahead = trajectory::find_leader(scene_, path, path.frenet.s_m, parameters_);
+    const trajectory::Leader behind = trajectory::find_follower(scene_, path, path.frenet.s_m, parameters_);
     if (!change_accepted(mood, start_.speed_mps, ahead, behind)) continue;
     const float gain_mps2 = prospect_mps2(path, ahead) - here_mps2;
     const float return_m = kReturnM * static_cast<float>(std::abs(keep.changes_needed));
@@ -163,46 +166,49 @@ const EgoPath& IdmLanePlanner::choose_path() {
   return keep;
 }
 
-float IdmLanePlanner::change_room_s_m(const EgoPath& path) const {
+float IdmLanePlanner::change_room_s_m(const scene::EgoPath& path) const {
   if (path.changes_needed == 0) return kFarM;
-  const float front_m = rear_axle_to_front_m(parameters_);
+  const float front_m = trajectory::rear_axle_to_front_m(parameters_);
   const float changes = static_cast<float>(std::abs(path.changes_needed));
-  const EgoPath* next = path.manoeuvre == Manoeuvre::kKeep ? path_with(scene_, needed_change(path)) : nullptr;
+  const scene::EgoPath* next =
+      path.manoeuvre == scene::Manoeuvre::kKeep ? path_with(scene_, needed_change(path)) : nullptr;
   if (next == nullptr) return path.route_end_s_m - front_m - kChangeRoomM * changes;
   // The lane may end where the next one goes on: then only this change is due there.
   const float next_end_s_m = next->route_end_s_m - next->frenet.s_m + path.frenet.s_m;
   return std::min(path.route_end_s_m - kChangeRoomM, next_end_s_m - kChangeRoomM * changes) - front_m;
 }
 
-void IdmLanePlanner::look_ahead(const EgoPath& path, float lead_s) {
+void IdmLanePlanner::look_ahead(const scene::EgoPath& path, float lead_s) {
   const float guess_s_m = path.frenet.s_m + lead_s * scene_.ego.speed_mps;
-  const Frenet frenet = project(*scene_.map, path.path, position(start_.rear_axle), guess_s_m, 10.0F);
-  build_reference(*scene_.map, path.path, frenet.s_m, start_.speed_mps, parameters_, line_);
-  where_ = locate_on(line_, position(start_.rear_axle), frenet.s_m);
+  const scene::Frenet frenet =
+      scene::project(*scene_.map, path.path, position(start_.rear_axle), guess_s_m, 10.0F);
+  trajectory::build_reference(*scene_.map, path.path, frenet.s_m, start_.speed_mps, parameters_, line_);
+  where_ = trajectory::locate_on(line_, position(start_.rear_axle), frenet.s_m);
 
   leaders_.clear();
-  const auto add_leader = [&](const EgoPath& of, float least_mps2) {
-    const Leader leader = find_leader(scene_, of, of.frenet.s_m, parameters_);
+  const auto add_leader = [&](const scene::EgoPath& of, float least_mps2) {
+    const trajectory::Leader leader = trajectory::find_leader(scene_, of, of.frenet.s_m, parameters_);
     if (leader.agent < 0) return;
     const float touch_s_m = path.frenet.s_m + leader.gap_m + lead_s * leader.speed_mps;
     (void)leaders_.push({touch_s_m, leader.speed_mps, least_mps2});
   };
   add_leader(path, -parameters_.vehicle.braking_max_mps2);
-  const EgoPath& keep = scene_.ego_paths[0];
+  const scene::EgoPath& keep = scene_.ego_paths[0];
   if (&path != &keep) add_leader(keep, -driver.pressed_braking_mps2);  // not left yet
-  const Manoeuvre next = needed_change(path);
-  const EgoPath* beside = &path == &keep && next != Manoeuvre::kKeep ? path_with(scene_, next) : nullptr;
+  const scene::Manoeuvre next = needed_change(path);
+  const scene::EgoPath* beside =
+      &path == &keep && next != scene::Manoeuvre::kKeep ? path_with(scene_, next) : nullptr;
   if (beside != nullptr) add_leader(*beside, kAdjustMps2);
 
-  const float front_m = rear_axle_to_front_m(parameters_);
-  const float end_s_m = dead_end_s_m(scene_, path);
-  stop_s_m_ = end_s_m < kNoDeadEndM ? end_s_m - front_m - kRoadEndM : kFarM;
+  const float front_m = trajectory::rear_axle_to_front_m(parameters_);
+  const float end_s_m = trajectory::dead_end_s_m(scene_, path);
+  stop_s_m_ = end_s_m < trajectory::kNoDeadEndM ? end_s_m - front_m - kRoadEndM : kFarM;
   if (path.changes_needed != 0)
-    stop_s_m_ = std::min(stop_s_m_ - change_room_m(scene_, path), change_room_s_m(path));
+    stop_s_m_ = std::min(stop_s_m_ - trajectory::change_room_m(scene_, path), change_room_s_m(path));
 }
 
 float IdmLanePlanner::wanted_mps2(float time_s, float s_m, float speed_mps) const {
-  float wanted = idm_free(driver, speed_mps, reference_at(line_, s_m).speed_cap_mps);
+  float wanted = idm_free(driver, speed_mps, trajectory::reference_at(line_, s_m).speed_cap_mps);
   for (const Ahead& leader : leaders_) {
     const float gap_m = leader.touch_s_m + leader.speed_mps * time_s - s_m;
     wanted =
@@ -214,7 +220,7 @@ float IdmLanePlanner::wanted_mps2(float time_s, float s_m, float speed_mps) cons
   return wanted;
 }
 
-float IdmLanePlanner::stop_for_zones(const EgoPath& path, Explanation& explanation) {
+float IdmLanePlanner::stop_for_zones(const scene::EgoPath& path, planner::Explanation& explanation) {
   // Our motion if every gap were accepted.
   constexpr int kSteps = static_cast<int>(kLookS / kLookStepS);
   float s_m[kSteps + 1] = {where_.s_m};
@@ -235,14 +241,14 @@ float IdmLanePlanner::stop_for_zones(const EgoPath& path, Explanation& explanati
     return kNeverS;
   };
 
-  const float centre_m = rear_axle_to_centre_m(parameters_);
-  const float front_m = rear_axle_to_front_m(parameters_);
+  const float centre_m = trajectory::rear_axle_to_centre_m(parameters_);
+  const float front_m = trajectory::rear_axle_to_front_m(parameters_);
   const float margin_s = going_ ? driver.going_margin_s : driver.gap_margin_s;
   going_ = false;
   float free_until_s_m =
       kFarM;                // we can wait before this: where the first of the zones not yet entered begins
   float left_s_m = -kFarM;  // and then not before this: where the last of those passed so far ends
-  for (const ConflictZone& zone : path.zones) {
+  for (const scene::ConflictZone& zone : path.zones) {
     const float entry_s_m = zone.entry_s_m - centre_m;
     const float exit_s_m = zone.exit_s_m - centre_m;
     if (where_.s_m >= exit_s_m) continue;
@@ -270,8 +276,8 @@ float IdmLanePlanner::stop_for_zones(const EgoPath& path, Explanation& explanati
   return kFarM;
 }
 
-bool IdmLanePlanner::refuses(const ConflictZone& zone, float in_s, float out_s, float margin_s,
-                             Explanation& explanation) const {
+bool IdmLanePlanner::refuses(const scene::ConflictZone& zone, float in_s, float out_s, float margin_s,
+                             planner::Explanation& explanation) const {
   explanation.blocking.verdict.cause = safety::Cause::kNoRoom;
   explanation.blocking.verdict.agent = kNobody;
   explanation.blocking.way_m = kFarM;
@@ -279,14 +285,14 @@ bool IdmLanePlanner::refuses(const ConflictZone& zone, float in_s, float out_s, 
   if (out_s >= kNeverS) return true;  // no room behind it: the junction is kept clear
   explanation.blocking.verdict.cause = safety::Cause::kZone;
   for (int i = 0; i < scene_.agents.size(); ++i) {
-    const Agent& agent = scene_.agents[i];
+    const scene::Agent& agent = scene_.agents[i];
     explanation.blocking.verdict.agent = static_cast<std::uint8_t>(i);
     explanation.blocking.track = agent.track.id;
     const float speed_mps = agent.track.speed_mps;
     const float longer_m = 0.5F * agent.track.length_m - kUsualHalfLengthM;
     for (int k = 0; k < agent.paths.size(); ++k) {
       if (agent.path_probability[k] < kUnlikely) continue;
-      for (const PathLane& part : agent.paths[k].lanes) {
+      for (const scene::PathLane& part : agent.paths[k].lanes) {
         if (part.lane != zone.other_lane) continue;
         const float along_m = agent.frenet[k].s_m - part.start_s_m;
         const float to_entry_m = zone.other_entry_m - longer_m - along_m;
@@ -303,31 +309,31 @@ bool IdmLanePlanner::refuses(const ConflictZone& zone, float in_s, float out_s, 
       }
     }
   }
-  explanation.blocking = BlockingReason{};
+  explanation.blocking = planner::BlockingReason{};
   return false;
 }
 
 void IdmLanePlanner::drive(Trajectory& trajectory) const {
   // The path is that of a car which accelerates as hard as it can: longer than ours.
-  Candidate fast;
-  fast.intent = Intent::kAccelerate;
+  trajectory::Candidate fast;
+  fast.intent = trajectory::Intent::kAccelerate;
   fast.acceleration_mps2 = parameters_.vehicle.acceleration_max_mps2;
-  float length_m = lateral_length_m(line_, start_, where_, parameters_);
+  float length_m = trajectory::lateral_length_m(line_, start_, where_, parameters_);
   const Plan none;
   Trajectory path;
   for (int attempt = 0; attempt < kStretches; ++attempt, length_m *= kStretch) {
-    shape_lateral(line_, start_, where_, length_m, fast);
-    roll_out(line_, fast, start_, none, 0, parameters_, path);
-    PathWalk walk(path);
-    LongitudinalState state{where_.s_m, start_.speed_mps, start_.acceleration_mps2};
+    trajectory::shape_lateral(line_, start_, where_, length_m, fast);
+    trajectory::roll_out(line_, fast, start_, none, 0, parameters_, path);
+    trajectory::PathWalk walk(path);
+    trajectory::LongitudinalState state{where_.s_m, start_.speed_mps, start_.acceleration_mps2};
     float way_m = 0.0F;
     trajectory.points[0] = start_;
     for (int i = 1; i < kTrajectoryPoints; ++i) {
       const float time_s = kStepS * static_cast<float>(i - 1);
-      Candidate ours = fast;
+      trajectory::Candidate ours = fast;
       ours.acceleration_mps2 = wanted_mps2(time_s, state.s_m, state.speed_mps);
-      const float step_m =
-          advance(wanted_acceleration(line_, ours, state, time_s, parameters_), parameters_, state);
+      const float step_m = trajectory::advance(
+          trajectory::wanted_acceleration(line_, ours, state, time_s, parameters_), parameters_, state);
       TrajectoryPoint& point = trajectory.points[i];
       point = trajectory.points[i - 1];
       if (step_m > 0.0F) {
@@ -338,7 +344,7 @@ void IdmLanePlanner::drive(Trajectory& trajectory) const {
       point.speed_mps = state.speed_mps;
       point.acceleration_mps2 = state.acceleration_mps2;
     }
-    if (feasible(trajectory, parameters_)) return;
+    if (trajectory::feasible(trajectory, parameters_)) return;
   }
 }
 

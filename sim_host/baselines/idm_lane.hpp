@@ -40,8 +40,8 @@ struct IdmDriver {
 
 /// Whether a lane change between the two is safe: neither we nor the one behind must brake harder than asked.
 /// \param ahead, behind  in the lane we want; agent < 0: nobody
-[[nodiscard]] bool change_accepted(const IdmDriver& driver, float speed_mps, const Leader& ahead,
-                                   const Leader& behind);
+[[nodiscard]] bool change_accepted(const IdmDriver& driver, float speed_mps, const trajectory::Leader& ahead,
+                                   const trajectory::Leader& behind);
 
 /// Somebody on his way through a conflict zone of ours, in seconds from now.
 struct Crosser {
@@ -58,7 +58,8 @@ struct Crosser {
 class IdmLanePlanner {
  public:
   [[nodiscard]] Status init(const Parameters& parameters);
-  [[nodiscard]] Status plan(const PlannerInput& input, Plan& plan, Explanation& explanation);
+  [[nodiscard]] Status plan(const planner::PlannerInput& input, Plan& plan,
+                            planner::Explanation& explanation);
 
   IdmDriver driver;
 
@@ -70,30 +71,30 @@ class IdmLanePlanner {
     float least_mps2;  ///< harder we do not brake for him
   };
 
-  [[nodiscard]] const EgoPath& choose_path();
+  [[nodiscard]] const scene::EgoPath& choose_path();
   /// Our acceleration now, were we in the lane of `path`.
-  [[nodiscard]] float prospect_mps2(const EgoPath& path, const Leader& ahead) const;
+  [[nodiscard]] float prospect_mps2(const scene::EgoPath& path, const trajectory::Leader& ahead) const;
   /// Where our rear axle must stop to have room for the lane changes still due.
-  [[nodiscard]] float change_room_s_m(const EgoPath& path) const;
-  void look_ahead(const EgoPath& path, float lead_s);
+  [[nodiscard]] float change_room_s_m(const scene::EgoPath& path) const;
+  void look_ahead(const scene::EgoPath& path, float lead_s);
   /// Acceleration at a point of our motion; braked for is what look_ahead() found.
   [[nodiscard]] float wanted_mps2(float time_s, float s_m, float speed_mps) const;
   /// Where our rear axle must stop because a gap is refused; far away: nowhere.
-  [[nodiscard]] float stop_for_zones(const EgoPath& path, Explanation& explanation);
-  [[nodiscard]] bool refuses(const ConflictZone& zone, float in_s, float out_s, float margin_s,
-                             Explanation& explanation) const;
+  [[nodiscard]] float stop_for_zones(const scene::EgoPath& path, planner::Explanation& explanation);
+  [[nodiscard]] bool refuses(const scene::ConflictZone& zone, float in_s, float out_s, float margin_s,
+                             planner::Explanation& explanation) const;
   void drive(Trajectory& trajectory) const;
 
   Parameters parameters_;
-  SceneBuilder scene_builder_;
-  Scene scene_;
-  Manoeuvre changing_ = Manoeuvre::kKeep;  ///< lane change under way
-  bool going_ = false;                     ///< has set off into a junction
+  scene::SceneBuilder scene_builder_;
+  scene::Scene scene_;
+  scene::Manoeuvre changing_ = scene::Manoeuvre::kKeep;  ///< lane change under way
+  bool going_ = false;                                   ///< has set off into a junction
 
   // One cycle's situation, along the path chosen; s is that of our rear axle.
   TrajectoryPoint start_;
-  ReferenceLine line_;
-  ReferenceCoordinates where_;
+  trajectory::ReferenceLine line_;
+  trajectory::ReferenceCoordinates where_;
   BoundedVector<Ahead, 3> leaders_;
   float stop_s_m_ = 0.0F;
 };

@@ -20,7 +20,7 @@
 
 namespace s4tp::baselines {
 
-using EcuFactory = std::unique_ptr<AnyEcu> (*)(const Parameters&, const ecu::Ports&, Probe*);
+using EcuFactory = std::unique_ptr<AnyEcu> (*)(const Parameters&, const ecu::Ports&, planner::Probe*);
 
 struct PlannerEntry {
   std::string name;
@@ -45,7 +45,7 @@ class RegisterPlanner {
 
 /// Planners that have a probe, or a planner inside that has one, tell it.
 template <class PlannerT>
-void set_probe(PlannerT& planner, Probe* probe) {
+void set_probe(PlannerT& planner, planner::Probe* probe) {
   if constexpr (requires { planner.probe = probe; }) {
     planner.probe = probe;
   } else if constexpr (requires { planner.inner(); }) {
@@ -55,10 +55,11 @@ void set_probe(PlannerT& planner, Probe* probe) {
 
 /// An ECU with a planner of that type. \throws std::invalid_argument when it refuses to start
 template <class PlannerT>
-std::unique_ptr<AnyEcu> ecu_with(const Parameters& parameters, const ecu::Ports& ports, Probe* probe) {
+std::unique_ptr<AnyEcu> ecu_with(const Parameters& parameters, const ecu::Ports& ports,
+                                 planner::Probe* probe) {
   class EcuWith final : public AnyEcu {
    public:
-    EcuWith(const Parameters& with_parameters, const ecu::Ports& with_ports, Probe* with_probe) {
+    EcuWith(const Parameters& with_parameters, const ecu::Ports& with_ports, planner::Probe* with_probe) {
       if (const Status status = ecu_.init(with_parameters, with_ports); status != Status::kOk) {
         throw std::invalid_argument(std::string("the ECU refused to start: ") + status_name(status));
       }

@@ -42,22 +42,23 @@ world::CarState car_at(const Pose& now, const Pose& next, float length_m, float 
 }
 
 /// Way left to the goal at the end, less what a car as fast as allowed would have left, of its way.
-float goal_share(const Scene& scene, const EgoPath& path, const Trajectory& trajectory,
+float goal_share(const scene::Scene& scene, const scene::EgoPath& path, const Trajectory& trajectory,
                  const Parameters& parameters) {
   const TrajectoryPoint& start = trajectory.points[0];
   const TrajectoryPoint& end = trajectory.points[kHorizonSteps];
   const float start_s_m =
-      project(*scene.map, path.path, position(start.rear_axle), path.frenet.s_m, 15.0F).s_m;
+      scene::project(*scene.map, path.path, position(start.rear_axle), path.frenet.s_m, 15.0F).s_m;
   float way_m = 0.0F;
   for (int i = 1; i < kTrajectoryPoints; ++i)
     way_m += 0.5F * kStepS * (trajectory.points[i - 1].speed_mps + trajectory.points[i].speed_mps);
-  const float end_s_m = project(*scene.map, path.path, position(end.rear_axle), start_s_m + way_m, 15.0F).s_m;
-  const float limit_mps = path_point(*scene.map, path.path, start_s_m).speed_limit_mps;
+  const float end_s_m =
+      scene::project(*scene.map, path.path, position(end.rear_axle), start_s_m + way_m, 15.0F).s_m;
+  const float limit_mps = scene::path_point(*scene.map, path.path, start_s_m).speed_limit_mps;
   const float longest_m = std::max(limit_mps, 1.0F) * kHorizonS;
   float lacking_m = std::max(0.0F, longest_m - (end_s_m - start_s_m));
   if (path.changes_needed != 0) {
     lacking_m += kLaneChangeM * static_cast<float>(std::abs(path.changes_needed));
-    const float front_s_m = end_s_m + rear_axle_to_front_m(parameters);
+    const float front_s_m = end_s_m + trajectory::rear_axle_to_front_m(parameters);
     if (front_s_m > path.route_end_s_m - kLaneChangeM) lacking_m += kMissedM;
   }
   return lacking_m / longest_m;
@@ -70,19 +71,19 @@ float weighted(const PdCost& f, const PdCost& w) {
          w.distance * f.distance + w.ttc * f.ttc + w.collision * f.collision;
 }
 
-PdCost pd_features(const Scene& scene, int path_index, const ReferenceLine& line,
-                   const Trajectory& trajectory, const PredictionSet& predicted, const KinematicSet& others,
-                   const Parameters& parameters) {
-  const EgoPath& path = scene.ego_paths[path_index];
+PdCost pd_features(const scene::Scene& scene, int path_index, const trajectory::ReferenceLine& line,
+                   const Trajectory& trajectory, const satp::PredictionSet& predicted,
+                   const satp::KinematicSet& others, const Parameters& parameters) {
+  const scene::EgoPath& path = scene.ego_paths[path_index];
   PdCost features;
   features.goal = goal_share(scene, path, trajectory, parameters);
 
-  float s_m = locate_on(line, position(trajectory.points[0].rear_axle), path.frenet.s_m).s_m;
+  float s_m = trajectory::locate_on(line, position(trajectory.points[0].rear_axle), path.frenet.s_m).s_m;
   for (int i = 1; i < kTrajectoryPoints; ++i) {
     const TrajectoryPoint& before = trajectory.points[i - 1];
     const TrajectoryPoint& point = trajectory.points[i];
     s_m += 0.5F * kStepS * (before.speed_mps + point.speed_mps);
-    const float allowed_mps = std::max(reference_at(line, s_m).speed_cap_mps, 1.0F);
+    const float allowed_mps = std::max(trajectory::reference_at(line, s_m).speed_cap_mps, 1.0F);
     features.speed += std::abs(point.speed_mps - allowed_mps) / allowed_mps;
     features.jerk += std::abs(point.acceleration_mps2 - before.acceleration_mps2) / (kStepS * kJerkMps3);
     features.lateral += point.speed_mps * point.speed_mps * std::abs(point.curvature_1pm) /
@@ -92,10 +93,11 @@ PdCost pd_features(const Scene& scene, int path_index, const ReferenceLine& line
   features.jerk /= kHorizonSteps;
   features.lateral /= kHorizonSteps;
 
-  if (s_m + rear_axle_to_front_m(parameters) > dead_end_s_m(scene, path)) features.collision = 1.0F;
+  if (s_m + trajectory::rear_axle_to_front_m(parameters) > trajectory::dead_end_s_m(scene, path))
+    features.collision = 1.0F;
 
   float near[kHorizonSteps] = {};
-  const Futures futures = all_modes(scene, predicted, others);
+  const sadrf::Futures futures = sadrf::all_modes(scene, predicted, others);
   for (int first = 0; first < futures.size();) {
     float ttc = 0.0F;
     float hit = 0.0F;
@@ -103,13 +105,13 @@ PdCost pd_features(const Scene& scene, int path_index, const ReferenceLine& line
     const int agent = futures[first].agent;
     const Track& track = scene.agents[agent].track;
     for (; first < futures.size() && futures[first].agent == agent; ++first) {
-      const Future& future = futures[first];
-      const Mode& mode = *future.mode;
-      if (first_collision(trajectory, mode, track, kHorizonSteps, 0.0F, parameters) >= 0)
+      const sadrf::Future& future = futures[first];
+      const satp::Mode& mode = *future.mode;
+      if (sadrf::first_collision(trajectory, mode, track, kHorizonSteps, 0.0F, parameters) >= 0)
         hit += future.probability;
       float least_s = kTtcS;
       for (int i = 0; i < kHorizonSteps; ++i) {
-        const Box own = ego_box(trajectory.points[i + 1].rear_axle, parameters);
+        const Box own = trajectory::ego_box(trajectory.points[i + 1].rear_axle, parameters);
         const float reach_m = kFarM + 0.5F * (track.length_m + parameters.vehicle.length_m);
         const float apart_m = distance(position(own.centre), position(mode.steps[i]));
         if (apart_m < reach_m) {
@@ -117,7 +119,7 @@ PdCost pd_features(const Scene& scene, int path_index, const ReferenceLine& line
           beside[i] += future.probability * std::exp(-gap_m / kGapM);
         }
         if (i % kTtcStride != kTtcStride - 1) continue;
-        const Pose before = ego_box(trajectory.points[i].rear_axle, parameters).centre;
+        const Pose before = trajectory::ego_box(trajectory.points[i].rear_axle, parameters).centre;
         const world::CarState us = car_at(before, own.centre, own.length_m, own.width_m);
         const world::CarState him = car_at(mode.steps[i - 1], mode.steps[i], track.length_m, track.width_m);
         least_s = std::min(least_s, static_cast<float>(metrics::time_to_collision_s(us, him, kTtcS)));
@@ -140,30 +142,33 @@ Status PredictiveDecision::init(const Parameters& parameters) {
   return validate(parameters, first_bad);
 }
 
-Status PredictiveDecision::plan(const PlannerInput& input, Plan& plan, Explanation& explanation) {
-  explanation = Explanation{};
+Status PredictiveDecision::plan(const planner::PlannerInput& input, Plan& plan,
+                                planner::Explanation& explanation) {
+  explanation = planner::Explanation{};
   const Plan running = input.running != nullptr ? *input.running : Plan{};
-  const TrajectoryPoint start = plan_start(input.ego, input.now_ms, running, input.start_ms, parameters_);
+  const TrajectoryPoint start =
+      trajectory::plan_start(input.ego, input.now_ms, running, input.start_ms, parameters_);
   Status status = scene_builder_.build(input.now_ms, input.ego, input.tracks, input.tracks_ms, input.map,
                                        parameters_, scene_);
   plan.start_ms = input.start_ms;
   plan.kind = PlanKind::kDrive;
-  PredictionSet chosen;
+  satp::PredictionSet chosen;
   if (status == Status::kOk) {
     predictor_.encode(scene_, parameters_, input.start_ms);
-    predictor_.decode(nullptr, kMaxPredictionWork, marginal_);
+    predictor_.decode(nullptr, satp::kMaxPredictionWork, marginal_);
     predictor_.constant_velocity(constant_velocity_);
     guard_.look(scene_, start, 1e-3F * static_cast<float>(input.start_ms - scene_.time_ms), parameters_);
     int left_out = 0;
-    generate_candidates(scene_, start, running, input.start_ms, parameters_, kMaxCandidates, lines_,
-                        candidates_, left_out);
+    trajectory::generate_candidates(scene_, start, running, input.start_ms, parameters_, kMaxCandidates,
+                                    lines_, candidates_, left_out);
     float least = 1e9F;
-    PredictionSet conditioned;
+    satp::PredictionSet conditioned;
     Trajectory trajectory;
     status = Status::kNoSafePlan;
-    for (const Candidate& candidate : candidates_) {
-      roll_out(lines_[candidate.path], candidate, start, running, input.start_ms, parameters_, trajectory);
-      predictor_.decode(&trajectory, kMaxPredictionWork, conditioned);
+    for (const trajectory::Candidate& candidate : candidates_) {
+      trajectory::roll_out(lines_[candidate.path], candidate, start, running, input.start_ms, parameters_,
+                           trajectory);
+      predictor_.decode(&trajectory, satp::kMaxPredictionWork, conditioned);
       if (guarded_ && !guard_.judge(candidate.path, trajectory).safe()) continue;
       const float cost = weighted(pd_features(scene_, candidate.path, lines_[candidate.path], trajectory,
                                               conditioned, constant_velocity_, parameters_),
@@ -186,7 +191,7 @@ Status PredictiveDecision::plan(const PlannerInput& input, Plan& plan, Explanati
                             plan);
   }
   explanation.status = status;
-  if (probe != nullptr) probe->cycle_done(scene_, chosen, RiskProfile{});
+  if (probe != nullptr) probe->cycle_done(scene_, chosen, sadrf::RiskProfile{});
   return status;
 }
 

@@ -36,9 +36,9 @@ inline constexpr PdCost kPdWeights{1.0F, 0.5F, 0.1F, 0.1F, 1.0F, 5.0F, 10.0F};
 
 /// \param line  reference line of ego path `path`, which the trajectory follows
 /// \param predicted  conditioned on the trajectory; `others` covers vehicles beyond it
-[[nodiscard]] PdCost pd_features(const Scene& scene, int path, const ReferenceLine& line,
-                                 const Trajectory& trajectory, const PredictionSet& predicted,
-                                 const KinematicSet& others, const Parameters& parameters);
+[[nodiscard]] PdCost pd_features(const scene::Scene& scene, int path, const trajectory::ReferenceLine& line,
+                                 const Trajectory& trajectory, const satp::PredictionSet& predicted,
+                                 const satp::KinematicSet& others, const Parameters& parameters);
 
 /// Bare, the sum alone decides among feasible candidates; guarded, among those that pass S4TP's check, for a
 /// guard behind it could only stop the one it prefers.
@@ -46,21 +46,22 @@ class PredictiveDecision {
  public:
   explicit PredictiveDecision(bool guarded) : guarded_(guarded) {}
   [[nodiscard]] Status init(const Parameters& parameters);
-  [[nodiscard]] Status plan(const PlannerInput& input, Plan& plan, Explanation& explanation);
+  [[nodiscard]] Status plan(const planner::PlannerInput& input, Plan& plan,
+                            planner::Explanation& explanation);
 
-  Probe* probe = nullptr;
+  planner::Probe* probe = nullptr;
 
  private:
   bool guarded_;
   safety::Guard guard_;
   Parameters parameters_;
-  SceneBuilder scene_builder_;
-  Scene scene_;
-  Predictor predictor_;
-  PredictionSet marginal_;
-  KinematicSet constant_velocity_;
-  ReferenceLines lines_;
-  CandidateList candidates_;
+  scene::SceneBuilder scene_builder_;
+  scene::Scene scene_;
+  satp::Predictor predictor_;
+  satp::PredictionSet marginal_;
+  satp::KinematicSet constant_velocity_;
+  trajectory::ReferenceLines lines_;
+  trajectory::CandidateList candidates_;
 };
 
 template <bool kGuarded>

@@ -8,7 +8,7 @@ namespace s4tp::baselines {
 namespace {
 
 const RegisterPlanner kRegistered{
-    {"s4tp", "what the firmware has", ecu_with<BarePlanner>, ecu_with<Planner>}};
+    {"s4tp", "what the firmware has", ecu_with<BarePlanner>, ecu_with<planner::Planner>}};
 
 }  // namespace
 }  // namespace s4tp::baselines

@@ -15,15 +15,15 @@ namespace s4tp::baselines {
 /// stopped by the guard around it where the same planner has a candidate that passes. The guard sees who
 /// moves.
 template <bool kGuarded>
-class StaticDrfPlanner final : public PlanningCycle {
+class StaticDrfPlanner final : public planner::PlanningCycle {
  public:
   // No network: it was taught by drivers who move.
   StaticDrfPlanner() { (void)use_weights(nullptr, 0); }
 
  private:
-  void believe(Scene& scene) const override {
+  void believe(scene::Scene& scene) const override {
     // A vehicle that goes no way is predicted to stay, and to arrive nowhere.
-    for (Agent& agent : scene.agents) {
+    for (scene::Agent& agent : scene.agents) {
       agent.track.speed_mps = 0.0F;
       agent.track.acceleration_mps2 = 0.0F;
       agent.track.yaw_rate_radps = 0.0F;
@@ -31,11 +31,11 @@ class StaticDrfPlanner final : public PlanningCycle {
       agent.coasted_mps = 0.0F;
       agent.lane = kNoLaneIndex;
       agent.paths.clear();
-      for (History::Sample& sample : agent.history.samples) sample = {agent.track.centre, 0.0F};
+      for (scene::History::Sample& sample : agent.history.samples) sample = {agent.track.centre, 0.0F};
     }
   }
   [[nodiscard]] safety::Verdict verify(int path, const Trajectory& trajectory) const override {
-    return kGuarded ? PlanningCycle::verify(path, trajectory) : safety::Verdict{};
+    return kGuarded ? planner::PlanningCycle::verify(path, trajectory) : safety::Verdict{};
   }
 };
 

@@ -13,7 +13,7 @@ namespace {
 class EcuOnBus final : public Driver {
  public:
   EcuOnBus(const std::string& planner, bool guarded, const Parameters& parameters, hal::Telemetry* telemetry,
-           Probe* probe)
+           planner::Probe* probe)
       : ecu_(baselines::make_ecu(planner, guarded, parameters,
                                  {ecu_port_, &clock_, &cycles_, &watchdog_, telemetry}, probe)) {}
 
@@ -48,7 +48,7 @@ class EcuOnBus final : public Driver {
 }  // namespace
 
 std::unique_ptr<Driver> make_driver(const std::string& planner, bool guarded, const Parameters& parameters,
-                                    hal::Telemetry* telemetry, Probe* probe) {
+                                    hal::Telemetry* telemetry, planner::Probe* probe) {
   return std::make_unique<EcuOnBus>(planner, guarded, parameters, telemetry, probe);
 }
 

@@ -31,6 +31,6 @@ class Driver {
 /// \param telemetry  may be null  \throws as make_ecu()
 [[nodiscard]] std::unique_ptr<Driver> make_driver(const std::string& planner, bool guarded,
                                                   const Parameters& parameters, hal::Telemetry* telemetry,
-                                                  Probe* probe);
+                                                  planner::Probe* probe);
 
 }  // namespace s4tp::campaign

@@ -26,7 +26,7 @@ EpisodeResult run_episode(const world::Scenario& scenario, const EpisodeOptions&
   Trace* const trace = options.trace ? result.trace.get() : nullptr;
   if (options.onlooker != nullptr) options.onlooker->begin(trace);
   hal::Telemetry* const telemetry = options.onlooker != nullptr ? options.onlooker->telemetry() : trace;
-  Probe* const probe = options.onlooker != nullptr ? options.onlooker->probe() : trace;
+  planner::Probe* const probe = options.onlooker != nullptr ? options.onlooker->probe() : trace;
   const bool by_sumo = baselines::find_planner(options.planner).drives_in_sumo;
   const auto driver =
       by_sumo ? nullptr : make_driver(options.planner, options.guarded, options.parameters, telemetry, probe);

@@ -27,7 +27,7 @@ class Onlooker {
   /// Before the ECU is made. \param trace  where all that is seen goes as well, or null
   virtual void begin(Trace* trace) = 0;
   [[nodiscard]] virtual hal::Telemetry* telemetry() = 0;
-  [[nodiscard]] virtual Probe* probe() = 0;
+  [[nodiscard]] virtual planner::Probe* probe() = 0;
   /// After each tick of the ECU.
   virtual void ticked(const Driver& driver) = 0;
 };

@@ -38,7 +38,8 @@ void choose_preset(const std::filesystem::path& file, const toml::table& fields,
   };
   const int preset = index_of("preset", {"paper", "kolekar2020"});
   const int look_ahead = index_of("look_ahead", {"shrinking", "fixed"});
-  choose_risk(static_cast<FieldPreset>(preset), static_cast<LookAhead>(look_ahead), parameters);
+  sadrf::choose_risk(static_cast<sadrf::FieldPreset>(preset), static_cast<sadrf::LookAhead>(look_ahead),
+                     parameters);
 }
 
 bool names_preset(const std::string& group, const std::string& field) {

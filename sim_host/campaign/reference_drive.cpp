@@ -28,7 +28,7 @@ DriveContent content_of(const EpisodeResult& result) {
     content.restarted = content.restarted || (content.stopped && snapshot.ego.speed_mps > kDrivingMps);
   }
   for (const CycleTrace& cycle : result.trace->cycles) {
-    const Candidate& chosen = cycle.record.explanation.chosen;
+    const trajectory::Candidate& chosen = cycle.record.explanation.chosen;
     const bool sideways = chosen.path != 0 && cycle.record.plan.kind == PlanKind::kDrive;
     content.changed_lane = content.changed_lane || sideways;
   }

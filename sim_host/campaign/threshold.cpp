@@ -81,7 +81,7 @@ std::set<int> touched(const Drives& drives) {
 /// A driver as our own: wheelbase 0.6, rear axle 0.3 of the length behind the centre.
 Parameters in_his_place(const Track& track, const ThresholdCell& cell) {
   Parameters parameters;
-  choose_risk(cell.preset, cell.look_ahead, parameters);
+  sadrf::choose_risk(cell.preset, cell.look_ahead, parameters);
   parameters.vehicle.length_m = track.length_m;
   parameters.vehicle.width_m = track.width_m;
   parameters.vehicle.wheelbase_m = 0.6F * track.length_m;
@@ -105,7 +105,7 @@ Trajectory driven(const Drive& drive, std::size_t start) {
 }
 
 /// The others near him, with what they will have done.
-void see(const Drives& drives, int id, std::size_t start, Scene& scene, KinematicSet& others) {
+void see(const Drives& drives, int id, std::size_t start, scene::Scene& scene, satp::KinematicSet& others) {
   const Point here = position(drives.at(id).at(start)->centre);
   std::vector<std::pair<float, const Drive*>> near;
   for (const auto& [other, drive] : drives) {
@@ -115,9 +115,9 @@ void see(const Drives& drives, int id, std::size_t start, Scene& scene, Kinemati
   }
   std::sort(near.begin(), near.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   for (const auto& [away_m, drive] : near) {
-    Agent agent;
+    scene::Agent agent;
     agent.track = *drive->at(start);
-    Mode mode;
+    satp::Mode mode;
     mode.probability = 1.0F;
     for (std::size_t k = 0; k < kHorizonSteps; ++k) mode.steps[k] = drive->at(start + k + 1)->centre;
     if (!scene.agents.push(agent) || !others.agents.push(mode)) return;
@@ -128,20 +128,21 @@ void add_drives(const Drives& drives, Calibration& calibration) {
   const std::set<int> left_out = touched(drives);
   calibration.drives += static_cast<int>(drives.size());
   calibration.left_out += static_cast<int>(left_out.size());
-  const auto scene = std::make_unique<Scene>();
-  const auto area = std::make_unique<DrivableArea>();
-  build_drivable(nullptr, *area);
+  const auto scene = std::make_unique<scene::Scene>();
+  const auto area = std::make_unique<sadrf::DrivableArea>();
+  sadrf::build_drivable(nullptr, *area);
   for (const auto& [id, drive] : drives) {
     if (left_out.contains(id)) continue;
     for (std::size_t start = drive.first + kWindow; drive.at(start + kHorizonSteps) != nullptr;
          start += kEvery) {
       scene->agents.clear();
-      KinematicSet others;
+      satp::KinematicSet others;
       see(drives, id, start, *scene, others);
       const Trajectory trajectory = driven(drive, start);
       for (ThresholdCell& cell : calibration.cells) {
-        RiskProfile profile;
-        exact_risk(*scene, *area, {}, others, trajectory, in_his_place(*drive.at(start), cell), profile);
+        sadrf::RiskProfile profile;
+        sadrf::exact_risk(*scene, *area, {}, others, trajectory, in_his_place(*drive.at(start), cell),
+                          profile);
         cell.risks.insert(cell.risks.end(), std::begin(profile.obstacle), std::end(profile.obstacle));
       }
     }
@@ -160,8 +161,8 @@ float ThresholdCell::percentile(double share) const {
 
 Calibration empty_calibration() {
   Calibration calibration;
-  for (const FieldPreset preset : {FieldPreset::kPaper, FieldPreset::kKolekar2020}) {
-    for (const LookAhead look_ahead : {LookAhead::kShrinking, LookAhead::kFixed}) {
+  for (const sadrf::FieldPreset preset : {sadrf::FieldPreset::kPaper, sadrf::FieldPreset::kKolekar2020}) {
+    for (const sadrf::LookAhead look_ahead : {sadrf::LookAhead::kShrinking, sadrf::LookAhead::kFixed}) {
       calibration.cells.push_back({preset, look_ahead, {}});
     }
   }

@@ -21,8 +21,8 @@ struct CalibrationOptions {
 
 /// R_obs(t) of one field along all drives.
 struct ThresholdCell {
-  FieldPreset preset = FieldPreset::kPaper;
-  LookAhead look_ahead = LookAhead::kShrinking;
+  sadrf::FieldPreset preset = sadrf::FieldPreset::kPaper;
+  sadrf::LookAhead look_ahead = sadrf::LookAhead::kShrinking;
   std::vector<float> risks;  ///< every instant of every horizon, unordered
 
   /// \param share  0 .. 1 \pre risks are not empty

@@ -34,9 +34,10 @@ bool Trace::publish(std::uint16_t kind, const void* record, std::uint32_t size) 
   return false;
 }
 
-void Trace::cycle_done(const Scene& scene, const PredictionSet& prediction, const RiskProfile& risk) {
+void Trace::cycle_done(const scene::Scene& scene, const satp::PredictionSet& prediction,
+                       const sadrf::RiskProfile& risk) {
   pending_.tracks.clear();
-  for (const Agent& agent : scene.agents) pending_.tracks.push_back(agent.track);
+  for (const scene::Agent& agent : scene.agents) pending_.tracks.push_back(agent.track);
   pending_.predictions.assign(prediction.agents.begin(), prediction.agents.end());
   pending_.risk = risk;
 }

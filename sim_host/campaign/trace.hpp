@@ -15,17 +15,18 @@ namespace s4tp::campaign {
 struct CycleTrace {
   ecu::PlanRecord record;
   std::vector<Track> tracks;  ///< as the scene saw them
-  std::vector<AgentPrediction> predictions;
-  RiskProfile risk;
+  std::vector<satp::AgentPrediction> predictions;
+  sadrf::RiskProfile risk;
 };
 
 /// Collects telemetry records and the probe's views of one ECU.
-class Trace final : public hal::Telemetry, public Probe {
+class Trace final : public hal::Telemetry, public planner::Probe {
  public:
   bool publish(std::uint16_t kind, const void* record, std::uint32_t size) override;
-  void stage_begin(Stage) override {}
-  void stage_end(Stage) override {}
-  void cycle_done(const Scene& scene, const PredictionSet& prediction, const RiskProfile& risk) override;
+  void stage_begin(planner::Stage) override {}
+  void stage_end(planner::Stage) override {}
+  void cycle_done(const scene::Scene& scene, const satp::PredictionSet& prediction,
+                  const sadrf::RiskProfile& risk) override;
 
   std::vector<CycleTrace> cycles;
   std::vector<ecu::ControlRecord> controls;

@@ -57,7 +57,7 @@ void fill_map(const Clip& clip, world::Vec2 origin, LaneMap& map) {
     lane.present = true;
     lane.width_m = single(std::clamp(from.width_m, 2.5, 5.0));
     lane.speed_limit_mps = single(from.speed_limit_mps);
-    lane.length_m = centre_line_length(lane);
+    lane.length_m = scene::centre_line_length(lane);
     int count = 0;
     for (const int next : from.successors) {
       if (count < kMaxSuccessors && slot_of(next) != kNoLaneIndex) lane.successors[count++] = slot_of(next);
@@ -136,9 +136,9 @@ class Firmware final : public Forecaster {
     const bool alone = others.empty();
     const std::size_t ego = alone ? vehicle : others.back();
     if (!alone) others.pop_back();
-    SceneBuilder builder;
-    builder.relevance = Relevance::kNearest;
-    Scene scene;
+    scene::SceneBuilder builder;
+    builder.relevance = scene::Relevance::kNearest;
+    scene::Scene scene;
     for (int j = -kPastSteps; j <= 0; ++j) {
       const auto time_ms = static_cast<std::uint32_t>((kPastSteps + j + 1) * kStepMs);
       TrackList tracks;
@@ -152,15 +152,15 @@ class Firmware final : public Forecaster {
       (void)builder.build(time_ms, ego_of(we), tracks, time_ms, &map, parameters_,
                           scene);  // off every lane: still a scene
     }
-    const auto predictor = std::make_unique<SatpPredictor>();  // too large for the stack
+    const auto predictor = std::make_unique<satp::SatpPredictor>();  // too large for the stack
     const auto scratch = std::make_unique<satp::EncoderScratch>();
     predictor->encode(weights_, scene, parameters_, scene.time_ms, nullptr, nullptr, *scratch);
-    PredictionSet prediction;
-    predictor->decode(nullptr, kMaxPredictionWork, prediction);
-    for (const AgentPrediction& agent : prediction.agents) {
+    satp::PredictionSet prediction;
+    predictor->decode(nullptr, satp::kMaxPredictionWork, prediction);
+    for (const satp::AgentPrediction& agent : prediction.agents) {
       if (scene.agents[agent.agent].track.id != kAsked) continue;
       std::vector<ClipFuture> futures;
-      for (const Mode& mode : agent.modes) {
+      for (const satp::Mode& mode : agent.modes) {
         ClipFuture future;
         future.probability = static_cast<double>(mode.probability);
         for (std::size_t i = 0; i < future.places.size(); ++i) {

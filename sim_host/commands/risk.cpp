@@ -10,17 +10,17 @@
 namespace s4tp::commands {
 namespace {
 
-const char* preset_name(FieldPreset preset) {
-  return preset == FieldPreset::kPaper ? "paper" : "kolekar2020";
+const char* preset_name(sadrf::FieldPreset preset) {
+  return preset == sadrf::FieldPreset::kPaper ? "paper" : "kolekar2020";
 }
 
-const char* look_ahead_name(LookAhead look_ahead) {
-  return look_ahead == LookAhead::kShrinking ? "shrinking" : "fixed";
+const char* look_ahead_name(sadrf::LookAhead look_ahead) {
+  return look_ahead == sadrf::LookAhead::kShrinking ? "shrinking" : "fixed";
 }
 
 int draw(const std::filesystem::path& out) {
   std::filesystem::create_directories(out);
-  for (const FieldPreset preset : {FieldPreset::kPaper, FieldPreset::kKolekar2020}) {
+  for (const sadrf::FieldPreset preset : {sadrf::FieldPreset::kPaper, sadrf::FieldPreset::kKolekar2020}) {
     const std::filesystem::path file = out / (std::string("field_") + preset_name(preset) + ".svg");
     view::draw_field_grid(preset, file);
     std::cout << file.string() << '\n';

@@ -148,7 +148,7 @@ TrackedObjects tracked_objects(const CycleRecord& cycle, Arena& arena) {
   TrackedObjects result{};
   result.header = header(cycle.scene.time_ms, kOdom, arena);
   auto* object = arena.sequence(result.objects, static_cast<std::size_t>(cycle.scene.agents.size()));
-  for (const Agent& agent : cycle.scene.agents) {
+  for (const scene::Agent& agent : cycle.scene.agents) {
     const Track& track = agent.track;
     object->object_id.uuid[15] = track.id;
     object->existence_probability = 1.0F;
@@ -170,7 +170,7 @@ PredictedObjects predicted_objects(const ecu::PlanRecord& plan, const CycleRecor
   PredictedObjects result{};
   result.header = header(plan.plan.start_ms, kOdom, arena);
   auto* object = arena.sequence(result.objects, static_cast<std::size_t>(cycle.prediction.agents.size()));
-  for (const AgentPrediction& agent : cycle.prediction.agents) {
+  for (const satp::AgentPrediction& agent : cycle.prediction.agents) {
     const Track& track = cycle.scene.agents[agent.agent].track;
     object->object_id.uuid[15] = track.id;
     object->existence_probability = 1.0F;
@@ -181,7 +181,7 @@ PredictedObjects predicted_objects(const ecu::PlanRecord& plan, const CycleRecor
     kinematics.initial_twist_with_covariance.twist.angular.z = track.yaw_rate_radps;
     kinematics.initial_acceleration_with_covariance.accel.linear.x = track.acceleration_mps2;
     auto* future = arena.sequence(kinematics.predicted_paths, static_cast<std::size_t>(agent.modes.size()));
-    for (const Mode& mode : agent.modes) {
+    for (const satp::Mode& mode : agent.modes) {
       auto* step = arena.sequence(future->path, kHorizonSteps);
       for (const Pose& at : mode.steps) *step++ = pose(at, 0.5 * kVehicleHeightM);
       future->time_step.nanosec = static_cast<std::uint32_t>(kStepMs) * 1'000'000U;
@@ -254,22 +254,22 @@ ControlMessage control(const ecu::ControlRecord& record) {
   return result;
 }
 
-OccupancyGrid risk_grid(const HeatMap& map, const CycleRecord& cycle, Arena& arena) {
+OccupancyGrid risk_grid(const sadrf::HeatMap& map, const CycleRecord& cycle, Arena& arena) {
   OccupancyGrid result{};
   result.header = header(cycle.scene.time_ms, kBase, arena);
   result.info.map_load_time = result.header.stamp;
   result.info.resolution = 1.0F;
-  result.info.width = kHeatColumns;
-  result.info.height = kHeatRows;
-  result.info.origin.position = {-static_cast<double>(kHeatBehind), -0.5 * kHeatRows, 0.0};
+  result.info.width = sadrf::kHeatColumns;
+  result.info.height = sadrf::kHeatRows;
+  result.info.origin.position = {-static_cast<double>(sadrf::kHeatBehind), -0.5 * sadrf::kHeatRows, 0.0};
   result.info.origin.orientation.w = 1.0;
-  auto* to = arena.sequence(result.data, static_cast<std::size_t>(kHeatRows) * kHeatColumns);
+  auto* to = arena.sequence(result.data, static_cast<std::size_t>(sadrf::kHeatRows) * sadrf::kHeatColumns);
   for (const auto& row : map.cells) {
     for (const std::uint8_t level : row) {
-      int value = level * 99 / kHeatHighest;
-      if (level == kHeatOffRoad) value = -1;
-      if (level == kHeatOpposite) value = 0;
-      if (level == kHeatVehicle) value = 100;
+      int value = level * 99 / sadrf::kHeatHighest;
+      if (level == sadrf::kHeatOffRoad) value = -1;
+      if (level == sadrf::kHeatOpposite) value = 0;
+      if (level == sadrf::kHeatVehicle) value = 100;
       *to++ = static_cast<std::int8_t>(value);
     }
   }
@@ -309,8 +309,8 @@ MarkerArray lane_markers(const CycleRecord& cycle, Arena& arena) {
 
 DiagnosticArray diagnostics(const ecu::ControlRecord& control, const StatusRecord& status,
                             const CycleRecord* cycle, const InputReport* input, Arena& arena) {
-  static constexpr const char* kStages[kStageCount] = {"scene",      "candidates", "predict", "rank",
-                                                       "exact risk", "optimize",   "check",   "explain"};
+  static constexpr const char* kStages[planner::kStageCount] = {
+      "scene", "candidates", "predict", "rank", "exact risk", "optimize", "check", "explain"};
   static constexpr const char* kStates[] = {"error-active", "error-passive", "bus off", "down"};
   DiagnosticArray result{};
   result.header = header(control.time_ms, "", arena);
@@ -334,10 +334,10 @@ DiagnosticArray diagnostics(const ecu::ControlRecord& control, const StatusRecor
   one[1].name = arena.text("s4tp: planning");
   one[1].level = status.cycles.slips > 0 ? kWarning : kFine;
   one[1].message = arena.text(status.cycles.slips > 0 ? "deadlines missed" : "in time");
-  Values planning(one[1].values, 2 + kStageCount, arena);
+  Values planning(one[1].values, 2 + planner::kStageCount, arena);
   planning.add("cycles", status.cycles.count);
   planning.add("deadlines missed", status.cycles.slips);
-  for (int i = 0; cycle != nullptr && i < kStageCount; ++i)
+  for (int i = 0; cycle != nullptr && i < planner::kStageCount; ++i)
     planning.add(kStages[i], 0.001 * cycle->stage_ns[i], 1);  // us
 
   one[2].name = arena.text("s4tp: bus");

@@ -67,7 +67,7 @@ using DiagnosticArray = diagnostic_msgs_msg_dds__DiagnosticArray_;
 /// TELE-024 What reached the actuators.
 [[nodiscard]] ControlMessage control(const ecu::ControlRecord& record);
 /// TELE-025 128 x 64 cells of 1 m around base_link: risk 0 .. 99 of 239 levels, 100 a vehicle, -1 off road.
-[[nodiscard]] OccupancyGrid risk_grid(const HeatMap& map, const CycleRecord& cycle, Arena& arena);
+[[nodiscard]] OccupancyGrid risk_grid(const sadrf::HeatMap& map, const CycleRecord& cycle, Arena& arena);
 /// TELE-026 The way of the rear axle.
 [[nodiscard]] PathMessage path(const Plan& plan, Arena& arena);
 /// TELE-027 Centre lines of all lanes, by kind, and the conflicts between them.

@@ -17,39 +17,39 @@ namespace {
 
 constexpr float kMovingMps = 0.5F;
 
-Scene scene_of(const CycleRecord& cycle) {
-  Scene scene = cycle.scene;
+scene::Scene scene_of(const CycleRecord& cycle) {
+  scene::Scene scene = cycle.scene;
   scene.map = cycle.has_map ? &cycle.map : nullptr;
   return scene;
 }
 
-bool same(const Candidate& a, const Candidate& b) {
+bool same(const trajectory::Candidate& a, const trajectory::Candidate& b) {
   return a.path == b.path && a.intent == b.intent && a.acceleration_mps2 == b.acceleration_mps2 &&
          a.target_s_m == b.target_s_m && a.lateral_length_m == b.lateral_length_m && a.in_gap == b.in_gap;
 }
 
-KinematicSet constant_velocity(const Scene& scene, const ecu::PlanRecord& plan,
-                               const Parameters& parameters) {
-  const auto predictor = std::make_unique<Predictor>();
-  KinematicSet others;
+satp::KinematicSet constant_velocity(const scene::Scene& scene, const ecu::PlanRecord& plan,
+                                     const Parameters& parameters) {
+  const auto predictor = std::make_unique<satp::Predictor>();
+  satp::KinematicSet others;
   predictor->encode(scene, parameters, plan.plan.start_ms);
   predictor->constant_velocity(others);
   return others;
 }
 
 /// When our box's centre is beyond the zone; after the horizon we go on as the guard takes us to.
-float leaves_s(const Scene& scene, const EgoPath& path, const Trajectory& trajectory,
-               const ConflictZone& zone, const Parameters& parameters) {
-  const float centre_m = rear_axle_to_centre_m(parameters);
+float leaves_s(const scene::Scene& scene, const scene::EgoPath& path, const Trajectory& trajectory,
+               const scene::ConflictZone& zone, const Parameters& parameters) {
+  const float centre_m = trajectory::rear_axle_to_centre_m(parameters);
   float s_m = path.frenet.s_m;
   for (int i = 0; i < kTrajectoryPoints; ++i) {
-    s_m = project(*scene.map, path.path, position(trajectory.points[i].rear_axle), s_m, 15.0F).s_m;
+    s_m = scene::project(*scene.map, path.path, position(trajectory.points[i].rear_axle), s_m, 15.0F).s_m;
     if (s_m + centre_m > zone.exit_s_m) return static_cast<float>(i) * kStepS;
   }
   constexpr float kGoesOnMps2 = 1.5F;
   const float end_mps = trajectory.points[kHorizonSteps].speed_mps;
   if (end_mps < kMovingMps) return occupancy::kNeverS;
-  const float limit_mps = path_point(*scene.map, path.path, zone.exit_s_m).speed_limit_mps;
+  const float limit_mps = scene::path_point(*scene.map, path.path, zone.exit_s_m).speed_limit_mps;
   return kHorizonSteps * kStepS +
          occupancy::time_to_cover_s({end_mps, kGoesOnMps2, std::max(end_mps, limit_mps)},
                                     zone.exit_s_m - s_m - centre_m);
@@ -62,12 +62,12 @@ std::vector<RolledOut> candidates_of(const ecu::PlanRecord& plan, const CycleRec
   std::vector<RolledOut> result;
   if (!cycle.has_candidates) return result;
   for (int i = 0; i < cycle.candidates.size(); ++i) {
-    const Candidate& candidate = cycle.candidates[i];
+    const trajectory::Candidate& candidate = cycle.candidates[i];
     RolledOut one;
-    roll_out(cycle.lines[candidate.path], candidate, cycle.start, cycle.running, plan.plan.start_ms,
-             parameters, one.trajectory);
+    trajectory::roll_out(cycle.lines[candidate.path], candidate, cycle.start, cycle.running,
+                         plan.plan.start_ms, parameters, one.trajectory);
     one.rejection = plan.explanation.rejections[i];
-    one.costed = one.rejection == Rejection::kNone;
+    one.costed = one.rejection == trajectory::Rejection::kNone;
     if (one.costed) one.cost = cycle.costs[i];
     one.chosen = plan.plan.kind == PlanKind::kDrive && same(candidate, plan.explanation.chosen);
     result.push_back(one);
@@ -87,14 +87,15 @@ CostRange cost_range(const std::vector<RolledOut>& candidates) {
   return range;
 }
 
-HeatMap heat_map_of(const ecu::PlanRecord& plan, const CycleRecord& cycle, const Parameters& parameters) {
-  const Scene scene = scene_of(cycle);
-  DrivableArea area;
-  build_drivable(scene.map, area);
-  const KinematicSet others = constant_velocity(scene, plan, parameters);
-  HeatMap map;
-  for (int row = 0; row < kHeatRows; ++row)
-    heat_row(scene, area, cycle.prediction, others, parameters, row, map);
+sadrf::HeatMap heat_map_of(const ecu::PlanRecord& plan, const CycleRecord& cycle,
+                           const Parameters& parameters) {
+  const scene::Scene scene = scene_of(cycle);
+  sadrf::DrivableArea area;
+  sadrf::build_drivable(scene.map, area);
+  const satp::KinematicSet others = constant_velocity(scene, plan, parameters);
+  sadrf::HeatMap map;
+  for (int row = 0; row < sadrf::kHeatRows; ++row)
+    sadrf::heat_row(scene, area, cycle.prediction, others, parameters, row, map);
   return map;
 }
 
@@ -117,15 +118,15 @@ bool matters_more(const safety::ZoneOccupancy& one, const safety::ZoneOccupancy&
 
 std::vector<GroundClaim> claims_of(const ecu::PlanRecord& plan, const CycleRecord& cycle,
                                    const Parameters& parameters) {
-  const Scene scene = scene_of(cycle);
+  const scene::Scene scene = scene_of(cycle);
   std::vector<GroundClaim> claims(static_cast<std::size_t>(scene.agents.size()));
   if (scene.map == nullptr || scene.ego_paths.empty()) return claims;
   const int chosen = plan.explanation.chosen.path;
-  const EgoPath& path = scene.ego_paths[chosen < scene.ego_paths.size() ? chosen : 0];
+  const scene::EgoPath& path = scene.ego_paths[chosen < scene.ego_paths.size() ? chosen : 0];
   const float lead_s = 0.001F * static_cast<float>(plan.plan.start_ms - scene.time_ms);
   for (int i = 0; i < scene.agents.size(); ++i) {
     GroundClaim& claim = claims[static_cast<std::size_t>(i)];
-    for (const ConflictZone& zone : path.zones) {
+    for (const scene::ConflictZone& zone : path.zones) {
       if (zone.exit_s_m < path.frenet.s_m) continue;  // behind us
       occupancy::LaneReach reach;
       reach.measure(*scene.map, scene.agents[i], !zone.merging);
@@ -140,27 +141,27 @@ std::vector<GroundClaim> claims_of(const ecu::PlanRecord& plan, const CycleRecor
 
 std::vector<float> risk_shares(const ecu::PlanRecord& plan, const CycleRecord& cycle,
                                const Parameters& parameters) {
-  const Scene scene = scene_of(cycle);
-  DrivableArea area;
-  build_drivable(scene.map, area);
-  const KinematicSet others = constant_velocity(scene, plan, parameters);
+  const scene::Scene scene = scene_of(cycle);
+  sadrf::DrivableArea area;
+  sadrf::build_drivable(scene.map, area);
+  const satp::KinematicSet others = constant_velocity(scene, plan, parameters);
   std::vector<float> shares;
   float sum = 0.0F;
   for (int i = 0; i < scene.agents.size(); ++i) {
-    Scene alone = scene;
+    scene::Scene alone = scene;
     alone.agents.clear();
     (void)alone.agents.push(scene.agents[i]);
-    PredictionSet expected;
-    for (const AgentPrediction& one : cycle.prediction.agents) {
+    satp::PredictionSet expected;
+    for (const satp::AgentPrediction& one : cycle.prediction.agents) {
       if (one.agent != i) continue;
       (void)expected.agents.push(one);
       expected.agents[0].agent = 0;
     }
     alone.watched = expected.agents.size();
-    KinematicSet going;
+    satp::KinematicSet going;
     if (i < others.agents.size()) (void)going.agents.push(others.agents[i]);
-    RiskProfile profile{};
-    exact_risk(alone, area, expected, going, plan.plan.trajectory, parameters, profile);
+    sadrf::RiskProfile profile{};
+    sadrf::exact_risk(alone, area, expected, going, plan.plan.trajectory, parameters, profile);
     float risk = 0.0F;
     for (int step = 0; step < kHorizonSteps; ++step)
       risk += profile.obstacle[step] + parameters.risk.weight_social * profile.social[step];

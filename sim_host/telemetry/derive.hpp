@@ -13,8 +13,8 @@ namespace s4tp::telemetry {
 
 struct RolledOut {
   Trajectory trajectory;
-  Rejection rejection = Rejection::kNone;
-  CostBreakdown cost;
+  trajectory::Rejection rejection = trajectory::Rejection::kNone;
+  planner::CostBreakdown cost;
   bool costed = false;  ///< it was not rejected
   bool chosen = false;  ///< the plan began as this one
 };
@@ -31,8 +31,8 @@ struct CostRange {
 [[nodiscard]] CostRange cost_range(const std::vector<RolledOut>& candidates);
 
 /// TELE-011 The risk around us, as s4tp::heat_row draws it. Takes tens of milliseconds.
-[[nodiscard]] HeatMap heat_map_of(const ecu::PlanRecord& plan, const CycleRecord& cycle,
-                                  const Parameters& parameters);
+[[nodiscard]] sadrf::HeatMap heat_map_of(const ecu::PlanRecord& plan, const CycleRecord& cycle,
+                                         const Parameters& parameters);
 
 /// TELE-012 The plan's fail-safe: what is driven if no further plan takes effect.
 [[nodiscard]] Plan fail_safe_of(const ecu::PlanRecord& plan, const Parameters& parameters);

@@ -63,17 +63,17 @@ bool EcuTap::publish(std::uint16_t kind, const void* record, std::uint32_t size)
   return taken;
 }
 
-void EcuTap::stage_begin(Stage stage) {
+void EcuTap::stage_begin(planner::Stage stage) {
   if (next_probe_ != nullptr) next_probe_->stage_begin(stage);
   stage_began_ns_ = now_ns();
 }
 
-void EcuTap::stage_end(Stage stage) {
+void EcuTap::stage_end(planner::Stage stage) {
   cycle_.stage_ns[static_cast<int>(stage)] += static_cast<std::uint32_t>(now_ns() - stage_began_ns_);
   if (next_probe_ != nullptr) next_probe_->stage_end(stage);
 }
 
-void EcuTap::candidates_done(const CandidatesView& view) {
+void EcuTap::candidates_done(const planner::CandidatesView& view) {
   if (next_probe_ != nullptr) next_probe_->candidates_done(view);
   if (!memory_.is_open()) return;
   cycle_.has_candidates = true;
@@ -84,7 +84,8 @@ void EcuTap::candidates_done(const CandidatesView& view) {
   std::copy(std::begin(view.costs), std::end(view.costs), std::begin(cycle_.costs));
 }
 
-void EcuTap::cycle_done(const Scene& scene, const PredictionSet& prediction, const RiskProfile& risk) {
+void EcuTap::cycle_done(const scene::Scene& scene, const satp::PredictionSet& prediction,
+                        const sadrf::RiskProfile& risk) {
   if (next_probe_ != nullptr) next_probe_->cycle_done(scene, prediction, risk);
   if (memory_.is_open()) {
     cycle_.scene = scene;

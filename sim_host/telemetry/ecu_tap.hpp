@@ -15,10 +15,10 @@ namespace s4tp::telemetry {
 
 /// TELE-002 Whoever reads, stops reading or never comes: what the ECU does is the same to the bit. TELE-007 And a
 /// planning cycle takes the same instructions.
-class EcuTap final : public hal::Telemetry, public Probe {
+class EcuTap final : public hal::Telemetry, public planner::Probe {
  public:
   /// \param next  gets every record, too; may be null
-  explicit EcuTap(hal::Telemetry* next = nullptr, Probe* next_probe = nullptr)
+  explicit EcuTap(hal::Telemetry* next = nullptr, planner::Probe* next_probe = nullptr)
       : next_(next), next_probe_(next_probe) {}
 
   /// Before the ECU is made. Without it all goes to `next` alone.
@@ -36,14 +36,15 @@ class EcuTap final : public hal::Telemetry, public Probe {
   bool publish(std::uint16_t kind, const void* record, std::uint32_t size) override;
 
   // Planning context.
-  void stage_begin(Stage stage) override;
-  void stage_end(Stage stage) override;
-  void candidates_done(const CandidatesView& view) override;
-  void cycle_done(const Scene& scene, const PredictionSet& prediction, const RiskProfile& risk) override;
+  void stage_begin(planner::Stage stage) override;
+  void stage_end(planner::Stage stage) override;
+  void candidates_done(const planner::CandidatesView& view) override;
+  void cycle_done(const scene::Scene& scene, const satp::PredictionSet& prediction,
+                  const sadrf::RiskProfile& risk) override;
 
  private:
   hal::Telemetry* next_;
-  Probe* next_probe_;
+  planner::Probe* next_probe_;
   hal::linux_host::SharedRecordsWriter memory_;
   std::uint32_t ticks_ = 0;           ///< control context
   CycleRecord cycle_;                 ///< planning context

@@ -55,7 +55,7 @@ ordered_json road_json(const CycleRecord& cycle) {
   return lanes;
 }
 
-std::vector<double> terms(const CostBreakdown& cost) {  // in tenths, as a replay has them
+std::vector<double> terms(const planner::CostBreakdown& cost) {  // in tenths, as a replay has them
   std::vector<double> values;
   for (const float term : {cost.progress, cost.speed, cost.jerk, cost.lateral, cost.lane, cost.risk})
     values.push_back(std::isfinite(term) ? std::round(10.0 * static_cast<double>(term)) : 0.0);
@@ -88,19 +88,19 @@ ordered_json candidates_json(const ecu::PlanRecord& plan, const CycleRecord& cyc
 }
 
 ordered_json stages_json(const ecu::PlanRecord& plan, const CycleRecord& cycle) {
-  static constexpr const char* kNames[kStageCount] = {"scene",      "candidates", "predict", "rank",
-                                                      "exact risk", "optimize",   "check",   "explain"};
-  const WorkAllowance allowed;
-  const int most[kStageCount] = {kMaxTracks,
-                                 allowed.candidates,
-                                 allowed.prediction * (1 + allowed.decisions),
-                                 allowed.candidates,
-                                 allowed.exact_risks,
-                                 allowed.optimizer_iterations,
-                                 0,
-                                 0};
+  static constexpr const char* kNames[planner::kStageCount] = {
+      "scene", "candidates", "predict", "rank", "exact risk", "optimize", "check", "explain"};
+  const planner::WorkAllowance allowed;
+  const int most[planner::kStageCount] = {kMaxTracks,
+                                          allowed.candidates,
+                                          allowed.prediction * (1 + allowed.decisions),
+                                          allowed.candidates,
+                                          allowed.exact_risks,
+                                          allowed.optimizer_iterations,
+                                          0,
+                                          0};
   ordered_json list = ordered_json::array();
-  for (int i = 0; i < kStageCount; ++i) {
+  for (int i = 0; i < planner::kStageCount; ++i) {
     list.push_back({{"name", kNames[i]},
                     {"us", std::lround(0.001 * cycle.stage_ns[i])},
                     {"work", plan.explanation.work[i]},
@@ -109,20 +109,20 @@ ordered_json stages_json(const ecu::PlanRecord& plan, const CycleRecord& cycle) 
   return list;
 }
 
-ordered_json risk_json(const HeatMap& map, const CycleRecord& cycle) {
+ordered_json risk_json(const sadrf::HeatMap& map, const CycleRecord& cycle) {
   std::string letters;
   for (const auto& row : map.cells) {
     for (const std::uint8_t level : row) {
-      const int depth = level <= kHeatHighest ? level * view::kDeepest / kHeatHighest : 0;
+      const int depth = level <= sadrf::kHeatHighest ? level * view::kDeepest / sadrf::kHeatHighest : 0;
       letters += static_cast<char>('a' + depth);
     }
   }
   const Pose& us = cycle.scene.ego.rear_axle;
-  const Point corner = offset_point(us, -static_cast<float>(kHeatBehind), -0.5F * kHeatRows);
+  const Point corner = offset_point(us, -static_cast<float>(sadrf::kHeatBehind), -0.5F * sadrf::kHeatRows);
   return {{"x", rounded(corner.x_m)},
           {"y", rounded(corner.y_m)},
           {"heading", us.heading_rad},
-          {"columns", kHeatColumns},
+          {"columns", sadrf::kHeatColumns},
           {"cell", 1},
           {"grid", view::in_runs(letters)}};
 }
@@ -149,9 +149,9 @@ ordered_json vehicles_json(const ecu::PlanRecord& plan, const CycleRecord& cycle
 
 ordered_json futures_json(const CycleRecord& cycle) {
   ordered_json list = ordered_json::array();
-  for (const AgentPrediction& agent : cycle.prediction.agents) {
+  for (const satp::AgentPrediction& agent : cycle.prediction.agents) {
     if (agent.agent >= cycle.scene.agents.size()) continue;
-    for (const Mode& mode : agent.modes) {
+    for (const satp::Mode& mode : agent.modes) {
       std::vector<double> line;
       for (int i = kStepsShown - 1; i < kHorizonSteps; i += kStepsShown) add(line, position(mode.steps[i]));
       list.push_back({{"car", cycle.scene.agents[agent.agent].track.id},
@@ -191,18 +191,18 @@ ordered_json ecu_json(const IdentityRecord& identity, const ecu::ControlRecord& 
 }
 
 ordered_json cycle_json(const ecu::PlanRecord& plan, const CycleRecord& cycle, const Parameters& parameters,
-                        const HeatMap* risk) {
+                        const sadrf::HeatMap* risk) {
   const campaign::CycleTrace trace = trace_of(plan, &cycle);
-  const Explanation& e = plan.explanation;
+  const planner::Explanation& e = plan.explanation;
   const std::vector<GroundClaim> claims = claims_of(plan, cycle, parameters);
   const WhoMatters who = who_matters(plan, cycle, claims);
   const EgoState& us = cycle.scene.ego;
-  const auto rejected = [&](Rejection why) {
+  const auto rejected = [&](trajectory::Rejection why) {
     return std::count(e.rejections, e.rejections + std::min<int>(e.candidate_count, kMaxCandidates), why);
   };
   ordered_json json{
       {"t", plan.plan.start_ms},
-      {"ego", box_json(shift_ahead(us.rear_axle, rear_axle_to_centre_m(parameters)), us.speed_mps,
+      {"ego", box_json(shift_ahead(us.rear_axle, trajectory::rear_axle_to_centre_m(parameters)), us.speed_mps,
                        parameters.vehicle.length_m, parameters.vehicle.width_m)},
       {"acceleration", rounded(us.acceleration_mps2)},
       {"steering", rounded(us.steering_rad)},
@@ -225,7 +225,9 @@ ordered_json cycle_json(const ecu::PlanRecord& plan, const CycleRecord& cycle, c
       {"waited_s", rounded(cycle.scene.waited_s)},
       {"cost", terms(e.chosen_cost)},
       {"runner_up", terms(e.runner_up_cost)},
-      {"counts", {e.candidate_count, rejected(Rejection::kInfeasible), rejected(Rejection::kRefused)}},
+      {"counts",
+       {e.candidate_count, rejected(trajectory::Rejection::kInfeasible),
+        rejected(trajectory::Rejection::kRefused)}},
       {"risk", {peaks(e.risk.obstacle), peaks(e.risk.road), peaks(e.risk.social)}},
       {"stages", stages_json(plan, cycle)}};
   if (risk != nullptr) json["haze"] = risk_json(*risk, cycle);

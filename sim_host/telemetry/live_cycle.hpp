@@ -17,6 +17,6 @@ namespace s4tp::telemetry {
 /// VIEW-012 Scene, futures, candidates by cost, plan and fail-safe, reasons, costs of stages.
 /// \param risk  the picture of it, or null: none was computed
 [[nodiscard]] nlohmann::ordered_json cycle_json(const ecu::PlanRecord& plan, const CycleRecord& cycle,
-                                                const Parameters& parameters, const HeatMap* risk);
+                                                const Parameters& parameters, const sadrf::HeatMap* risk);
 
 }  // namespace s4tp::telemetry

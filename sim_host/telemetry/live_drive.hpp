@@ -20,7 +20,7 @@ class LiveDrive final : public campaign::Onlooker {
   /// \throws std::runtime_error when there is no shared memory to be had
   void begin(campaign::Trace* trace) override;
   hal::Telemetry* telemetry() override { return &*tap_; }
-  Probe* probe() override { return &*tap_; }
+  planner::Probe* probe() override { return &*tap_; }
   void ticked(const campaign::Driver& driver) override;
 
  private:

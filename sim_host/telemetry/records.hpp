@@ -23,17 +23,17 @@ inline constexpr const char* kDefaultName = "/s4tp_ecu";
 
 /// One planning cycle: what the planner saw, expected and weighed. From the planning context.
 struct CycleRecord {
-  Scene scene;  ///< its `map` is null: the map stands beside it
+  scene::Scene scene;  ///< its `map` is null: the map stands beside it
   LaneMap map;
-  PredictionSet prediction;  ///< for the plan chosen
+  satp::PredictionSet prediction;  ///< for the plan chosen
   bool has_map = false;
   bool has_candidates = false;  ///< the following are of this cycle
   TrajectoryPoint start;
   Plan running;
-  ReferenceLines lines;
-  CandidateList candidates;
-  CostBreakdown costs[kMaxCandidates];
-  std::uint32_t stage_ns[kStageCount] = {};  ///< host time of each stage
+  trajectory::ReferenceLines lines;
+  trajectory::CandidateList candidates;
+  planner::CostBreakdown costs[kMaxCandidates];
+  std::uint32_t stage_ns[planner::kStageCount] = {};  ///< host time of each stage
 };
 
 /// How the ECU and its bus fare. From the control context, ten times a second.
@@ -76,20 +76,20 @@ constexpr std::uint32_t fingerprint() {
                                  std::size_t{kApiVersion},
                                  std::size_t{kParametersVersion},
                                  sizeof(void*),
-                                 sizeof(Scene),
-                                 sizeof(Agent),
-                                 sizeof(EgoPath),
+                                 sizeof(scene::Scene),
+                                 sizeof(scene::Agent),
+                                 sizeof(scene::EgoPath),
                                  sizeof(LaneMap),
                                  sizeof(Lane),
                                  sizeof(Conflict),
-                                 sizeof(Mode),
-                                 sizeof(PredictionSet),
-                                 sizeof(Candidate),
-                                 sizeof(ReferenceLine),
-                                 sizeof(CostBreakdown),
-                                 sizeof(Explanation),
-                                 sizeof(BlockingReason),
-                                 sizeof(RiskProfile),
+                                 sizeof(satp::Mode),
+                                 sizeof(satp::PredictionSet),
+                                 sizeof(trajectory::Candidate),
+                                 sizeof(trajectory::ReferenceLine),
+                                 sizeof(planner::CostBreakdown),
+                                 sizeof(planner::Explanation),
+                                 sizeof(planner::BlockingReason),
+                                 sizeof(sadrf::RiskProfile),
                                  sizeof(Plan),
                                  sizeof(Parameters),
                                  sizeof(ecu::PlanRecord),

@@ -61,7 +61,7 @@ class LiveView {
     // The picture takes tens of milliseconds: for who looks.
     const auto risk =
         server_.readers() > 0
-            ? std::make_unique<HeatMap>(telemetry::heat_map_of(watch_.plan(), cycle, parameters))
+            ? std::make_unique<sadrf::HeatMap>(telemetry::heat_map_of(watch_.plan(), cycle, parameters))
             : nullptr;
     nlohmann::ordered_json json{{"kind", "cycle"}, {"number", ++number_}, {"ecu_number", ecus_}};
     json.update(telemetry::cycle_json(watch_.plan(), cycle, parameters, risk.get()));

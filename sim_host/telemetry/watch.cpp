@@ -72,7 +72,7 @@ campaign::CycleTrace trace_of(const ecu::PlanRecord& plan, const CycleRecord* cy
   trace.record = plan;
   trace.risk = plan.explanation.risk;
   if (cycle == nullptr) return trace;
-  for (const Agent& agent : cycle->scene.agents) trace.tracks.push_back(agent.track);
+  for (const scene::Agent& agent : cycle->scene.agents) trace.tracks.push_back(agent.track);
   trace.predictions.assign(cycle->prediction.agents.begin(), cycle->prediction.agents.end());
   return trace;
 }

@@ -9,8 +9,8 @@
 namespace s4tp::telemetry {
 namespace {
 
-const AgentPrediction* futures_of(const CycleRecord& cycle, int agent) {
-  for (const AgentPrediction& one : cycle.prediction.agents) {
+const satp::AgentPrediction* futures_of(const CycleRecord& cycle, int agent) {
+  for (const satp::AgentPrediction& one : cycle.prediction.agents) {
     if (one.agent == agent) return &one;
   }
   return nullptr;
@@ -44,10 +44,10 @@ long percent(float part) {
 }
 
 long gives_way(const CycleRecord& cycle, int agent, const GroundClaim& claim) {
-  const AgentPrediction* const futures = futures_of(cycle, agent);
+  const satp::AgentPrediction* const futures = futures_of(cycle, agent);
   if (futures == nullptr) return -1;
   float part = 0.0F;
-  for (const Mode& mode : futures->modes) part += mode.yields ? mode.probability : 0.0F;
+  for (const satp::Mode& mode : futures->modes) part += mode.yields ? mode.probability : 0.0F;
   return claim.its.claim == safety::Claim::kNone && part <= 0.0F ? -1 : percent(part);
 }
 

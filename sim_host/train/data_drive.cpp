@@ -31,8 +31,8 @@ class Tracks {
       : errors_(errors), origin_(origin), random_(seed) {}
 
   /// Takes over the ids of a scene. \param cars  as they are at its time
-  void adopt(const Scene& scene, const std::vector<world::CarState>& cars) {
-    for (const Agent& agent : scene.agents) {
+  void adopt(const scene::Scene& scene, const std::vector<world::CarState>& cars) {
+    for (const scene::Agent& agent : scene.agents) {
       for (const world::CarState& car : cars) {
         const double off_m =
             std::hypot(car.centre.x - origin_.x - static_cast<double>(agent.track.centre.x_m),
@@ -100,18 +100,19 @@ world::Snapshot snapshot_of(const world::Branch& branch) {
 }
 
 /// One of the planner's own candidates from here; false: it has none.
-bool draw_candidate(const Scene& scene, const Parameters& parameters, world::Random& random,
+bool draw_candidate(const scene::Scene& scene, const Parameters& parameters, world::Random& random,
                     BranchPlan& plan) {
   plan.start_ms = scene.time_ms + kLeadMs;
-  const TrajectoryPoint start = plan_start(scene.ego, scene.time_ms, {}, plan.start_ms, parameters);
-  ReferenceLines lines;
-  CandidateList candidates;
+  const TrajectoryPoint start =
+      trajectory::plan_start(scene.ego, scene.time_ms, {}, plan.start_ms, parameters);
+  trajectory::ReferenceLines lines;
+  trajectory::CandidateList candidates;
   int left_out = 0;
-  generate_candidates(scene, start, {}, plan.start_ms, parameters, kMaxCandidates, lines, candidates,
-                      left_out);
+  trajectory::generate_candidates(scene, start, {}, plan.start_ms, parameters, kMaxCandidates, lines,
+                                  candidates, left_out);
   if (candidates.empty()) return false;
-  const Candidate& drawn = candidates[random.integer(0, candidates.size() - 1)];
-  roll_out(lines[drawn.path], drawn, start, {}, plan.start_ms, parameters, plan.candidate);
+  const trajectory::Candidate& drawn = candidates[random.integer(0, candidates.size() - 1)];
+  trajectory::roll_out(lines[drawn.path], drawn, start, {}, plan.start_ms, parameters, plan.candidate);
   return true;
 }
 
@@ -203,7 +204,7 @@ bool DataDrive::observe() {
 
 BranchPlan DataDrive::draw(bool at_zone, std::vector<Intention>& used) {
   const double(&weights)[kIntentions] = at_zone ? kAtZones : kOnTheRoad;
-  const EgoPath& keep = observer_.scene().ego_paths[0];
+  const scene::EgoPath& keep = observer_.scene().ego_paths[0];
   const auto weight = [&](int i) {
     const auto intention = static_cast<Intention>(i);
     if (std::find(used.begin(), used.end(), intention) != used.end()) return 0.0;
@@ -309,7 +310,7 @@ void DataDrive::fork() {
 
 void DataDrive::consider_fork() {
   if (world_.time_s() < next_fork_s_ || counts_.forks >= options_.forks) return;
-  const Scene& scene = observer_.scene();
+  const scene::Scene& scene = observer_.scene();
   bool busy = false;
   for (int i = 0; i < scene.watched; ++i) {
     const Track& track = scene.agents[i].track;

@@ -43,12 +43,13 @@ Trajectory driven(std::span<const world::Snapshot> drive, world::Vec2 origin, co
 }
 
 std::int8_t route_of(const Instant& instant, int agent, const Pose& at_horizon) {
-  const Agent& watched = instant.scene.agents[agent];
+  const scene::Agent& watched = instant.scene.agents[agent];
   std::int8_t best = -1;
   float nearest_m = kOnPathM;
   for (int k = 0; k < watched.paths.size(); ++k) {
     const float guess_m = watched.frenet[k].s_m + kHorizonS * watched.track.speed_mps;
-    const Frenet at = project(*instant.map, watched.paths[k], position(at_horizon), guess_m, -1.0F);
+    const scene::Frenet at =
+        scene::project(*instant.map, watched.paths[k], position(at_horizon), guess_m, -1.0F);
     if (std::abs(at.d_m) < nearest_m) {
       nearest_m = std::abs(at.d_m);
       best = static_cast<std::int8_t>(k);

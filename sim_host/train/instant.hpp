@@ -18,7 +18,7 @@ inline constexpr std::size_t kSettledSnapshots = 1 + 80;
 
 struct Instant {
   Sample sample;  ///< input and expectation; road, episode, time and scenario
-  Scene scene;
+  scene::Scene scene;
   std::shared_ptr<const LaneMap> map;  ///< the scene's
   int car[kMaxAgents] = {};            ///< who the watched ones really are; -1: nobody is there
 };

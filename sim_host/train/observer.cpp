@@ -17,20 +17,20 @@ std::int16_t centimetres(float metres) {
 bool Observer::look(std::uint32_t now_ms, const EgoState& ego, const TrackList& tracks,
                     std::uint32_t tracks_ms, const LaneMap& map) {
   if (builder_.build(now_ms, ego, tracks, tracks_ms, &map, parameters_, scene_) != Status::kOk) return false;
-  Predictor predictor;
+  satp::Predictor predictor;
   predictor.encode(scene_, parameters_, now_ms + kLeadMs, &beliefs_);
-  YieldHypotheses hypotheses[kMaxAgents];
+  satp::YieldHypotheses hypotheses[kMaxAgents];
   predictor.hypotheses(hypotheses);
   beliefs_.observe(scene_, hypotheses);
   return true;
 }
 
 void Observer::expect(const satp::NetworkInput& input, KinematicFuture (&futures)[kMaxAgents]) const {
-  Predictor predictor;
+  satp::Predictor predictor;
   predictor.encode(scene_, parameters_, scene_.time_ms + kLeadMs, &beliefs_);
-  PredictionSet prediction;
-  predictor.decode(nullptr, kMaxPredictionWork, prediction);
-  for (const AgentPrediction& agent : prediction.agents) {
+  satp::PredictionSet prediction;
+  predictor.decode(nullptr, satp::kMaxPredictionWork, prediction);
+  for (const satp::AgentPrediction& agent : prediction.agents) {
     KinematicFuture& future = futures[agent.agent];
     for (int k = 0; k < agent.modes.size(); ++k) {
       future.probability[k] = agent.modes[k].probability;

@@ -26,15 +26,15 @@ class Observer {
   bool look(std::uint32_t now_ms, const EgoState& ego, const TrackList& tracks, std::uint32_t tracks_ms,
             const LaneMap& map);
 
-  [[nodiscard]] const Scene& scene() const { return scene_; }
+  [[nodiscard]] const scene::Scene& scene() const { return scene_; }
   /// What the kinematic predictor expects without our plan, in the frames of `input`.
   void expect(const satp::NetworkInput& input, KinematicFuture (&futures)[kMaxAgents]) const;
 
  private:
   Parameters parameters_;
-  SceneBuilder builder_;
-  YieldBeliefs beliefs_;
-  Scene scene_;
+  scene::SceneBuilder builder_;
+  satp::YieldBeliefs beliefs_;
+  scene::Scene scene_;
 };
 
 }  // namespace s4tp::train

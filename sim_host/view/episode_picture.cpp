@@ -70,8 +70,8 @@ void draw_fields(Svg& svg, const world::Snapshot& now, Vec2 origin, Vec2 low, Ve
 }
 
 void draw_thoughts(Svg& svg, const CycleTrace& cycle, Vec2 origin) {
-  for (const AgentPrediction& agent : cycle.predictions) {
-    for (const Mode& mode : agent.modes) {
+  for (const satp::AgentPrediction& agent : cycle.predictions) {
+    for (const satp::Mode& mode : agent.modes) {
       std::vector<Vec2> line;
       for (const Pose& pose : mode.steps) line.push_back({pose.x_m + origin.x, pose.y_m + origin.y});
       svg.line(line, {.colour = kOtherColour,

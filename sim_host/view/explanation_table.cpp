@@ -6,15 +6,15 @@
 namespace s4tp::view {
 namespace {
 
-const char* intent_name(Intent intent) {
+const char* intent_name(trajectory::Intent intent) {
   switch (intent) {
-    case Intent::kAccelerate:
+    case trajectory::Intent::kAccelerate:
       return "accelerate";
-    case Intent::kStop:
+    case trajectory::Intent::kStop:
       return "stop";
-    case Intent::kFollow:
+    case trajectory::Intent::kFollow:
       return "follow";
-    case Intent::kPrevious:
+    case trajectory::Intent::kPrevious:
       return "previous";
   }
   return "?";
@@ -27,8 +27,8 @@ const char* cause_name(safety::Cause cause) {
   return kCauses[static_cast<int>(cause)];
 }
 
-int rejected(const Explanation& explanation, Rejection why) {
-  const Rejection* const end =
+int rejected(const planner::Explanation& explanation, trajectory::Rejection why) {
+  const trajectory::Rejection* const end =
       explanation.rejections + std::min<int>(explanation.candidate_count, kMaxCandidates);
   return static_cast<int>(std::count(explanation.rejections, end, why));
 }
@@ -39,8 +39,8 @@ void print_explanations(std::ostream& out, const campaign::Trace& trace, double 
   out << "  time s  status         plan   v m/s  path intent       a m/s2  cand infeas refused"
          "   progress  speed   jerk    lat   lane   risk   total  runner-up  risk from  held up by\n";
   for (const campaign::CycleTrace& cycle : trace.cycles) {
-    const Explanation& e = cycle.record.explanation;
-    const CostBreakdown& c = e.chosen_cost;
+    const planner::Explanation& e = cycle.record.explanation;
+    const planner::CostBreakdown& c = e.chosen_cost;
     const Plan& plan = cycle.record.plan;
     const float accelerations = plan.trajectory.points[5].acceleration_mps2;
     char line[300];
@@ -52,8 +52,9 @@ void print_explanations(std::ostream& out, const campaign::Trace& trace, double 
                   plan.kind == PlanKind::kDrive ? "drive" : "stop",
                   static_cast<double>(plan.trajectory.points[0].speed_mps), e.chosen.path,
                   e.status == Status::kOk ? intent_name(e.chosen.intent) : "-",
-                  static_cast<double>(accelerations), e.candidate_count, rejected(e, Rejection::kInfeasible),
-                  rejected(e, Rejection::kRefused), static_cast<double>(c.progress),
+                  static_cast<double>(accelerations), e.candidate_count,
+                  rejected(e, trajectory::Rejection::kInfeasible),
+                  rejected(e, trajectory::Rejection::kRefused), static_cast<double>(c.progress),
                   static_cast<double>(c.speed), static_cast<double>(c.jerk), static_cast<double>(c.lateral),
                   static_cast<double>(c.lane), static_cast<double>(c.risk), static_cast<double>(c.total()),
                   static_cast<double>(e.runner_up_cost.total()), e.dominating_track,

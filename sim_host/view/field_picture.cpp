@@ -70,14 +70,14 @@ struct Panel {
     return {left_px + (x_m + kBehindM) * kScale, top_px + (kLeftM - y_m) * kScale};
   }
 
-  void fill(const Field& field) const {
+  void fill(const sadrf::Field& field) const {
     std::vector<std::ostringstream> runs(kBandCount);
     for (double y = -kRightM + kCellM / 2; y < kLeftM; y += kCellM) {
       int running = -1;
       double since = 0.0;
       for (double x = -kBehindM; x <= kAheadM; x += kCellM) {
         const Point centre = {static_cast<float>(x + kCellM / 2), static_cast<float>(y)};
-        const int band = x < kAheadM ? band_of(field_at(field, centre)) : -1;
+        const int band = x < kAheadM ? band_of(sadrf::field_at(field, centre)) : -1;
         if (band == running) continue;
         if (running >= 0) {
           const Vec2 from = px(since, y);
@@ -95,7 +95,7 @@ struct Panel {
     }
   }
 
-  void draw_path(const Field& field) const {
+  void draw_path(const sadrf::Field& field) const {
     std::vector<Vec2> path;
     const double kappa = static_cast<double>(field.curvature_1pm);
     // The field ends where half a circle is driven.
@@ -145,9 +145,9 @@ void draw_legend(Svg& svg, double left_px, double top_px) {
 
 }  // namespace
 
-void draw_field_grid(FieldPreset preset, const std::filesystem::path& file) {
-  const bool paper = preset == FieldPreset::kPaper;
-  const FieldParams params = paper ? paper_preset(kWidthM) : kolekar2020_preset(kWidthM);
+void draw_field_grid(sadrf::FieldPreset preset, const std::filesystem::path& file) {
+  const bool paper = preset == sadrf::FieldPreset::kPaper;
+  const sadrf::FieldParams params = paper ? sadrf::paper_preset(kWidthM) : sadrf::kolekar2020_preset(kWidthM);
   const double columns = static_cast<double>(std::size(kSteeringsDeg));
   const double rows = static_cast<double>(std::size(kSpeeds));
   const double width = kMarginLeft + columns * (kPanelWidth + kGap) + 6.0;
@@ -179,8 +179,8 @@ void draw_field_grid(FieldPreset preset, const std::filesystem::path& file) {
             13);
       }
       const float steering = kSteeringsDeg[column] * std::numbers::pi_v<float> / 180.0F;
-      const Field field =
-          prepare_field(params, DriverState{{0.0F, 0.0F, 0.0F}, kSpeeds[row], steering, kWheelbaseM});
+      const sadrf::Field field = sadrf::prepare_field(
+          params, sadrf::DriverState{{0.0F, 0.0F, 0.0F}, kSpeeds[row], steering, kWheelbaseM});
       svg.rectangle_px(left, top, kPanelWidth, kPanelHeight, "#ffffff");
       const Panel panel{svg, left, top};
       panel.fill(field);

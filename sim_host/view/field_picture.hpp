@@ -9,6 +9,6 @@ namespace s4tp::view {
 
 /// Rows: speeds; columns: road-wheel angles; all panels to one scale. \throws std::runtime_error naming the
 /// file
-void draw_field_grid(FieldPreset preset, const std::filesystem::path& file);
+void draw_field_grid(sadrf::FieldPreset preset, const std::filesystem::path& file);
 
 }  // namespace s4tp::view

@@ -10,7 +10,7 @@ constexpr double kFullRisk = 12.0;     // painted deepest
 constexpr double kFaintest = 0.08;     // below it nothing is painted
 constexpr float kMaxCurvature = 0.2F;  // 1/m
 
-Field field_of(const world::CarState& car, world::Vec2 origin) {
+sadrf::Field field_of(const world::CarState& car, world::Vec2 origin) {
   const auto length_m = static_cast<float>(car.length_m);
   const auto speed_mps = static_cast<float>(car.speed_mps);
   const float wheelbase_m = 0.6F * length_m;
@@ -18,9 +18,9 @@ Field field_of(const world::CarState& car, world::Vec2 origin) {
   const float curvature = speed_mps > 1.0F ? std::clamp(turn, -kMaxCurvature, kMaxCurvature) : 0.0F;
   const Pose centre{static_cast<float>(car.centre.x - origin.x), static_cast<float>(car.centre.y - origin.y),
                     static_cast<float>(car.heading_rad)};
-  const DriverState driver{shift_ahead(centre, -0.3F * length_m), speed_mps,
-                           std::atan(wheelbase_m * curvature), wheelbase_m};
-  return prepare_field(paper_preset(static_cast<float>(car.width_m)), driver);
+  const sadrf::DriverState driver{shift_ahead(centre, -0.3F * length_m), speed_mps,
+                                  std::atan(wheelbase_m * curvature), wheelbase_m};
+  return sadrf::prepare_field(sadrf::paper_preset(static_cast<float>(car.width_m)), driver);
 }
 
 }  // namespace
@@ -32,8 +32,8 @@ Haze::Haze(const std::vector<world::CarState>& cars, world::Vec2 origin) : origi
 double Haze::at(world::Vec2 point) const {
   const Point local{static_cast<float>(point.x - origin_.x), static_cast<float>(point.y - origin_.y)};
   float risk = 0.0F;
-  for (const Field& field : fields_) {
-    if (norm(local - field.origin) < field.look_ahead_m + 1.0F) risk += field_at(field, local);
+  for (const sadrf::Field& field : fields_) {
+    if (norm(local - field.origin) < field.look_ahead_m + 1.0F) risk += sadrf::field_at(field, local);
   }
   const double shown = std::min(1.0, std::sqrt(static_cast<double>(risk) / kFullRisk));
   return shown > kFaintest ? shown : 0.0;

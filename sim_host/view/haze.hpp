@@ -28,7 +28,7 @@ class Haze {
 
  private:
   world::Vec2 origin_;
-  std::vector<Field> fields_;
+  std::vector<sadrf::Field> fields_;
 };
 
 }  // namespace s4tp::view

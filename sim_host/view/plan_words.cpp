@@ -91,8 +91,8 @@ Doing doing_of(const campaign::CycleTrace& cycle) {
   const float after = end_of(cycle).speed_mps;
   if (cycle.record.plan.kind == PlanKind::kMinimumRisk) return Doing::kStopping;
   if (before < kRestMps) return after < kNoticeableMps ? Doing::kWaiting : Doing::kSettingOff;
-  if (cycle.record.explanation.manoeuvre == Manoeuvre::kLeft) return Doing::kLeft;
-  if (cycle.record.explanation.manoeuvre == Manoeuvre::kRight) return Doing::kRight;
+  if (cycle.record.explanation.manoeuvre == scene::Manoeuvre::kLeft) return Doing::kLeft;
+  if (cycle.record.explanation.manoeuvre == scene::Manoeuvre::kRight) return Doing::kRight;
   if (after < kRestMps) return Doing::kHalting;
   if (after < before - kNoticeableMps) return Doing::kSlower;
   return after > before + kNoticeableMps ? Doing::kFaster : Doing::kDriving;
@@ -106,7 +106,7 @@ float lateral_mps2(const Trajectory& trajectory) {
   return most;
 }
 
-bool risk_decided(const Explanation& e) {
+bool risk_decided(const planner::Explanation& e) {
   return e.dominating_track != kNobody && e.runner_up_cost.progress < e.chosen_cost.progress - 1.0F &&
          e.runner_up_cost.risk > e.chosen_cost.risk + 1.0F;
 }
@@ -115,14 +115,14 @@ Reason about(Doing doing, Because because, int track = kNobody) {
   return {doing, because, track == kNobody ? -1 : track};
 }
 
-Reason about(Doing doing, const BlockingReason& blocking) {
+Reason about(Doing doing, const planner::BlockingReason& blocking) {
   if (blocking.unseen()) return {doing, because_of(blocking.verdict), kUnseen};
   return about(doing, because_of(blocking.verdict), blocking.track);
 }
 
 /// What a drive under way is about.
 Reason driving_reason(const campaign::CycleTrace& cycle, Doing doing) {
-  const Explanation& e = cycle.record.explanation;
+  const planner::Explanation& e = cycle.record.explanation;
   const bool slow = doing == Doing::kWaiting || doing == Doing::kHalting || doing == Doing::kSlower ||
                     doing == Doing::kDriving;
   if (!slow) return about(doing, Because::kNothing);
@@ -133,7 +133,7 @@ Reason driving_reason(const campaign::CycleTrace& cycle, Doing doing) {
   if (held) {
     return about(doing, e.blocking);
   }
-  if (near && (doing != Doing::kDriving || e.chosen.intent == Intent::kFollow))
+  if (near && (doing != Doing::kDriving || e.chosen.intent == trajectory::Intent::kFollow))
     return about(doing, Because::kLeader, e.leader_track);
   if (risk_decided(e)) return about(doing, Because::kRisk, e.dominating_track);
   if (doing == Doing::kSlower && lateral_mps2(cycle.record.plan.trajectory) > kBendMps2)
@@ -175,7 +175,7 @@ std::string giving_way(const std::string& who, const safety::Verdict& verdict) {
 /// The half sentence behind the colon; empty when there is nothing to say.
 std::string because_words(const campaign::CycleTrace& cycle, const Reason& reason,
                           const safety::Verdict& verdict) {
-  const Explanation& e = cycle.record.explanation;
+  const planner::Explanation& e = cycle.record.explanation;
   const bool unseen = reason.track == kUnseen;
   const std::string who = name_of(cycle, reason.track < 0 && !unseen ? kNobody : reason.track);
   switch (reason.because) {
@@ -210,24 +210,24 @@ std::string because_words(const campaign::CycleTrace& cycle, const Reason& reaso
   return "";
 }
 
-const char* manoeuvre_name(Manoeuvre manoeuvre) {
+const char* manoeuvre_name(scene::Manoeuvre manoeuvre) {
   static constexpr const char* kNames[] = {"keep", "left", "right"};
   return kNames[static_cast<int>(manoeuvre)];
 }
 
-std::string candidate_text(const Candidate& candidate, Manoeuvre manoeuvre) {
+std::string candidate_text(const trajectory::Candidate& candidate, scene::Manoeuvre manoeuvre) {
   static constexpr const char* kIntents[] = {"accelerate", "stop", "follow", "previous plan"};
   const char* const intent = candidate.in_gap ? "beside a gap" : kIntents[static_cast<int>(candidate.intent)];
   return format("%s, %s, %.1f m/s2", manoeuvre_name(manoeuvre), intent,
                 static_cast<double>(candidate.acceleration_mps2));
 }
 
-std::string cost_text(const CostBreakdown& cost) {
+std::string cost_text(const planner::CostBreakdown& cost) {
   return format("cost %.1f = progress %.1f + speed %.1f + jerk %.2f + lateral %.2f + lane %.1f + risk %.1f",
                 cost.total(), cost.progress, cost.speed, cost.jerk, cost.lateral, cost.lane, cost.risk);
 }
 
-std::string blocking_text(const campaign::CycleTrace& cycle, const BlockingReason& blocking,
+std::string blocking_text(const campaign::CycleTrace& cycle, const planner::BlockingReason& blocking,
                           const char* where) {
   static constexpr const char* kCauses[] = {
       "", "no path", "road's end", "leader", "follower", "zone", "would stand in the zone"};
@@ -247,7 +247,7 @@ double since_entry_s(const campaign::CycleTrace& cycle, double pre_roll_s) {
   return cycle.record.plan.start_ms / 1000.0 - pre_roll_s;
 }
 
-int rejected(const Explanation& e, Rejection why) {
+int rejected(const planner::Explanation& e, trajectory::Rejection why) {
   return static_cast<int>(
       std::count(e.rejections, e.rejections + std::min<int>(e.candidate_count, kMaxCandidates), why));
 }
@@ -271,7 +271,7 @@ Reason reason_of(const campaign::CycleTrace& cycle) {
 }
 
 std::string in_words(const campaign::CycleTrace& cycle) {
-  const Explanation& e = cycle.record.explanation;
+  const planner::Explanation& e = cycle.record.explanation;
   const Reason reason = reason_of(cycle);
   std::string words = doing_words(reason.doing);
   const std::string because = because_words(cycle, reason, e.blocking.verdict);
@@ -298,7 +298,7 @@ std::string vehicle_name(const campaign::CycleTrace& cycle, int track) {
 }
 
 std::string in_numbers(const campaign::CycleTrace& cycle) {
-  const Explanation& e = cycle.record.explanation;
+  const planner::Explanation& e = cycle.record.explanation;
   std::string lines = format("  %s, %.1f m/s", status_name(e.status), start_of(cycle).speed_mps);
   if (e.status == Status::kOk) {
     lines += "\n  chosen:    " + candidate_text(e.chosen, e.manoeuvre) + "; " + cost_text(e.chosen_cost);
@@ -307,8 +307,9 @@ std::string in_numbers(const campaign::CycleTrace& cycle) {
                cost_text(e.runner_up_cost);
   }
   lines += format("\n  rejected of %d: %d infeasible, %d refused by the guard, %d left out (and %d not made)",
-                  e.candidate_count, rejected(e, Rejection::kInfeasible), rejected(e, Rejection::kRefused),
-                  rejected(e, Rejection::kLeftOut), e.left_out);
+                  e.candidate_count, rejected(e, trajectory::Rejection::kInfeasible),
+                  rejected(e, trajectory::Rejection::kRefused), rejected(e, trajectory::Rejection::kLeftOut),
+                  e.left_out);
   lines += blocking_text(cycle, e.blocking, "in our lane") + blocking_text(cycle, e.beside, "beside");
   if (e.tracks_left_out + e.lanes_left_out > 0)
     lines += format("\n  not told of: %d vehicles, %d lanes", e.tracks_left_out, e.lanes_left_out);
@@ -322,7 +323,7 @@ std::string in_numbers(const campaign::CycleTrace& cycle) {
   static constexpr const char* kStages[] = {"scene",      "candidates", "predict", "rank",
                                             "exact risk", "optimize",   "check",   "explain"};
   lines += "\n  work:     ";
-  for (int i = 0; i < kStageCount; ++i) lines += format(" %s %d", kStages[i], e.work[i]);
+  for (int i = 0; i < planner::kStageCount; ++i) lines += format(" %s %d", kStages[i], e.work[i]);
   return lines;
 }
 

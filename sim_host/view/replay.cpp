@@ -130,7 +130,7 @@ int car_of(const Track& track, const Snapshot& now, Vec2 origin) {
   return id;
 }
 
-std::vector<long> costs(const CostBreakdown& cost) {
+std::vector<long> costs(const planner::CostBreakdown& cost) {
   std::vector<long> values;
   for (const float term : {cost.progress, cost.speed, cost.jerk, cost.lateral, cost.lane, cost.risk}) {
     values.push_back(std::lround(std::clamp(10.0 * static_cast<double>(term), -1e9, 1e9)));
@@ -165,7 +165,7 @@ bool explains(const CycleTrace& cycle) {
 
 ordered_json cycle_json(const CycleTrace& cycle, const Snapshot& now, Vec2 origin, const Units& units) {
   const auto moved = [&](const Pose& pose) { return Vec2{pose.x_m + origin.x, pose.y_m + origin.y}; };
-  const Explanation& e = cycle.record.explanation;
+  const planner::Explanation& e = cycle.record.explanation;
   std::vector<Vec2> plan;
   for (int i = 0; i < kTrajectoryPoints; i += kStepsShown) {
     plan.push_back(moved(cycle.record.plan.trajectory.points[i].rear_axle));
@@ -173,9 +173,9 @@ ordered_json cycle_json(const CycleTrace& cycle, const Snapshot& now, Vec2 origi
   ordered_json json{{"kind", static_cast<int>(cycle.record.plan.kind)}, {"plan", units.steps(plan)}};
 
   ordered_json modes = ordered_json::array();
-  for (const AgentPrediction& agent : cycle.predictions) {
+  for (const satp::AgentPrediction& agent : cycle.predictions) {
     const int car = agent.agent < cycle.tracks.size() ? car_of(cycle.tracks[agent.agent], now, origin) : -1;
-    for (const Mode& mode : agent.modes) {
+    for (const satp::Mode& mode : agent.modes) {
       std::vector<Vec2> way;
       for (int i = kStepsShown - 1; i < kHorizonSteps; i += kStepsShown) way.push_back(moved(mode.steps[i]));
       modes.push_back({car, std::lround(100.0F * mode.probability), mode.yields ? 1 : 0, units.steps(way)});
@@ -184,8 +184,8 @@ ordered_json cycle_json(const CycleTrace& cycle, const Snapshot& now, Vec2 origi
   json["modes"] = modes;
   if (!explains(cycle)) return json;
 
-  const auto rejected = [&](Rejection why) {
-    const Rejection* const end = e.rejections + std::min<int>(e.candidate_count, kMaxCandidates);
+  const auto rejected = [&](trajectory::Rejection why) {
+    const trajectory::Rejection* const end = e.rejections + std::min<int>(e.candidate_count, kMaxCandidates);
     return std::count(e.rejections, end, why);
   };
   const auto named = [&](std::uint8_t id) {
@@ -194,7 +194,8 @@ ordered_json cycle_json(const CycleTrace& cycle, const Snapshot& now, Vec2 origi
     return track != cycle.tracks.end() ? car_of(*track, now, origin) : -1;
   };
   json["risk"] = {peaks(cycle.risk.obstacle), peaks(cycle.risk.road), peaks(cycle.risk.social)};
-  json["candidates"] = {e.candidate_count, rejected(Rejection::kInfeasible), rejected(Rejection::kRefused)};
+  json["candidates"] = {e.candidate_count, rejected(trajectory::Rejection::kInfeasible),
+                        rejected(trajectory::Rejection::kRefused)};
   json["cost"] = costs(e.chosen_cost);
   json["runner_up"] = costs(e.runner_up_cost);
   json["riskiest"] = named(e.dominating_track);

@@ -47,7 +47,7 @@ class NotedDrive final : public campaign::Onlooker, public hal::Telemetry {
   explicit NotedDrive(const std::string& memory) : live_(memory, "s4tp", Parameters{}) {}
   void begin(campaign::Trace* trace) override { live_.begin(trace); }
   hal::Telemetry* telemetry() override { return this; }
-  Probe* probe() override { return live_.probe(); }
+  planner::Probe* probe() override { return live_.probe(); }
   void ticked(const campaign::Driver& driver) override { live_.ticked(driver); }
   bool publish(std::uint16_t kind, const void* record, std::uint32_t size) override {
     if (static_cast<ecu::RecordKind>(kind) == ecu::RecordKind::kPlan)

@@ -74,13 +74,13 @@ Comparison compare(const RecordedProblems& recorded) {
   all.problems = recorded.problems.size();
   all.left_out = recorded.left_out;
   const double share = 1.0 / static_cast<double>(std::max<std::size_t>(1, all.problems));
-  const auto ilqr = std::make_unique<Ilqr>();
+  const auto ilqr = std::make_unique<trajectory::Ilqr>();
   int done = 0;
-  for (const RefinementProblem& problem : recorded.problems) {
-    Motion start;
-    reference_motion(problem, start);
-    Motion ours = start;
-    const IlqrResult result = ilqr->solve(problem, kPasses, ours);
+  for (const trajectory::RefinementProblem& problem : recorded.problems) {
+    trajectory::Motion start;
+    trajectory::reference_motion(problem, start);
+    trajectory::Motion ours = start;
+    const trajectory::IlqrResult result = ilqr->solve(problem, kPasses, ours);
     const double cost = judge_in_double(problem, ours).cost;
     all.before += share * judge_in_double(problem, start).cost;
     all.after += share * cost;

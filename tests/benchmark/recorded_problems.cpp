@@ -11,7 +11,7 @@ namespace s4tp::benchmark {
 namespace {
 
 constexpr char kMagic[8] = {'s', '4', 't', 'p', 'r', 'e', 'f', '2'};
-static_assert(std::is_trivially_copyable_v<RefinementProblem>);
+static_assert(std::is_trivially_copyable_v<trajectory::RefinementProblem>);
 
 constexpr const char* kScenarios[] = {"left_turn", "left_turn_t", "merge", "cruise", "overtake", "cut_in"};
 constexpr const char* kFlavours[] = {"smarts", "social"};
@@ -26,19 +26,20 @@ struct Recorder {
 };
 Recorder recorder;  // planners are made by name, in the one thread that drives
 
-class RecordingPlanner final : public PlanningCycle {
+class RecordingPlanner final : public planner::PlanningCycle {
  public:
-  [[nodiscard]] Status plan(const PlannerInput& input, Plan& plan, Explanation& explanation) {
-    const Status status = PlanningCycle::plan(input, plan, explanation);
-    if (const RefinementProblem* const problem = last_refinement()) keep(*problem);
+  [[nodiscard]] Status plan(const planner::PlannerInput& input, Plan& plan,
+                            planner::Explanation& explanation) {
+    const Status status = planner::PlanningCycle::plan(input, plan, explanation);
+    if (const trajectory::RefinementProblem* const problem = last_refinement()) keep(*problem);
     return status;
   }
 
  private:
-  static void keep(const RefinementProblem& problem) {
-    Motion start;
-    reference_motion(problem, start);
-    if (judge_motion(problem, start).cost() < kNothingToGain) {
+  static void keep(const trajectory::RefinementProblem& problem) {
+    trajectory::Motion start;
+    trajectory::reference_motion(problem, start);
+    if (trajectory::judge_motion(problem, start).cost() < kNothingToGain) {
       ++recorder.recorded.left_out;
     } else if (recorder.seen++ % recorder.stride == 0) {
       recorder.recorded.problems.push_back(problem);
@@ -54,7 +55,7 @@ const baselines::RegisterPlanner kRegistered{{"recording", "keeps what its optim
 
 RecordedProblems record_problems(int count, int stride, const std::function<void(int)>& progress) {
   recorder = {{}, stride, 0};
-  std::vector<RefinementProblem>& problems = recorder.recorded.problems;
+  std::vector<trajectory::RefinementProblem>& problems = recorder.recorded.problems;
   const std::filesystem::path scenarios = std::filesystem::path(S4TP_SOURCE_DIR) / "sim_host" / "scenarios";
   int cell = 0;
   for (const char* const name : kScenarios) {
@@ -77,10 +78,10 @@ RecordedProblems record_problems(int count, int stride, const std::function<void
 
 void write_problems(const std::filesystem::path& file, const RecordedProblems& recorded) {
   std::ofstream stream(file, std::ios::binary);
-  const std::uint32_t header[] = {sizeof(RefinementProblem), recorded.left_out};
+  const std::uint32_t header[] = {sizeof(trajectory::RefinementProblem), recorded.left_out};
   stream.write(kMagic, sizeof(kMagic));
   stream.write(reinterpret_cast<const char*>(header), sizeof(header));
-  for (const RefinementProblem& problem : recorded.problems) {
+  for (const trajectory::RefinementProblem& problem : recorded.problems) {
     stream.write(reinterpret_cast<const char*>(&problem), sizeof(problem));
   }
   if (!stream.flush()) throw std::runtime_error(file.string() + ": cannot be written");
@@ -95,14 +96,14 @@ RecordedProblems read_problems(const std::filesystem::path& file) {
   if (!stream || std::string(magic, sizeof(magic)) != std::string(kMagic, sizeof(kMagic))) {
     throw std::runtime_error(file.string() + ": holds no recorded problems");
   }
-  if (header[0] != sizeof(RefinementProblem)) {
+  if (header[0] != sizeof(trajectory::RefinementProblem)) {
     throw std::runtime_error(file.string() + ": recorded by a build whose problems have " +
                              std::to_string(header[0]) + " bytes, not " +
-                             std::to_string(sizeof(RefinementProblem)));
+                             std::to_string(sizeof(trajectory::RefinementProblem)));
   }
   RecordedProblems recorded;
   recorded.left_out = header[1];
-  RefinementProblem problem;
+  trajectory::RefinementProblem problem;
   while (stream.read(reinterpret_cast<char*>(&problem), sizeof(problem)))
     recorded.problems.push_back(problem);
   return recorded;

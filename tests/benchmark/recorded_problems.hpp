@@ -14,7 +14,7 @@ namespace s4tp::benchmark {
 inline constexpr float kNothingToGain = 1e-3F;
 
 struct RecordedProblems {
-  std::vector<RefinementProblem> problems;
+  std::vector<trajectory::RefinementProblem> problems;
   std::uint32_t left_out = 0;  ///< came between them and left nothing to gain
 };
 

@@ -19,7 +19,7 @@ template <class T>
 using Input = std::array<T, 2>;  ///< jerk, curvature rate
 
 inline constexpr int kExcesses =
-    1 + kMaxHalfPlanes;  ///< of each step: over the speed cap, short of each comfort gap
+    1 + trajectory::kMaxHalfPlanes;  ///< of each step: over the speed cap, short of each comfort gap
 using Excesses = std::array<double, kExcesses>;
 inline constexpr int kCorners = 4;
 
@@ -34,7 +34,7 @@ State<T> step_of(const State<T>& s, const Input<T>& u) {
   using std::cos;
   using std::sin;
   const double dt = static_cast<double>(kStepS);
-  const double blend = static_cast<double>(kRestBlendMps);
+  const double blend = static_cast<double>(trajectory::kRestBlendMps);
   const T free = s[3] + dt * s[4] + 0.5 * dt * dt * u[0];
   const T t = (1.0 / blend) * free;
   T speed = free;
@@ -52,7 +52,7 @@ struct Deviations {
 };
 
 template <class T>
-Deviations<T> deviations(const RefinementStep& step, const State<T>& s) {
+Deviations<T> deviations(const trajectory::RefinementStep& step, const State<T>& s) {
   const double bend = step.reference.curvature_1pm;
   const T dx = s[0] - T(step.reference.x_m);
   const T dy = s[1] - T(step.reference.y_m);
@@ -68,8 +68,8 @@ Deviations<T> deviations(const RefinementStep& step, const State<T>& s) {
 
 /// Distance of each corner of our box from a half-plane.
 template <class T>
-std::array<T, kCorners> corner_gaps(const RefinementProblem& problem, const HalfPlane& plane,
-                                    const State<T>& s) {
+std::array<T, kCorners> corner_gaps(const trajectory::RefinementProblem& problem,
+                                    const trajectory::HalfPlane& plane, const State<T>& s) {
   using std::cos;
   using std::sin;
   const double nx = plane.normal_x;
@@ -87,9 +87,9 @@ std::array<T, kCorners> corner_gaps(const RefinementProblem& problem, const Half
 
 /// Of inputs[index] and states[index + 1], without the excesses' part.
 template <class T>
-T smooth_cost(const RefinementProblem& problem, int index, const Input<T>& u, const State<T>& s) {
-  const RefinementStep& step = problem.steps[index];
-  const RefinementWeights& w = problem.weights;
+T smooth_cost(const trajectory::RefinementProblem& problem, int index, const Input<T>& u, const State<T>& s) {
+  const trajectory::RefinementStep& step = problem.steps[index];
+  const trajectory::RefinementWeights& w = problem.weights;
   const double tie = index == kHorizonSteps - 1 ? double{problem.end_importance} : 1.0;
   const Deviations<T> d = deviations(step, s);
   T sum = double{w.jerk} * square(u[0]) + double{step.curvature_rate_weight} * square(u[1]);
@@ -97,7 +97,7 @@ T smooth_cost(const RefinementProblem& problem, int index, const Input<T>& u, co
                      double{w.heading} * square(d.heading) +
                      double{w.speed} * square(s[3] - T(step.reference.speed_mps)));
   if (index == kHorizonSteps - 1 && d.along < 0.0) {
-    const double blend = kBehindBlendM;
+    const double blend = trajectory::kBehindBlendM;
     const T lacking = T(0.0) - d.along;
     const double twice = 2.0 * double{w.behind};
     if (lacking < blend) {
@@ -112,12 +112,12 @@ T smooth_cost(const RefinementProblem& problem, int index, const Input<T>& u, co
 }
 
 /// Excess k of a step costs half of this times its square.
-inline double excess_weight(const RefinementProblem& problem, int k) {
+inline double excess_weight(const trajectory::RefinementProblem& problem, int k) {
   return k == 0 ? problem.weights.over_cap : problem.weights.clearance;
 }
 
 /// The least excesses a state leaves.
-inline Excesses excesses(const RefinementProblem& problem, const RefinementStep& step,
+inline Excesses excesses(const trajectory::RefinementProblem& problem, const trajectory::RefinementStep& step,
                          const State<double>& s) {
   Excesses least{};
   least[0] = std::max(0.0, s[3] - double{step.speed_cap_mps});
@@ -142,8 +142,8 @@ struct Row {
 inline constexpr double kUnbounded = 1e19;  ///< as Ipopt means it
 
 template <class T>
-std::vector<Row<T>> bounded_rows(const RefinementProblem& problem, const RefinementStep& step,
-                                 const State<T>& s) {
+std::vector<Row<T>> bounded_rows(const trajectory::RefinementProblem& problem,
+                                 const trajectory::RefinementStep& step, const State<T>& s) {
   const Deviations<T> d = deviations(step, s);
   const double along = step.along_bound_m;
   const double lateral = problem.lateral_bound_mps2;
@@ -152,7 +152,7 @@ std::vector<Row<T>> bounded_rows(const RefinementProblem& problem, const Refinem
                               {d.lateral, -lateral, lateral},
                               {s[3], -kUnbounded, double{step.speed_cap_mps}, 0, -1.0}};
   for (int k = 0; k < step.half_plane_count; ++k) {
-    const HalfPlane& plane = step.half_planes[k];
+    const trajectory::HalfPlane& plane = step.half_planes[k];
     for (const T& gap : corner_gaps(problem, plane, s)) {
       rows.push_back({gap, double{plane.least_gap_m}, kUnbounded});
       rows.push_back({gap, double{problem.comfort_gap_m}, kUnbounded, k + 1, 1.0});

@@ -19,7 +19,7 @@ constexpr int kPerStep = kJetVariables + kExcesses;
 constexpr int kCount = kPerStep * kSteps;
 constexpr double kKept = 1e-4;  // a bound broken by no more
 
-State<double> numbers(const MotionState& s) {
+State<double> numbers(const trajectory::MotionState& s) {
   return {s.x_m, s.y_m, s.heading_rad, s.speed_mps, s.acceleration_mps2, s.curvature_1pm};
 }
 
@@ -28,9 +28,9 @@ double worst(double value, double low, double high) {
 }
 
 /// Cost and violation of one step, its inputs' bounds included.
-void judge_step(const RefinementProblem& problem, int index, const Input<double>& u, const State<double>& s,
-                DoubleJudgement& judgement) {
-  const RefinementStep& step = problem.steps[index];
+void judge_step(const trajectory::RefinementProblem& problem, int index, const Input<double>& u,
+                const State<double>& s, DoubleJudgement& judgement) {
+  const trajectory::RefinementStep& step = problem.steps[index];
   const Excesses excess = excesses(problem, step, s);
   judgement.cost += smooth_cost<double>(problem, index, u, s);
   for (int k = 0; k < kExcesses; ++k) {
@@ -50,7 +50,8 @@ void judge_step(const RefinementProblem& problem, int index, const Input<double>
 /// The problem by multiple shooting, as Ipopt asks for it.
 class ShootingProblem : public Ipopt::TNLP {
  public:
-  ShootingProblem(const RefinementProblem& problem, const Motion& start) : problem_(problem), start_(start) {}
+  ShootingProblem(const trajectory::RefinementProblem& problem, const trajectory::Motion& start)
+      : problem_(problem), start_(start) {}
 
   bool solved = false;
   double cost = 0.0;
@@ -74,7 +75,7 @@ class ShootingProblem : public Ipopt::TNLP {
   bool get_bounds_info(Index, Number* low, Number* high, Index, Number* row_low, Number* row_high) override {
     int row = 0;
     for (int i = 0; i < kSteps; ++i) {
-      const RefinementStep& step = problem_.steps[i];
+      const trajectory::RefinementStep& step = problem_.steps[i];
       Number* const l = low + kPerStep * i;
       Number* const h = high + kPerStep * i;
       h[0] = step.input_bound.jerk_mps3;
@@ -279,13 +280,14 @@ class ShootingProblem : public Ipopt::TNLP {
     return bounded_rows<Jet>(problem_, problem_.steps[i], next_state(x, i));
   }
 
-  const RefinementProblem& problem_;
-  const Motion& start_;
+  const trajectory::RefinementProblem& problem_;
+  const trajectory::Motion& start_;
 };
 
 }  // namespace
 
-DoubleJudgement judge_in_double(const RefinementProblem& problem, const Motion& motion) {
+DoubleJudgement judge_in_double(const trajectory::RefinementProblem& problem,
+                                const trajectory::Motion& motion) {
   DoubleJudgement judgement;
   for (int i = 0; i < kSteps; ++i) {
     judge_step(problem, i, {motion.inputs[i].jerk_mps3, motion.inputs[i].curvature_rate_1pms},
@@ -294,7 +296,8 @@ DoubleJudgement judge_in_double(const RefinementProblem& problem, const Motion& 
   return judgement;
 }
 
-ReferenceResult solve_by_ipopt(const RefinementProblem& problem, const Motion& start) {
+ReferenceResult solve_by_ipopt(const trajectory::RefinementProblem& problem,
+                               const trajectory::Motion& start) {
   const Ipopt::SmartPtr<ShootingProblem> nlp = new ShootingProblem(problem, start);
   const Ipopt::SmartPtr<Ipopt::IpoptApplication> ipopt = new Ipopt::IpoptApplication();
   ipopt->Options()->SetIntegerValue("print_level", 0);

@@ -11,7 +11,8 @@ struct DoubleJudgement {
   double violation = 0.0;  ///< of the worst bound, in its own unit: m, m/s^2, 1/m
 };
 /// As the problem defines them, computed in double from a motion's states and inputs.
-[[nodiscard]] DoubleJudgement judge_in_double(const RefinementProblem& problem, const Motion& motion);
+[[nodiscard]] DoubleJudgement judge_in_double(const trajectory::RefinementProblem& problem,
+                                              const trajectory::Motion& motion);
 
 struct ReferenceResult {
   /// Ipopt's own word (tolerance 1e-7 on optimality, no "acceptable" point counts), and the inputs it found,
@@ -22,6 +23,7 @@ struct ReferenceResult {
 };
 
 /// \param start  where the search begins; need not keep any bound
-[[nodiscard]] ReferenceResult solve_by_ipopt(const RefinementProblem& problem, const Motion& start);
+[[nodiscard]] ReferenceResult solve_by_ipopt(const trajectory::RefinementProblem& problem,
+                                             const trajectory::Motion& start);
 
 }  // namespace s4tp::benchmark

@@ -148,7 +148,7 @@ TEST(Topics, ReachFastDdsWithTheRightValues) {
   const auto got_futures = predicted.last();
   ASSERT_EQ(got_futures.objects().size(), static_cast<std::size_t>(cycle.prediction.agents.size()));
   for (int i = 0; i < cycle.prediction.agents.size(); ++i) {
-    const AgentPrediction& sent = cycle.prediction.agents[i];
+    const satp::AgentPrediction& sent = cycle.prediction.agents[i];
     const auto& paths = got_futures.objects()[static_cast<std::size_t>(i)].kinematics().predicted_paths();
     ASSERT_EQ(paths.size(), static_cast<std::size_t>(sent.modes.size()));
     float sum = 0.0F;
@@ -181,18 +181,18 @@ TEST(Topics, ReachFastDdsWithTheRightValues) {
   EXPECT_EQ(std::count_if(expected.begin(), expected.end(), [](const auto& one) { return one.chosen; }), 1);
 
   const auto got_risk = risk.last();
-  EXPECT_EQ(got_risk.info().width(), static_cast<std::uint32_t>(kHeatColumns));
-  ASSERT_EQ(got_risk.data().size(), static_cast<std::size_t>(kHeatColumns * kHeatRows));
-  const HeatMap heat = telemetry::heat_map_of(plan, cycle, Parameters{});
+  EXPECT_EQ(got_risk.info().width(), static_cast<std::uint32_t>(sadrf::kHeatColumns));
+  ASSERT_EQ(got_risk.data().size(), static_cast<std::size_t>(sadrf::kHeatColumns * sadrf::kHeatRows));
+  const sadrf::HeatMap heat = telemetry::heat_map_of(plan, cycle, Parameters{});
   int vehicle = 0;
   int felt = 0;
-  for (int i = 0; i < kHeatColumns * kHeatRows; ++i) {
-    const std::uint8_t level = heat.cells[i / kHeatColumns][i % kHeatColumns];
+  for (int i = 0; i < sadrf::kHeatColumns * sadrf::kHeatRows; ++i) {
+    const std::uint8_t level = heat.cells[i / sadrf::kHeatColumns][i % sadrf::kHeatColumns];
     const int value = static_cast<signed char>(got_risk.data()[static_cast<std::size_t>(i)]);
-    if (level == kHeatVehicle) {
+    if (level == sadrf::kHeatVehicle) {
       EXPECT_EQ(value, 100);
       ++vehicle;
-    } else if (level <= kHeatHighest) {
+    } else if (level <= sadrf::kHeatHighest) {
       EXPECT_EQ(value, level * 99 / 239);
       felt += level > 0 ? 1 : 0;
     }

@@ -19,7 +19,7 @@ using fuzz::Input;
 namespace {
 
 /// A plan as a planner may give it: in range, and no better than that.
-void any_plan(Input& input, const PlannerInput& world, Plan& plan) {
+void any_plan(Input& input, const planner::PlannerInput& world, Plan& plan) {
   const float speed_mps = input.real(0.0F, 60.0F);
   const float curvature_1pm = input.real(-2.0F, 2.0F);
   const float acceleration_mps2 = input.real(-13.0F, 13.0F);
@@ -153,7 +153,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   fuzz::Counters counters;
   for (int tick = 0; tick < 500; ++tick) {
     if (rig->ecu.mode() == ecu::Mode::kReady && !rig->ecu.planner().make) {
-      rig->ecu.planner().make = [&](const PlannerInput& world, Plan& plan) { any_plan(input, world, plan); };
+      rig->ecu.planner().make = [&](const planner::PlannerInput& world, Plan& plan) {
+        any_plan(input, world, plan);
+      };
       rig->plant.steering_rad = input.real(-0.5F, 0.5F);
       rig->engage = true;
       calm = input.below(16);

@@ -20,7 +20,7 @@ std::string name_of(int percent) {
 
 /// The firmware's planner with that share of each stage's allowance.
 template <int kPercent>
-class Rationed final : public PlanningCycle {
+class Rationed final : public planner::PlanningCycle {
  public:
   Rationed() {
     for (int* const units : {&allowance.candidates, &allowance.prediction, &allowance.decisions,
@@ -80,12 +80,13 @@ TEST_P(Allowance, EveryCutGivesAPlan) {
       ASSERT_NE(result.trace, nullptr);
       EXPECT_GT(result.trace->cycles.size(), 20U);
       for (const campaign::CycleTrace& cycle : result.trace->cycles) {
-        const Explanation& explanation = cycle.record.explanation;
+        const planner::Explanation& explanation = cycle.record.explanation;
         ASSERT_TRUE(can_be_driven(cycle.record.plan))
             << options.planner << " at " << cycle.record.computed_ms;
         EXPECT_LE(explanation.candidate_count, kMaxCandidates * percent / 100);
-        EXPECT_LE(explanation.work[static_cast<int>(Stage::kOptimize)], 16 * percent / 100);
-        EXPECT_LE(explanation.work[static_cast<int>(Stage::kExactRisk)], kMaxExactRisk * percent / 100);
+        EXPECT_LE(explanation.work[static_cast<int>(planner::Stage::kOptimize)], 16 * percent / 100);
+        EXPECT_LE(explanation.work[static_cast<int>(planner::Stage::kExactRisk)],
+                  kMaxExactRisk * percent / 100);
         if (percent == 0) {
           EXPECT_EQ(cycle.record.plan.kind, PlanKind::kMinimumRisk);
         }

@@ -35,7 +35,7 @@ struct Outcome {
 
 /// Follows a leader that brakes at tick `brakes`; the fault comes `onset` ticks later.
 Outcome follow(Blind blind, int brakes, int onset) {
-  const auto rig = std::make_unique<BasicRig<Planner>>();
+  const auto rig = std::make_unique<BasicRig<planner::Planner>>();
   Outcome outcome;
   EXPECT_EQ(rig->start(), Status::kOk);
   rig->plant.speed_mps = kFollowing_mps;

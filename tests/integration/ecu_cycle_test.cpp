@@ -81,7 +81,7 @@ TEST(EcuCycle, ObjectToCommandWithin400ms) {
   int worst = 0;
   for (int phase = 0; phase < 20; ++phase) {
     const auto rig = driving_rig();
-    rig->ecu.planner().make = [](const PlannerInput& input, Plan& plan) {
+    rig->ecu.planner().make = [](const planner::PlannerInput& input, Plan& plan) {
       for (int i = 0; i < kTrajectoryPoints; ++i) {
         TrajectoryPoint& point = plan.trajectory.points[i];
         const float ahead_s =
@@ -325,7 +325,7 @@ TEST(EcuParameters, TheGateGuardsTheVehicleTheyDescribe) {
       EXPECT_EQ(rig.ecu.update_parameters(parameters, parameters_crc(parameters)), UpdateResult::kTaken);
     }
     rig.plant.speed_mps = 10.0;
-    rig.ecu.planner().make = [curvature_1pm](const PlannerInput& input, Plan& plan) {
+    rig.ecu.planner().make = [curvature_1pm](const planner::PlannerInput& input, Plan& plan) {
       for (int i = 0; i < kTrajectoryPoints; ++i) {
         TrajectoryPoint& point = plan.trajectory.points[i];
         point.rear_axle = shift_ahead(input.ego.rear_axle, static_cast<float>(i + 1));
@@ -354,7 +354,7 @@ TEST(EcuParameters, TheGateGuardsTheVehicleTheyDescribe) {
 TEST(EcuCycle, DrivesStraight) {
   const auto rig = driving_rig();
   rig->plant.y_m = 0.3;
-  rig->ecu.planner().make = [](const PlannerInput& input, Plan& plan) {
+  rig->ecu.planner().make = [](const planner::PlannerInput& input, Plan& plan) {
     const float from_m = input.running != nullptr ? sample(*input.running, input.start_ms).rear_axle.x_m
                                                   : input.ego.rear_axle.x_m;
     for (int i = 0; i < kTrajectoryPoints; ++i) {

@@ -317,7 +317,7 @@ TEST(EcuFaults, PlanLost) {
 TEST(EcuFaults, PlansThatAreNone) {
   for (const bool broken : {false, true}) {
     const auto rig = driving_rig();
-    rig->ecu.planner().make = [broken](const PlannerInput&, Plan& plan) {
+    rig->ecu.planner().make = [broken](const planner::PlannerInput&, Plan& plan) {
       if (broken) {
         plan.trajectory.points[17].curvature_1pm = std::numeric_limits<float>::quiet_NaN();
       } else {
@@ -334,7 +334,7 @@ TEST(EcuFaults, PlansThatAreNone) {
 TEST(EcuFaults, NoSafePlanIsDriven) {
   const auto rig = driving_rig();
   rig->ecu.planner().plan_answer = Status::kNoSafePlan;
-  rig->ecu.planner().make = [](const PlannerInput& input, Plan& plan) {
+  rig->ecu.planner().make = [](const planner::PlannerInput& input, Plan& plan) {
     plan.kind = PlanKind::kMinimumRisk;
     for (TrajectoryPoint& point : plan.trajectory.points) {
       point.rear_axle = input.ego.rear_axle;

@@ -6,7 +6,7 @@
 #include "algo/sadrf/overlap.hpp"
 #include "algo/trajectory/bicycle.hpp"
 
-namespace s4tp {
+namespace s4tp::sadrf {
 namespace {
 
 /// `low` .. `high` in hundredths.
@@ -23,16 +23,16 @@ void drive(float reach_m, const Set& set) {
   point.curvature_1pm = uniform(-15, 15);
   for (int i = 0; i < kTrajectoryPoints; ++i) {
     set(i, point);
-    point = bicycle_step(point, 0.0F, 0.0F, kStepS);
+    point = trajectory::bicycle_step(point, 0.0F, 0.0F, kStepS);
   }
 }
 
 /// Every step looked at, box against box.
-int looked_at_all(const Trajectory& trajectory, const Mode& mode, const Track& track, float margin_m,
+int looked_at_all(const Trajectory& trajectory, const satp::Mode& mode, const Track& track, float margin_m,
                   const Parameters& parameters) {
   float least_m = margin_m;
   for (int i = 0; i < kHorizonSteps; ++i) {
-    const Box own = ego_box(trajectory.points[i + 1].rear_axle, parameters);
+    const Box own = trajectory::ego_box(trajectory.points[i + 1].rear_axle, parameters);
     const float gap_m = separation(own, {mode.steps[i], track.length_m, track.width_m});
     if (gap_m >= least_m) continue;
     if (i > 0) return i;
@@ -47,7 +47,7 @@ TEST(CollisionProperty, WhatIsPassedOverHitsNobody) {
   EXPECT_TRUE(rc::check([] {
     const Parameters parameters;
     Trajectory trajectory;
-    Mode mode;
+    satp::Mode mode;
     drive(15.0F, [&](int i, const TrajectoryPoint& point) { trajectory.points[i] = point; });
     drive(15.0F, [&](int i, const TrajectoryPoint& point) {
       if (i > 0) mode.steps[i - 1] = point.rear_axle;
@@ -58,7 +58,7 @@ TEST(CollisionProperty, WhatIsPassedOverHitsNobody) {
     const float margin_m = uniform(0, 50);
     const int all = looked_at_all(trajectory, mode, track, margin_m, parameters);
     RC_ASSERT(first_collision(trajectory, mode, track, kHorizonSteps, margin_m, parameters) == all);
-    measure_steps(mode);
+    satp::measure_steps(mode);
     for (int i = 1; i < kHorizonSteps; ++i) {
       const float step_m =
           std::hypot(mode.steps[i].x_m - mode.steps[i - 1].x_m, mode.steps[i].y_m - mode.steps[i - 1].y_m);
@@ -69,4 +69,4 @@ TEST(CollisionProperty, WhatIsPassedOverHitsNobody) {
 }
 
 }  // namespace
-}  // namespace s4tp
+}  // namespace s4tp::sadrf

@@ -13,7 +13,7 @@
 #include "algo/sadrf/drivable.hpp"
 #include "tests/support/risk_scenes.hpp"
 
-namespace s4tp {
+namespace s4tp::sadrf {
 namespace {
 
 /// Our field and 1 to 3 vehicles with 1 or 2 modes each, whose boxes may overlap.
@@ -151,4 +151,4 @@ TEST(CostMap, ModulationByDistanceAndClosingSpeed) {
   EXPECT_NEAR(modulation(ego, track, parameters), 1.0F + 0.4F * std::exp(-1.0F), 1e-5F);
 }
 
-}  // namespace s4tp
+}  // namespace s4tp::sadrf

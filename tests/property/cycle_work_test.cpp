@@ -9,12 +9,12 @@
 #include "algo/trajectory/plan_limits.hpp"
 #include "tests/target/cost_scene.hpp"
 
-namespace s4tp {
+namespace s4tp::planner {
 namespace {
 
 // A decode for a plan is taken to cost what the one without plan did; of vehicles that the network is not trusted with it may
 // drive more ways than that.
-constexpr std::int32_t kMoreWays = 4 * work::kDecodeStep * kMaxAgents * kMaxAgentWork;
+constexpr std::int32_t kMoreWays = 4 * work::kDecodeStep * kMaxAgents * satp::kMaxAgentWork;
 
 /// A scene of up to sixteen vehicles that mostly come to one place.
 test::Genome random_genome(unsigned seed) {
@@ -37,7 +37,7 @@ std::int32_t dearest_cycle(Planner& planner, const test::Genome& genome) {
     const Status status = planner.plan(scene->input(), plan, explanation);
     EXPECT_NE(status, Status::kInvalidInput);
     if (status == Status::kOk) {
-      EXPECT_TRUE(keeps_limits(plan.trajectory, Parameters{}));
+      EXPECT_TRUE(trajectory::keeps_limits(plan.trajectory, Parameters{}));
     }
     most = std::max(most, planner.allowance.cycle - planner.work().left());
   }
@@ -61,4 +61,4 @@ TEST(CycleWork, StaysWithinTheAllowance) {
 }
 
 }  // namespace
-}  // namespace s4tp
+}  // namespace s4tp::planner

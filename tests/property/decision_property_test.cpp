@@ -5,7 +5,7 @@
 
 #include "algo/planner/decision.hpp"
 
-namespace s4tp {
+namespace s4tp::planner {
 namespace {
 
 struct Scored {
@@ -46,4 +46,4 @@ TEST(DecisionProperty, WhoIsBeatenWithoutRiskIsBeaten) {
 }
 
 }  // namespace
-}  // namespace s4tp
+}  // namespace s4tp::planner

@@ -17,7 +17,7 @@ wire::Frame any_frame() {
   return frame;
 }
 
-bool inside_the_ranges(const PlannerInput& input) {
+bool inside_the_ranges(const planner::PlannerInput& input) {
   const auto within = [](float value, float low, float high) { return value >= low && value <= high; };
   bool good = within(input.ego.speed_mps, 0.0F, 60.0F) &&
               within(input.ego.acceleration_mps2, -12.0F, 12.0F) &&
@@ -42,7 +42,7 @@ TEST(EcuFrames, AnythingMayBeOnTheBus) {
     RC_ASSERT(rig.start() == Status::kOk);
     rig.plant.speed_mps = 5.0;
     bool good = true;
-    rig.ecu.planner().make = [&good](const PlannerInput& input, Plan& plan) {
+    rig.ecu.planner().make = [&good](const planner::PlannerInput& input, Plan& plan) {
       good = good && inside_the_ranges(input);
       for (TrajectoryPoint& point : plan.trajectory.points) point.rear_axle = input.ego.rear_axle;
     };

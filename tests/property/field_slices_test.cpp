@@ -11,7 +11,7 @@
 #include "algo/sadrf/box_slices.hpp"
 #include "tests/support/risk_scenes.hpp"
 
-namespace s4tp {
+namespace s4tp::sadrf {
 namespace {
 
 using test::exact_over_box;
@@ -95,4 +95,4 @@ TEST(FieldSlices, GradientAgreesWithDifferences) {
   EXPECT_LE(at(errors, 0.95), 0.04);
 }
 
-}  // namespace s4tp
+}  // namespace s4tp::sadrf

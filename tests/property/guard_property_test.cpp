@@ -14,11 +14,11 @@ constexpr float kDriveS = 20.0F;
 
 /// Drives one scene of that seed. With a sight that ends, only those who were left out before count.
 bool holds(Priority priority, bool merging, int crossing, bool leader, unsigned seed,
-           float sight_m = KnownGround::kEverywhereM) {
+           float sight_m = scene::KnownGround::kEverywhereM) {
   Traffic traffic(priority, merging, seed);
   traffic.sight_m = sight_m;
   traffic.place(crossing, leader);
-  return traffic.run(kDriveS) || (sight_m < KnownGround::kEverywhereM && !traffic.touched_left_out);
+  return traffic.run(kDriveS) || (sight_m < scene::KnownGround::kEverywhereM && !traffic.touched_left_out);
 }
 
 unsigned any_seed() {

@@ -10,7 +10,7 @@
 #include "algo/trajectory/candidates.hpp"
 #include "tests/support/driving_scenes.hpp"
 
-namespace s4tp {
+namespace s4tp::safety {
 namespace {
 
 using namespace test;  // NOLINT: the map builders are the language of these tests
@@ -31,13 +31,13 @@ bool finite(const TrajectoryPoint& p) {
 /// A curved road, a vehicle or two on it, a zone, and we somewhere near its centre line.
 struct World {
   LaneMap map = curved_road(uniform(1000, 10000), uniform(-150, 150));
-  Scene scene;
+  scene::Scene scene;
   TrajectoryPoint start;
   World() {
-    const LanePath path = path_of(map, {0, 1, 2});
-    EgoPath& way = add_way(scene, map, path);
+    const scene::LanePath path = path_of(map, {0, 1, 2});
+    scene::EgoPath& way = add_way(scene, map, path);
     if (*rc::gen::arbitrary<bool>()) {
-      ConflictZone zone;
+      scene::ConflictZone zone;
       zone.entry_s_m = uniform(1000, 9000);
       zone.exit_s_m = zone.entry_s_m + uniform(300, 1500);
       zone.stop_s_m = zone.entry_s_m + uniform(-500, 150);
@@ -76,19 +76,20 @@ TEST(MotionProperty, CandidatesAreMotions) {
   EXPECT_TRUE(rc::check([] {
     const World world;
     const Parameters parameters;
-    ReferenceLines lines;
-    CandidateList list;
+    trajectory::ReferenceLines lines;
+    trajectory::CandidateList list;
     int left_out = 0;
-    generate_candidates(world.scene, world.start, Plan{}, kNow, parameters, kMaxCandidates, lines, list,
-                        left_out);
+    trajectory::generate_candidates(world.scene, world.start, Plan{}, kNow, parameters, kMaxCandidates, lines,
+                                    list, left_out);
     RC_ASSERT(list.size() <= kMaxCandidates);
     RC_ASSERT(left_out >= 0);
-    for (const Candidate& candidate : list) {
+    for (const trajectory::Candidate& candidate : list) {
       Trajectory trajectory;
-      roll_out(lines[candidate.path], candidate, world.start, Plan{}, kNow, parameters, trajectory);
+      trajectory::roll_out(lines[candidate.path], candidate, world.start, Plan{}, kNow, parameters,
+                           trajectory);
       RC_ASSERT(trajectory.points[0].rear_axle.x_m == world.start.rear_axle.x_m);
       RC_ASSERT(trajectory.points[0].curvature_1pm == world.start.curvature_1pm);
-      RC_ASSERT(feasible(trajectory, parameters));
+      RC_ASSERT(trajectory::feasible(trajectory, parameters));
       check_motion(trajectory);
     }
   }));
@@ -103,21 +104,22 @@ TEST(MotionProperty, OrdinaryStatesHaveCandidates) {
                            uniform(-30, 30));
     world.start.rear_axle.heading_rad += uniform(-5, 5);
     world.start.curvature_1pm =
-        path_point(world.map, world.scene.ego_paths[0].path, world.scene.ego_paths[0].frenet.s_m)
+        scene::path_point(world.map, world.scene.ego_paths[0].path, world.scene.ego_paths[0].frenet.s_m)
             .curvature_1pm;
     put_ego(world.scene, world.start);
     world.start.curvature_1pm =
-        path_point(world.map, world.scene.ego_paths[0].path, world.scene.ego_paths[0].frenet.s_m)
+        scene::path_point(world.map, world.scene.ego_paths[0].path, world.scene.ego_paths[0].frenet.s_m)
             .curvature_1pm;
-    ReferenceLines lines;
-    CandidateList list;
+    trajectory::ReferenceLines lines;
+    trajectory::CandidateList list;
     int left_out = 0;
-    generate_candidates(world.scene, world.start, Plan{}, kNow, Parameters{}, kMaxCandidates, lines, list,
-                        left_out);
+    trajectory::generate_candidates(world.scene, world.start, Plan{}, kNow, Parameters{}, kMaxCandidates,
+                                    lines, list, left_out);
     bool brakes = false;
-    for (const Candidate& candidate : list) {
+    for (const trajectory::Candidate& candidate : list) {
       Trajectory trajectory;
-      roll_out(lines[candidate.path], candidate, world.start, Plan{}, kNow, Parameters{}, trajectory);
+      trajectory::roll_out(lines[candidate.path], candidate, world.start, Plan{}, kNow, Parameters{},
+                           trajectory);
       const float slowest_mps = world.start.speed_mps == 0.0F ? 0.5F : 0.0F;
       brakes = brakes || trajectory.points[kHorizonSteps].speed_mps <= slowest_mps;
     }
@@ -130,11 +132,11 @@ TEST(MotionProperty, OrdinaryStatesHaveCandidates) {
 TEST(MotionProperty, StopsRestBeforeTheirPlace) {
   EXPECT_TRUE(rc::check([] {
     LaneMap map = straight_road(1, 400.0F);
-    Scene scene;
-    EgoPath& way = add_way(scene, map, path_of(map, {0}));
+    scene::Scene scene;
+    scene::EgoPath& way = add_way(scene, map, path_of(map, {0}));
     TrajectoryPoint state = state_on(map, way.path, 20.0F, uniform(0, 1500));
     const float room_m = state.speed_mps * state.speed_mps / 10.0F + uniform(50, 8000);
-    ConflictZone zone;
+    scene::ConflictZone zone;
     zone.stop_s_m = 20.0F + 4.0F + room_m;
     zone.entry_s_m = zone.stop_s_m;
     zone.exit_s_m = zone.stop_s_m + 5.0F;
@@ -142,16 +144,17 @@ TEST(MotionProperty, StopsRestBeforeTheirPlace) {
     scene.time_ms = kNow;
     for (int i = 0; i < 400; ++i) {
       put_ego(scene, state);
-      ReferenceLines lines;
-      CandidateList list;
+      trajectory::ReferenceLines lines;
+      trajectory::CandidateList list;
       int left_out = 0;
-      generate_candidates(scene, state, Plan{}, kNow, Parameters{}, kMaxCandidates, lines, list, left_out);
-      const Candidate* stop = nullptr;
-      for (const Candidate& candidate : list)
-        if (candidate.intent == Intent::kStop) stop = &candidate;
+      trajectory::generate_candidates(scene, state, Plan{}, kNow, Parameters{}, kMaxCandidates, lines, list,
+                                      left_out);
+      const trajectory::Candidate* stop = nullptr;
+      for (const trajectory::Candidate& candidate : list)
+        if (candidate.intent == trajectory::Intent::kStop) stop = &candidate;
       if (stop == nullptr) break;
       Trajectory trajectory;
-      roll_out(lines[stop->path], *stop, state, Plan{}, kNow, Parameters{}, trajectory);
+      trajectory::roll_out(lines[stop->path], *stop, state, Plan{}, kNow, Parameters{}, trajectory);
       const bool rests = i > 5 && state.speed_mps == 0.0F && trajectory.points[1].speed_mps == 0.0F;
       state = trajectory.points[1];
       RC_ASSERT(state.rear_axle.x_m <= 20.0F + room_m + 0.01F);
@@ -175,7 +178,8 @@ TEST(MotionProperty, FailSafeAlwaysStops) {
       running.fail_safe = {0.1F * static_cast<float>(*rc::gen::inRange(0, 31)), 6.0F};
       running.trajectory.points[0] = state;
       for (int i = 1; i < kTrajectoryPoints; ++i)
-        running.trajectory.points[i] = bicycle_step(running.trajectory.points[i - 1], 0.0F, 0.0F, kStepS);
+        running.trajectory.points[i] =
+            trajectory::bicycle_step(running.trajectory.points[i - 1], 0.0F, 0.0F, kStepS);
     }
     // What the jerk lets it gain before it loses, twice: a^2 / 2j <= 0.4 m/s at 3 m/s^2 and 12 m/s^3.
     float fastest_mps = state.speed_mps + 0.8F;
@@ -197,4 +201,4 @@ TEST(MotionProperty, FailSafeAlwaysStops) {
 }
 
 }  // namespace
-}  // namespace s4tp
+}  // namespace s4tp::safety

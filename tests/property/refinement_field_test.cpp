@@ -15,7 +15,7 @@
 #include "algo/trajectory/ilqr_model.hpp"
 #include "tests/support/refinement_scenes.hpp"
 
-namespace s4tp {
+namespace s4tp::trajectory {
 namespace {
 
 unsigned first_seed() {
@@ -210,18 +210,18 @@ TEST(RefinementField, SmoothIsNearExact) {
     const double by_knots =
         static_cast<double>(evaluate_field(scene.surroundings(), scene.problem, origin_of(scene), scene.start,
                                            scene.parameters, scratch, along));
-    SmoothRisk risks[kHorizonSteps];
-    smooth_risk(scene.scene, scene.prediction, scene.constant_velocity, scene.trajectory, scene.parameters, 0,
-                1, risks);
+    sadrf::SmoothRisk risks[kHorizonSteps];
+    sadrf::smooth_risk(scene.scene, scene.prediction, scene.constant_velocity, scene.trajectory,
+                       scene.parameters, 0, 1, risks);
     double smooth = 0.0;
-    for (const SmoothRisk& risk : risks) smooth += static_cast<double>(kStepS * risk.value);
+    for (const sadrf::SmoothRisk& risk : risks) smooth += static_cast<double>(kStepS * risk.value);
     smooth *= static_cast<double>(scene.parameters.scoring.risk);
-    DrivableArea nowhere;
-    RiskProfile profile;
-    exact_risk(scene.scene, nowhere, scene.prediction, scene.constant_velocity, scene.trajectory,
-               scene.parameters, profile);
+    sadrf::DrivableArea nowhere;
+    sadrf::RiskProfile profile;
+    sadrf::exact_risk(scene.scene, nowhere, scene.prediction, scene.constant_velocity, scene.trajectory,
+                      scene.parameters, profile);
     const double exact =
-        static_cast<double>(scene.parameters.scoring.risk * risk_integral(profile, scene.parameters));
+        static_cast<double>(scene.parameters.scoring.risk * sadrf::risk_integral(profile, scene.parameters));
     smooth_errors.push_back(std::abs(smooth - exact) / (exact + 0.1));
     knot_errors.push_back(std::abs(by_knots - smooth) / (exact + 0.1));
   }
@@ -248,11 +248,12 @@ TEST(RefinementField, LowersTheExactRisk) {
     ++seen;
     const test::RefinementScene& scene = *made->scene;
     const auto exact = [&](const Trajectory& trajectory) {
-      DrivableArea nowhere;
-      RiskProfile profile;
-      exact_risk(scene.scene, nowhere, scene.prediction, scene.constant_velocity, trajectory,
-                 scene.parameters, profile);
-      return static_cast<double>(scene.parameters.scoring.risk * risk_integral(profile, scene.parameters));
+      sadrf::DrivableArea nowhere;
+      sadrf::RiskProfile profile;
+      sadrf::exact_risk(scene.scene, nowhere, scene.prediction, scene.constant_velocity, trajectory,
+                        scene.parameters, profile);
+      return static_cast<double>(scene.parameters.scoring.risk *
+                                 sadrf::risk_integral(profile, scene.parameters));
     };
     Trajectory refined;
     const RefinementResult result =
@@ -276,4 +277,4 @@ TEST(RefinementField, LowersTheExactRisk) {
   EXPECT_LT(after, 0.95 * before);
 }
 
-}  // namespace s4tp
+}  // namespace s4tp::trajectory

@@ -9,7 +9,7 @@
 #include "algo/trajectory/bicycle.hpp"
 #include "tests/support/refinement_scenes.hpp"
 
-namespace s4tp {
+namespace s4tp::trajectory {
 namespace {
 
 constexpr int kPasses = 16;
@@ -160,4 +160,4 @@ TEST(Refinement, AStopStaysWhereItIs) {
 }
 
 }  // namespace
-}  // namespace s4tp
+}  // namespace s4tp::trajectory

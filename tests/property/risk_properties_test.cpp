@@ -40,27 +40,28 @@ std::unique_ptr<World> moved(const World& original, const Move& move) {
   for (Lane& lane : world->map.lanes) {
     for (Point& point : lane.points) point = move(point);
   }
-  for (Agent& agent : world->scene.agents) agent.track.centre = move(agent.track.centre);
-  for (Mode& mode : world->others.agents) {
+  for (scene::Agent& agent : world->scene.agents) agent.track.centre = move(agent.track.centre);
+  for (satp::Mode& mode : world->others.agents) {
     for (Pose& step : mode.steps) step = move(step);
   }
-  for (AgentPrediction& of : world->prediction.agents) {
-    for (Mode& mode : of.modes) {
+  for (satp::AgentPrediction& of : world->prediction.agents) {
+    for (satp::Mode& mode : of.modes) {
       for (Pose& step : mode.steps) step = move(step);
     }
   }
   return world;
 }
 
-RiskProfile exact(const World& world) {
-  DrivableArea area;
-  build_drivable(&world.map, area);
-  RiskProfile profile;
-  exact_risk(world.scene, area, world.prediction, world.others, world.trajectory, world.parameters, profile);
+sadrf::RiskProfile exact(const World& world) {
+  sadrf::DrivableArea area;
+  sadrf::build_drivable(&world.map, area);
+  sadrf::RiskProfile profile;
+  sadrf::exact_risk(world.scene, area, world.prediction, world.others, world.trajectory, world.parameters,
+                    profile);
   return profile;
 }
 
-void expect_same(const RiskProfile& a, const RiskProfile& b) {
+void expect_same(const sadrf::RiskProfile& a, const sadrf::RiskProfile& b) {
   for (int i = 0; i < kHorizonSteps; ++i) {
     const auto same = [](float x, float y) { return std::fabs(x - y) <= 0.02F * std::max(x, y) + 5.0F; };
     RC_ASSERT(same(a.obstacle[i], b.obstacle[i]));
@@ -95,18 +96,18 @@ TEST(RiskProperties, MirroredWorldMirroredRisk) {
 TEST(RiskProperties, NeverNegative) {
   EXPECT_TRUE(rc::check([](unsigned seed) {
     const auto world = random_world(seed);
-    const RiskProfile profile = exact(*world);
+    const sadrf::RiskProfile profile = exact(*world);
     for (int i = 0; i < kHorizonSteps; ++i) {
       for (const float part : {profile.obstacle[i], profile.road[i], profile.social[i]}) {
         RC_ASSERT(is_finite(part) && part >= 0.0F);
       }
     }
-    DrivableArea area;
-    build_drivable(&world->map, area);
+    sadrf::DrivableArea area;
+    sadrf::build_drivable(&world->map, area);
     WorkMeter work{1'000'000};
-    const float rank = rank_risk_of_vehicles(world->scene, world->prediction, world->others,
-                                             world->trajectory, world->parameters, work) +
-                       rank_risk_of_road(area, world->trajectory, world->parameters, work);
+    const float rank = sadrf::rank_risk_of_vehicles(world->scene, world->prediction, world->others,
+                                                    world->trajectory, world->parameters, work) +
+                       sadrf::rank_risk_of_road(area, world->trajectory, world->parameters, work);
     RC_ASSERT(is_finite(rank) && rank >= 0.0F);
   }));
 }
@@ -119,7 +120,7 @@ TEST(RiskProperties, FarAwayIsNoRisk) {
     const auto others = moved(*world, away);
     world->others = others->others;
     world->prediction = others->prediction;
-    const RiskProfile profile = exact(*world);
+    const sadrf::RiskProfile profile = exact(*world);
     for (int i = 0; i < kHorizonSteps; ++i) RC_ASSERT(profile.obstacle[i] + profile.social[i] == 0.0F);
     RC_ASSERT(profile.dominating_agent == 255);
   }));
@@ -129,10 +130,10 @@ TEST(RiskProperties, FarAwayIsNoRisk) {
 TEST(RiskProperties, OneMoreVehicleIsNotLessRisk) {
   EXPECT_TRUE(rc::check([](unsigned seed) {
     const auto world = random_world(seed);
-    const RiskProfile all = exact(*world);
+    const sadrf::RiskProfile all = exact(*world);
     if (world->scene.agents.size() < 4) return;
     world->scene.agents.truncate(world->scene.agents.size() - 1);
-    const RiskProfile fewer = exact(*world);
+    const sadrf::RiskProfile fewer = exact(*world);
     for (int i = 0; i < kHorizonSteps; ++i) RC_ASSERT(all.obstacle[i] >= 0.999F * fewer.obstacle[i] - 1.0F);
   }));
 }

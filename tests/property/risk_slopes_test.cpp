@@ -11,7 +11,7 @@
 #include "algo/sadrf/risk.hpp"
 #include "tests/support/risk_worlds.hpp"
 
-namespace s4tp {
+namespace s4tp::sadrf {
 namespace {
 
 using test::random_world;
@@ -53,8 +53,8 @@ TEST(RiskSlopes, AgreeWithDifferences) {
   std::vector<double> smoothed;
   for (unsigned seed = first; errors.size() < 600; ++seed) {
     const auto world = random_world(seed);
-    for (AgentPrediction& of : world->prediction.agents) {
-      for (Mode& mode : of.modes)
+    for (satp::AgentPrediction& of : world->prediction.agents) {
+      for (satp::Mode& mode : of.modes)
         mode = world->others.agents[of.agent];  // one place each: nothing is covered
       of.modes.truncate(1);
     }
@@ -136,4 +136,4 @@ TEST(RiskSlopes, SteeringAtZeroIsInTheSubgradient) {
   EXPECT_GT(std::max(by_steering[0], by_steering[2]), by_steering[1]);
 }
 
-}  // namespace s4tp
+}  // namespace s4tp::sadrf

@@ -5,7 +5,7 @@
 
 #include "algo/occupancy/safe_distance.hpp"
 
-namespace s4tp {
+namespace s4tp::occupancy {
 namespace {
 
 /// `low` .. `high` in hundredths.
@@ -28,4 +28,4 @@ TEST(RssProperty, SafeDistanceIsMonotone) {
 }
 
 }  // namespace
-}  // namespace s4tp
+}  // namespace s4tp::occupancy

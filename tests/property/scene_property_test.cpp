@@ -10,7 +10,7 @@
 #include "tests/support/lane_maps.hpp"
 #include "tests/support/scene_support.hpp"
 
-namespace s4tp {
+namespace s4tp::satp {
 namespace {
 
 float uniform(std::mt19937& random, float low, float high) {
@@ -105,30 +105,30 @@ void check_finite(const Pose& pose) {
   RC_ASSERT(std::isfinite(pose.heading_rad));
 }
 
-void check_path(const LaneMap& map, const LanePath& path) {
+void check_path(const LaneMap& map, const scene::LanePath& path) {
   RC_ASSERT(!path.lanes.empty());
   RC_ASSERT(std::isfinite(path.length_m));
-  for (const PathLane& part : path.lanes) {
+  for (const scene::PathLane& part : path.lanes) {
     RC_ASSERT(part.lane >= 0 && part.lane < kMaxLanes);
-    RC_ASSERT(usable(map.lanes[part.lane]));
+    RC_ASSERT(scene::usable(map.lanes[part.lane]));
   }
 }
 
-void check_scene(const Scene& scene) {
+void check_scene(const scene::Scene& scene) {
   RC_ASSERT(scene.watched <= kMaxAgents && scene.watched <= scene.agents.size());
-  for (const EgoPath& ego_path : scene.ego_paths) {
+  for (const scene::EgoPath& ego_path : scene.ego_paths) {
     check_path(*scene.map, ego_path.path);
     RC_ASSERT(std::isfinite(ego_path.frenet.s_m) && std::isfinite(ego_path.frenet.d_m));
     RC_ASSERT(std::isfinite(ego_path.route_end_s_m) && std::isfinite(ego_path.goal_s_m));
     float last_m = -1e9F;
-    for (const ConflictZone& zone : ego_path.zones) {
+    for (const scene::ConflictZone& zone : ego_path.zones) {
       RC_ASSERT(std::isfinite(zone.stop_s_m) && std::isfinite(zone.other_entry_m));
       RC_ASSERT(zone.entry_s_m >= last_m && zone.entry_s_m <= zone.exit_s_m + 10.0F);
       RC_ASSERT(zone.other_lane >= 0 && zone.other_lane < kMaxLanes);
       last_m = zone.entry_s_m;
     }
   }
-  for (const Agent& agent : scene.agents) {
+  for (const scene::Agent& agent : scene.agents) {
     check_finite(agent.track.centre);
     RC_ASSERT(agent.age_ms <= 1000);
     float sum = 0.0F;
@@ -139,11 +139,12 @@ void check_scene(const Scene& scene) {
       sum += agent.path_probability[i];
     }
     RC_ASSERT(agent.paths.empty() || std::fabs(sum - 1.0F) < 1e-4F);
-    for (const History::Sample& sample : agent.history.samples) check_finite(sample.pose);
+    for (const scene::History::Sample& sample : agent.history.samples) check_finite(sample.pose);
   }
 }
 
-void check_predictions(const Scene& scene, const PredictionSet& set, const KinematicSet& constant_velocity) {
+void check_predictions(const scene::Scene& scene, const PredictionSet& set,
+                       const KinematicSet& constant_velocity) {
   RC_ASSERT(set.agents.size() == scene.watched);
   for (const AgentPrediction& agent : set.agents) {
     float sum = 0.0F;
@@ -163,7 +164,7 @@ void check_predictions(const Scene& scene, const PredictionSet& set, const Kinem
 
 /// A few cycles over changing garbage; what comes out at the end.
 struct Outcome {
-  Scene scene;
+  scene::Scene scene;
   PredictionSet set;
   KinematicSet constant_velocity;
 };
@@ -171,7 +172,7 @@ struct Outcome {
 void run_garbage(unsigned seed, Outcome& run) {
   std::mt19937 random(seed);
   const Parameters parameters;
-  SceneBuilder builder;
+  scene::SceneBuilder builder;
   Predictor predictor;
   std::uint32_t now_ms = random();
   static LaneMap map;
@@ -220,8 +221,8 @@ TEST(SceneProperty, IsDeterministic) {
     run_garbage(seed, second);
     RC_ASSERT(first.scene.agents.size() == second.scene.agents.size());
     for (int i = 0; i < first.scene.agents.size(); ++i) {
-      const Agent& a = first.scene.agents[i];
-      const Agent& b = second.scene.agents[i];
+      const scene::Agent& a = first.scene.agents[i];
+      const scene::Agent& b = second.scene.agents[i];
       RC_ASSERT(a.track.id == b.track.id);
       RC_ASSERT(std::memcmp(&a.track.centre, &b.track.centre, sizeof(Pose)) == 0);
       RC_ASSERT(std::memcmp(a.frenet, b.frenet, sizeof a.frenet) == 0);
@@ -241,11 +242,11 @@ TEST(LanePathProperty, ProjectUndoesPathPoint) {
     const float radius_m = static_cast<float>(*rc::gen::inRange(80, 600)) * 0.1F;
     const float angle = static_cast<float>(*rc::gen::inRange(-25, 26)) * 0.1F;
     const LaneMap map = test::curved_road(radius_m, angle == 0.0F ? 0.05F : angle);
-    const LanePath path = test::path_along(map, {0, 1, 2});
+    const scene::LanePath path = test::path_along(map, {0, 1, 2});
     const float s_m = path.length_m * static_cast<float>(*rc::gen::inRange(0, 1001)) * 0.001F;
     const float d_m = static_cast<float>(*rc::gen::inRange(-40, 41)) * 0.05F;
-    const Point point = offset_point(path_point(map, path, s_m).pose, 0.0F, d_m);
-    const Frenet frenet = project(map, path, point, s_m + 3.0F, 12.0F);
+    const Point point = offset_point(scene::path_point(map, path, s_m).pose, 0.0F, d_m);
+    const scene::Frenet frenet = scene::project(map, path, point, s_m + 3.0F, 12.0F);
     RC_ASSERT(std::fabs(frenet.s_m - s_m) < 0.05F);
     RC_ASSERT(std::fabs(frenet.d_m - d_m) < 0.02F);
   }));
@@ -256,12 +257,12 @@ TEST(LanePathProperty, CursorEqualsPathPoint) {
   EXPECT_TRUE(rc::check("cursor = path_point", [](unsigned seed) {
     std::mt19937 random(seed);
     const LaneMap map = test::curved_road(uniform(random, 8.0F, 50.0F), uniform(random, -3.0F, 3.0F));
-    const LanePath path = test::path_along(map, {0, 1, 2});
-    PathCursor cursor(map, path);
+    const scene::LanePath path = test::path_along(map, {0, 1, 2});
+    scene::PathCursor cursor(map, path);
     for (int i = 0; i < 20; ++i) {
       const float s_m = uniform(random, -20.0F, path.length_m + 20.0F);
-      const PathPoint a = cursor.at(s_m);
-      const PathPoint b = path_point(map, path, s_m);
+      const scene::PathPoint a = cursor.at(s_m);
+      const scene::PathPoint b = scene::path_point(map, path, s_m);
       RC_ASSERT(std::memcmp(&a.pose, &b.pose, sizeof(Pose)) == 0);
       RC_ASSERT(a.curvature_1pm == b.curvature_1pm && a.lane == b.lane);
     }
@@ -282,20 +283,20 @@ TEST(PredictorProperty, StaysOnTheRoad) {
       tracks.push_back(track);
     }
     const Parameters parameters;
-    const Scene scene = test::scene_of(cross.map, test::ego_at(-40.0F, -1.6F, 0.0F, 8.0F), tracks);
+    const scene::Scene scene = test::scene_of(cross.map, test::ego_at(-40.0F, -1.6F, 0.0F, 8.0F), tracks);
     static PredictionSet set;
     Predictor predictor;
     predictor.encode(scene, parameters, scene.time_ms + 100);
     predictor.decode(nullptr, kMaxPredictionWork, set);
     for (const AgentPrediction& agent : set.agents) {
-      const Agent& seen = scene.agents[agent.agent];
+      const scene::Agent& seen = scene.agents[agent.agent];
       for (const Mode& mode : agent.modes) {
         for (const Pose& pose : mode.steps) {
           if (std::fabs(pose.x_m) > 60.0F || std::fabs(pose.y_m) > 60.0F) continue;  // beyond the map
           float nearest_m = 1e9F;
-          for (const LanePath& path : seen.paths) {
-            nearest_m =
-                std::min(nearest_m, std::fabs(project(cross.map, path, position(pose), 0.0F, -1.0F).d_m));
+          for (const scene::LanePath& path : seen.paths) {
+            nearest_m = std::min(nearest_m,
+                                 std::fabs(scene::project(cross.map, path, position(pose), 0.0F, -1.0F).d_m));
           }
           RC_ASSERT(nearest_m < 1.6F);
         }
@@ -305,4 +306,4 @@ TEST(PredictorProperty, StaysOnTheRoad) {
 }
 
 }  // namespace
-}  // namespace s4tp
+}  // namespace s4tp::satp

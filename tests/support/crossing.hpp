@@ -12,9 +12,9 @@ namespace s4tp::test {
 ///   their path: s = y + 100; zone from s = 96 to 104
 struct Crossing {
   LaneMap map;
-  LanePath ours;
-  LanePath theirs;
-  Scene scene;
+  scene::LanePath ours;
+  scene::LanePath theirs;
+  scene::Scene scene;
   Parameters parameters;
 
   explicit Crossing(Priority priority) {
@@ -22,8 +22,8 @@ struct Crossing {
     const LaneIndex b = add_lane(map, {{0.0F, -100.0F}, {0.0F, 300.0F}});
     ours = path_of(map, {a});
     theirs = path_of(map, {b});
-    EgoPath& way = add_way(scene, map, ours);
-    ConflictZone zone;
+    scene::EgoPath& way = add_way(scene, map, ours);
+    scene::ConflictZone zone;
     zone.entry_s_m = zone.other_entry_m = 96.0F;
     zone.exit_s_m = zone.other_exit_m = 104.0F;
     zone.stop_s_m = 95.0F;
@@ -39,13 +39,14 @@ struct Crossing {
     Trajectory trajectory;
     trajectory.points[0] = start;
     for (int i = 1; i < kTrajectoryPoints; ++i)
-      trajectory.points[i] = bicycle_step(trajectory.points[i - 1], acceleration_mps2, 0.0F, kStepS);
+      trajectory.points[i] =
+          trajectory::bicycle_step(trajectory.points[i - 1], acceleration_mps2, 0.0F, kStepS);
     safety::Guard guard;
     guard.look(scene, start, 0.0F, parameters);
     return guard.judge(0, trajectory).safe();
   }
-  Agent& other(float s_m, float speed_mps) { return add_vehicle(scene, map, theirs, s_m, speed_mps); }
-  [[nodiscard]] const ConflictZone& zone() const { return scene.ego_paths[0].zones[0]; }
+  scene::Agent& other(float s_m, float speed_mps) { return add_vehicle(scene, map, theirs, s_m, speed_mps); }
+  [[nodiscard]] const scene::ConflictZone& zone() const { return scene.ego_paths[0].zones[0]; }
 };
 
 }  // namespace s4tp::test

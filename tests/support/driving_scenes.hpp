@@ -12,8 +12,8 @@
 
 namespace s4tp::test {
 
-inline LanePath path_of(const LaneMap& map, const std::vector<LaneIndex>& lanes) {
-  LanePath path;
+inline scene::LanePath path_of(const LaneMap& map, const std::vector<LaneIndex>& lanes) {
+  scene::LanePath path;
   for (const LaneIndex lane : lanes) {
     (void)path.lanes.push({lane, path.length_m});
     path.length_m += map.lanes[lane].length_m;
@@ -22,9 +22,9 @@ inline LanePath path_of(const LaneMap& map, const std::vector<LaneIndex>& lanes)
 }
 
 /// Rear axle at arc length `s_m` of the path, `d_m` to the left of its centre.
-inline TrajectoryPoint state_on(const LaneMap& map, const LanePath& path, float s_m, float speed_mps,
+inline TrajectoryPoint state_on(const LaneMap& map, const scene::LanePath& path, float s_m, float speed_mps,
                                 float d_m = 0.0F) {
-  const PathPoint centre = path_point(map, path, s_m);
+  const scene::PathPoint centre = scene::path_point(map, path, s_m);
   TrajectoryPoint state;
   state.rear_axle.x_m = centre.pose.x_m - d_m * std::sin(centre.pose.heading_rad);
   state.rear_axle.y_m = centre.pose.y_m + d_m * std::cos(centre.pose.heading_rad);
@@ -33,20 +33,20 @@ inline TrajectoryPoint state_on(const LaneMap& map, const LanePath& path, float 
   return state;
 }
 
-inline void put_ego(Scene& scene, const TrajectoryPoint& state) {
+inline void put_ego(scene::Scene& scene, const TrajectoryPoint& state) {
   scene.ego.rear_axle = state.rear_axle;
   scene.ego.speed_mps = state.speed_mps;
   scene.ego.acceleration_mps2 = state.acceleration_mps2;
-  for (EgoPath& path : scene.ego_paths) {
-    path.frenet = project(*scene.map, path.path, position(state.rear_axle), 0.0F, -1.0F);
+  for (scene::EgoPath& path : scene.ego_paths) {
+    path.frenet = scene::project(*scene.map, path.path, position(state.rear_axle), 0.0F, -1.0F);
   }
 }
 
 /// A way we may go; the goal is far beyond its end unless said otherwise. \return it, for the zones
-inline EgoPath& add_way(Scene& scene, const LaneMap& map, const LanePath& path,
-                        Manoeuvre manoeuvre = Manoeuvre::kKeep) {
+inline scene::EgoPath& add_way(scene::Scene& scene, const LaneMap& map, const scene::LanePath& path,
+                               scene::Manoeuvre manoeuvre = scene::Manoeuvre::kKeep) {
   scene.map = &map;
-  EgoPath way;
+  scene::EgoPath way;
   way.manoeuvre = manoeuvre;
   way.path = path;
   way.route_end_s_m = path.length_m;
@@ -56,15 +56,15 @@ inline EgoPath& add_way(Scene& scene, const LaneMap& map, const LanePath& path,
 }
 
 /// Another vehicle (5.0 x 1.8 m) with its box centre at `s_m` of `path`.
-inline Agent& add_vehicle(Scene& scene, const LaneMap& map, const LanePath& path, float s_m, float speed_mps,
-                          float d_m = 0.0F) {
-  Agent agent;
+inline scene::Agent& add_vehicle(scene::Scene& scene, const LaneMap& map, const scene::LanePath& path,
+                                 float s_m, float speed_mps, float d_m = 0.0F) {
+  scene::Agent agent;
   agent.track.id = static_cast<std::uint8_t>(scene.agents.size() + 1);
   agent.track.centre = state_on(map, path, s_m, 0.0F, d_m).rear_axle;
   agent.track.speed_mps = speed_mps;
   agent.track.length_m = 5.0F;
   agent.track.width_m = 1.8F;
-  agent.lane = path_point(map, path, s_m).lane;
+  agent.lane = scene::path_point(map, path, s_m).lane;
   (void)agent.paths.push(path);
   agent.path_probability[0] = 1.0F;
   agent.frenet[0] = {s_m, d_m, agent.track.centre.heading_rad};
@@ -73,8 +73,8 @@ inline Agent& add_vehicle(Scene& scene, const LaneMap& map, const LanePath& path
 }
 
 /// The vehicle's motion along its path at constant speed, as a single future.
-inline Mode steady_future(const LaneMap& map, const Agent& agent) {
-  Mode mode;
+inline satp::Mode steady_future(const LaneMap& map, const scene::Agent& agent) {
+  satp::Mode mode;
   mode.probability = 1.0F;
   for (int i = 0; i < kHorizonSteps; ++i) {
     const float s_m = agent.frenet[0].s_m + agent.track.speed_mps * kStepS * static_cast<float>(i + 1);

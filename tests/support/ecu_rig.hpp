@@ -20,10 +20,10 @@ namespace s4tp::ecu {
 struct FakePlanner {
   Status init_answer = Status::kOk;
   Status plan_answer = Status::kOk;
-  std::function<void(const PlannerInput&, Plan&)> make;
+  std::function<void(const planner::PlannerInput&, Plan&)> make;
   int inits = 0;
   int cycles = 0;
-  PlannerInput seen;
+  planner::PlannerInput seen;
   bool had_map = false;
   bool had_running = false;
 
@@ -31,7 +31,7 @@ struct FakePlanner {
     ++inits;
     return init_answer;
   }
-  Status plan(const PlannerInput& input, Plan& plan, Explanation& explanation) {
+  Status plan(const planner::PlannerInput& input, Plan& plan, planner::Explanation& explanation) {
     ++cycles;
     seen = input;
     had_map = input.map != nullptr;

@@ -262,8 +262,8 @@ inline Merge merge_road() {
 }
 
 /// A path along the given lanes.
-inline LanePath path_along(const LaneMap& map, std::initializer_list<LaneIndex> lanes) {
-  LanePath path;
+inline scene::LanePath path_along(const LaneMap& map, std::initializer_list<LaneIndex> lanes) {
+  scene::LanePath path;
   for (LaneIndex lane : lanes) {
     (void)path.lanes.push({lane, path.length_m});
     path.length_m += map.lanes[lane].length_m;

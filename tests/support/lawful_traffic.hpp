@@ -64,8 +64,8 @@ struct Traffic {
   std::vector<Lawful> others;
   float time_s = 0.0F;
   float waited_s = 0.0F;
-  bool touched_left_out = false;              ///< somebody who was left out before, when run() answers false
-  float sight_m = KnownGround::kEverywhereM;  ///< who is further away is left out of lists
+  bool touched_left_out = false;  ///< somebody who was left out before, when run() answers false
+  float sight_m = scene::KnownGround::kEverywhereM;  ///< who is further away is left out of lists
   bool merging = false;
   bool committed = false;       ///< the plan in force goes through the zone
   float ego_entered_s = -1.0F;  ///< when it came into the zone
@@ -95,16 +95,16 @@ struct Traffic {
 
   /// The scene as the planner is told it.
   void observe() {
-    Scene& scene = road.scene;
+    scene::Scene& scene = road.scene;
     scene.agents.clear();
-    scene.known = {own_place(), sight_m, 0, std::uint8_t{sight_m < KnownGround::kEverywhereM}};
+    scene.known = {own_place(), sight_m, 0, std::uint8_t{sight_m < scene::KnownGround::kEverywhereM}};
     for (Lawful& other : others) {
       if (left_out(other)) {
         other.was_left_out = true;
         continue;
       }
-      Agent& agent = add_vehicle(scene, road.map, other.leads ? road.ours : road.theirs, other.motion.s_m,
-                                 other.motion.speed_mps);
+      scene::Agent& agent = add_vehicle(scene, road.map, other.leads ? road.ours : road.theirs,
+                                        other.motion.s_m, other.motion.speed_mps);
       // Beyond the zone of a merge it is in our lane.
       if (merging && !other.leads && other.motion.s_m > kExitM) {
         scene.agents.truncate(scene.agents.size() - 1);
@@ -298,7 +298,7 @@ struct Traffic {
     float free_m = kEntryM - 0.7F - ego.s_m;
     float s_m = chance(0.3F) ? between(80.0F, kEntryM) : between(20.0F, 110.0F);
     float speed_mps = chance(0.3F) ? 0.0F : between(0.0F, kTopMps);
-    if (sight_m < KnownGround::kEverywhereM && chance(0.7F)) {  // just left out, and fast
+    if (sight_m < scene::KnownGround::kEverywhereM && chance(0.7F)) {  // just left out, and fast
       const float across_m = 100.0F - ego.s_m;
       const float edge_m = std::sqrt(std::max(0.0F, sight_m * sight_m - across_m * across_m));
       s_m = 100.0F - edge_m - between(0.0F, 10.0F);

@@ -15,22 +15,22 @@ namespace s4tp::test {
 
 struct RefinementScene {
   LaneMap map;
-  Scene scene;
+  scene::Scene scene;
   Parameters parameters;
-  ReferenceLine line;
-  Candidate candidate;
+  trajectory::ReferenceLine line;
+  trajectory::Candidate candidate;
   Trajectory trajectory;
-  PredictionSet prediction;
-  KinematicSet constant_velocity;
-  RefinementProblem problem;
-  Motion start;
+  satp::PredictionSet prediction;
+  satp::KinematicSet constant_velocity;
+  trajectory::RefinementProblem problem;
+  trajectory::Motion start;
 
-  [[nodiscard]] Surroundings surroundings() const {
+  [[nodiscard]] trajectory::Surroundings surroundings() const {
     return {scene, prediction, prediction, constant_velocity};
   }
   void build() {
-    build_refinement(line, candidate.start_s_m, surroundings(), parameters, trajectory, problem);
-    reference_motion(problem, start);
+    trajectory::build_refinement(line, candidate.start_s_m, surroundings(), parameters, trajectory, problem);
+    trajectory::reference_motion(problem, start);
   }
 };
 
@@ -43,42 +43,43 @@ inline std::unique_ptr<RefinementScene> random_refinement(unsigned seed) {
   };
   auto made = std::make_unique<RefinementScene>();
   made->map = curved_road(draw(12.0F, 100.0F), draw(-1.5F, 1.5F));
-  const LanePath path = path_of(made->map, {0, 1, 2});
+  const scene::LanePath path = path_of(made->map, {0, 1, 2});
   (void)add_way(made->scene, made->map, path);
   const float start_s_m = draw(5.0F, 80.0F);
   TrajectoryPoint start = state_on(made->map, path, start_s_m, draw(0.0F, 14.0F), draw(-0.8F, 0.8F));
   if (random() % 5U == 0U) start.speed_mps = 0.0F;
   start.rear_axle.heading_rad = wrap_angle(start.rear_axle.heading_rad + draw(-0.1F, 0.1F));
-  start.curvature_1pm = path_point(made->map, path, start_s_m).curvature_1pm + draw(-0.02F, 0.02F);
+  start.curvature_1pm = scene::path_point(made->map, path, start_s_m).curvature_1pm + draw(-0.02F, 0.02F);
   start.acceleration_mps2 = start.speed_mps > 0.0F ? draw(-2.0F, 2.0F) : 0.0F;
   put_ego(made->scene, start);
 
-  build_reference(made->map, path, start_s_m, start.speed_mps, made->parameters, made->line);
-  const ReferenceCoordinates where = locate_on(made->line, position(start.rear_axle), start_s_m);
-  Candidate& candidate = made->candidate;
+  trajectory::build_reference(made->map, path, start_s_m, start.speed_mps, made->parameters, made->line);
+  const trajectory::ReferenceCoordinates where =
+      trajectory::locate_on(made->line, position(start.rear_axle), start_s_m);
+  trajectory::Candidate& candidate = made->candidate;
   if (random() % 3U == 0U) {
-    candidate.intent = Intent::kStop;
+    candidate.intent = trajectory::Intent::kStop;
     candidate.acceleration_mps2 = made->parameters.comfort.acceleration_mps2;
     candidate.target_s_m = start_s_m + 0.3F * start.speed_mps * start.speed_mps + draw(0.5F, 20.0F);
   } else {
     candidate.acceleration_mps2 = draw(-4.0F, 3.0F);
   }
-  float length_m = lateral_length_m(made->line, start, where, made->parameters);
+  float length_m = trajectory::lateral_length_m(made->line, start, where, made->parameters);
   for (int i = 0; i < 4; ++i, length_m *= 1.7F) {
-    shape_lateral(made->line, start, where, length_m, candidate);
-    roll_out(made->line, candidate, start, Plan{}, 0, made->parameters, made->trajectory);
-    if (feasible(made->trajectory, made->parameters)) break;
+    trajectory::shape_lateral(made->line, start, where, length_m, candidate);
+    trajectory::roll_out(made->line, candidate, start, Plan{}, 0, made->parameters, made->trajectory);
+    if (trajectory::feasible(made->trajectory, made->parameters)) break;
   }
-  if (!feasible(made->trajectory, made->parameters)) return nullptr;
+  if (!trajectory::feasible(made->trajectory, made->parameters)) return nullptr;
 
   const int vehicles = static_cast<int>(random() % 4U);
   for (int i = 0; i < vehicles; ++i) {
     const float ahead_m = draw(-8.0F, 30.0F);
     const float left_m = draw(2.1F, 4.0F) * (random() % 2U == 0U ? 1.0F : -1.0F);
-    const Agent& agent = add_vehicle(made->scene, made->map, path, start_s_m + ahead_m, draw(0.0F, 12.0F),
-                                     random() % 4U == 0U ? 0.0F : left_m);
+    const scene::Agent& agent = add_vehicle(made->scene, made->map, path, start_s_m + ahead_m,
+                                            draw(0.0F, 12.0F), random() % 4U == 0U ? 0.0F : left_m);
     (void)made->constant_velocity.agents.push(steady_future(made->map, agent));
-    AgentPrediction predicted;
+    satp::AgentPrediction predicted;
     predicted.agent = static_cast<std::uint8_t>(i);
     (void)predicted.modes.push(steady_future(made->map, agent));
     (void)made->prediction.agents.push(predicted);

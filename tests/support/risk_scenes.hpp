@@ -12,14 +12,14 @@ namespace s4tp::test {
 
 /// A driver in a turn he can hold, and the box of a car somewhere along his path.
 struct FieldAndBox {
-  FieldParams params;
-  DriverState driver;
+  sadrf::FieldParams params;
+  sadrf::DriverState driver;
   Box box;
 
-  [[nodiscard]] Field field() const { return prepare_field(params, driver); }
+  [[nodiscard]] sadrf::Field field() const { return sadrf::prepare_field(params, driver); }
   /// What a box as dense as the field's highest point would have.
   [[nodiscard]] double highest() const {
-    const Field of = field();
+    const sadrf::Field of = field();
     return static_cast<double>(of.steepness * of.look_ahead_m * of.look_ahead_m * box.length_m * box.width_m);
   }
 };
@@ -30,11 +30,11 @@ inline FieldAndBox random_field_and_box(std::mt19937& random, float heading_spre
   FieldAndBox one;
   const float speed = 3.0F + 13.0F * unit(random);
   const float sharpest = std::min(0.5F, std::atan(2.9F * 3.0F / (speed * speed)));
-  one.params = unit(random) < 0.5F ? paper_preset(1.8F) : kolekar2020_preset(1.8F);
+  one.params = unit(random) < 0.5F ? sadrf::paper_preset(1.8F) : sadrf::kolekar2020_preset(1.8F);
   one.params.look_ahead_s = 1.0F + 2.5F * unit(random);
   const Pose axle = {30.0F * unit(random), -20.0F * unit(random), 6.0F * unit(random) - 3.0F};
   one.driver = {axle, speed, (2.0F * unit(random) - 1.0F) * sharpest, 2.9F};
-  const Field field = one.field();
+  const sadrf::Field field = one.field();
   const float s = field.look_ahead_m * unit(random);
   const float e = 8.0F * (unit(random) - 0.5F);
   const float kappa = field.curvature_1pm;
@@ -49,7 +49,7 @@ inline FieldAndBox random_field_and_box(std::mt19937& random, float heading_spre
 }
 
 /// The field in double, by method.md's formulas; the support is the half-plane x >= 0 of the driver's frame.
-inline double density(const Field& field, double x, double y) {
+inline double density(const sadrf::Field& field, double x, double y) {
   const double kappa = static_cast<double>(field.curvature_1pm);
   const double u = 1.0 - kappa * y;
   const double w = kappa * x;
@@ -63,7 +63,7 @@ inline double density(const Field& field, double x, double y) {
 }
 
 /// Integral over a box: midpoints of cells of `cell_m`, on lines across it that end where the field begins.
-inline double exact_over_box(const Field& field, const Box& box, double cell_m) {
+inline double exact_over_box(const sadrf::Field& field, const Box& box, double cell_m) {
   const double length = static_cast<double>(box.length_m);
   const double width = static_cast<double>(box.width_m);
   const int lines = static_cast<int>(std::ceil(length / cell_m));

@@ -12,16 +12,16 @@
 namespace s4tp::test {
 
 struct RiskWorld {
-  Scene scene;
+  scene::Scene scene;
   LaneMap map;
-  PredictionSet prediction;
-  KinematicSet others;
+  satp::PredictionSet prediction;
+  satp::KinematicSet others;
   Trajectory trajectory;
   Parameters parameters;
 };
 
-inline Mode circle(const Pose& start, float speed_mps, float curvature_1pm, float probability) {
-  Mode mode;
+inline satp::Mode circle(const Pose& start, float speed_mps, float curvature_1pm, float probability) {
+  satp::Mode mode;
   mode.probability = probability;
   Pose pose = start;
   for (Pose& step : mode.steps) {
@@ -43,7 +43,7 @@ inline std::unique_ptr<RiskWorld> random_world(unsigned seed) {
   };
   const float speed = draw(0.0F, 14.0F);
   const float curvature = draw(-1.0F, 1.0F) * std::min(0.15F, 3.0F / (speed * speed + 1.0F));
-  const Mode own = circle({}, speed, curvature, 1.0F);
+  const satp::Mode own = circle({}, speed, curvature, 1.0F);
   for (int i = 0; i < kTrajectoryPoints; ++i) {
     TrajectoryPoint& point = world->trajectory.points[i];
     if (i > 0) point.rear_axle = own.steps[i - 1];
@@ -62,7 +62,7 @@ inline std::unique_ptr<RiskWorld> random_world(unsigned seed) {
   }
   const int count = std::uniform_int_distribution<int>(0, 8)(random);
   for (int i = 0; i < count; ++i) {
-    Agent agent;
+    scene::Agent agent;
     agent.track.centre = {draw(-40.0F, 60.0F), draw(-8.0F, 8.0F), draw(-3.1F, 3.1F)};
     agent.track.length_m = draw(3.5F, 12.0F);
     agent.track.width_m = draw(1.6F, 2.5F);
@@ -70,7 +70,7 @@ inline std::unique_ptr<RiskWorld> random_world(unsigned seed) {
     EXPECT_TRUE(world->scene.agents.push(agent));
     EXPECT_TRUE(world->others.agents.push(circle(agent.track.centre, its_speed, draw(-0.05F, 0.05F), 1.0F)));
     if (i < 3) {
-      AgentPrediction of;
+      satp::AgentPrediction of;
       of.agent = static_cast<std::uint8_t>(i);
       const float first = draw(0.0F, 1.0F);
       EXPECT_TRUE(of.modes.push(circle(agent.track.centre, its_speed, draw(-0.1F, 0.1F), first)));

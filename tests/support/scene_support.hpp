@@ -24,17 +24,17 @@ inline TrackList track_list(const std::vector<Track>& tracks) {
 }
 
 /// The scene of one instant: no past, tracks as fresh as the scene.
-inline Scene scene_of(const LaneMap& map, const EgoState& ego, const std::vector<Track>& tracks,
-                      const Parameters& parameters = {}, std::uint32_t time_ms = 1000) {
-  Scene scene;
-  SceneBuilder builder;
+inline scene::Scene scene_of(const LaneMap& map, const EgoState& ego, const std::vector<Track>& tracks,
+                             const Parameters& parameters = {}, std::uint32_t time_ms = 1000) {
+  scene::Scene scene;
+  scene::SceneBuilder builder;
   (void)builder.build(time_ms, ego, track_list(tracks), time_ms, &map, parameters, scene);
   return scene;
 }
 
 /// The agent with that track id, or null.
-inline const Agent* find_agent(const Scene& scene, int id) {
-  for (const Agent& agent : scene.agents) {
+inline const scene::Agent* find_agent(const scene::Scene& scene, int id) {
+  for (const scene::Agent& agent : scene.agents) {
     if (agent.track.id == id) return &agent;
   }
   return nullptr;

@@ -14,9 +14,9 @@ namespace s4tp::test {
 /// On 400 m of each there is no end of the road.
 struct SharedGround {
   LaneMap map;
-  LanePath ours;
-  LanePath theirs;
-  Scene scene;
+  scene::LanePath ours;
+  scene::LanePath theirs;
+  scene::Scene scene;
   Parameters parameters;
   safety::Guard guard;
 
@@ -29,8 +29,8 @@ struct SharedGround {
     map.lanes[b].in_junction = true;
     ours = path_of(map, {a});
     theirs = path_of(map, {b});
-    EgoPath& way = add_way(scene, map, ours);
-    ConflictZone zone;
+    scene::EgoPath& way = add_way(scene, map, ours);
+    scene::ConflictZone zone;
     zone.entry_s_m = zone.other_entry_m = 96.0F;
     zone.exit_s_m = zone.other_exit_m = 104.0F;
     zone.stop_s_m = 95.0F;
@@ -40,24 +40,26 @@ struct SharedGround {
     (void)way.zones.push(zone);
   }
 
-  [[nodiscard]] ConflictZone& zone() { return scene.ego_paths[0].zones[0]; }
+  [[nodiscard]] scene::ConflictZone& zone() { return scene.ego_paths[0].zones[0]; }
   /// Known for long.
-  Agent& other(float s_m, float speed_mps) {
-    Agent& agent = add_vehicle(scene, map, theirs, s_m, speed_mps);
+  scene::Agent& other(float s_m, float speed_mps) {
+    scene::Agent& agent = add_vehicle(scene, map, theirs, s_m, speed_mps);
     agent.known_ms = 60'000;
     return agent;
   }
-  Agent& leader(float s_m, float speed_mps) { return add_vehicle(scene, map, ours, s_m, speed_mps); }
+  scene::Agent& leader(float s_m, float speed_mps) { return add_vehicle(scene, map, ours, s_m, speed_mps); }
 
   /// What the guard says of constant acceleration from box centre `centre_s_m`.
   safety::Verdict judge(float centre_s_m, float speed_mps, float acceleration_mps2) {
-    TrajectoryPoint start = state_on(map, ours, centre_s_m - rear_axle_to_centre_m(parameters), speed_mps);
+    TrajectoryPoint start =
+        state_on(map, ours, centre_s_m - trajectory::rear_axle_to_centre_m(parameters), speed_mps);
     start.acceleration_mps2 = acceleration_mps2;
     put_ego(scene, start);
     Trajectory trajectory;
     trajectory.points[0] = start;
     for (int i = 1; i < kTrajectoryPoints; ++i)
-      trajectory.points[i] = bicycle_step(trajectory.points[i - 1], acceleration_mps2, 0.0F, kStepS);
+      trajectory.points[i] =
+          trajectory::bicycle_step(trajectory.points[i - 1], acceleration_mps2, 0.0F, kStepS);
     for (TrajectoryPoint& point : trajectory.points) point.acceleration_mps2 = acceleration_mps2;
     guard.look(scene, start, 0.0F, parameters);
     return guard.judge(0, trajectory);

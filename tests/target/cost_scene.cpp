@@ -260,7 +260,7 @@ void make_track(Genes genes, const LaneMap& map, const Pose& ego, const Pose& fo
 void CostScene::make(const Genome& genome) {
   for (Lane& lane : map_.lanes) lane = Lane{};
   map_.conflicts.clear();
-  input_ = PlannerInput{};
+  input_ = planner::PlannerInput{};
   Genes map_genes(genome.genes);
   const int family = map_genes.below(2);
   family == 0 ? make_road(map_genes, map_) : make_star(map_genes, map_);

@@ -29,14 +29,14 @@ class CostScene {
   /// Anew, of other genes.
   void make(const Genome& genome);
   /// What the planner is given next; the pointers are valid as long as the scene is.
-  [[nodiscard]] const PlannerInput& input() const { return input_; }
+  [[nodiscard]] const planner::PlannerInput& input() const { return input_; }
   /// One period on: the others keep their speed, the ego is where its plan has it.
   void advance(const Plan& plan);
 
  private:
   LaneMap map_;
   Plan running_;
-  PlannerInput input_;
+  planner::PlannerInput input_;
 };
 
 }  // namespace s4tp::test

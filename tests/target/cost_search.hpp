@@ -7,7 +7,7 @@
 
 namespace s4tp::test {
 
-inline constexpr int kCostRows = kStageCount + 1;  ///< the last is the whole cycle
+inline constexpr int kCostRows = planner::kStageCount + 1;  ///< the last is the whole cycle
 
 /// The most of any of a scene's cycles, in counts of platform.hpp.
 struct Cost {

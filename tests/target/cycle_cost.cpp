@@ -18,22 +18,23 @@ namespace {
 
 constexpr std::uint32_t kProgress = 200;  // scenes from one report to the next
 
-Planner planner;
+planner::Planner planner;
 bool charges = false;  // prints them
 
-class Meter final : public Probe {
+class Meter final : public planner::Probe {
  public:
-  void stage_begin(Stage stage) override { counter_.stage_begin(stage); }
-  void stage_end(Stage stage) override { counter_.stage_end(stage); }
-  void cycle_done(const Scene& scene, const PredictionSet& prediction, const RiskProfile& risk) override {
+  void stage_begin(planner::Stage stage) override { counter_.stage_begin(stage); }
+  void stage_end(planner::Stage stage) override { counter_.stage_end(stage); }
+  void cycle_done(const scene::Scene& scene, const satp::PredictionSet& prediction,
+                  const sadrf::RiskProfile& risk) override {
     counter_.cycle_done(scene, prediction, risk);
     if (charges) {
       Text text;
       text << "charged";
-      for (int i = 0; i < kStageCount; ++i)
-        text << " " << planner.work().spent(static_cast<Stage>(i)) << "/" << counter_.row(i).last;
-      text << " all " << counter_.row(kStageCount).last << " agents " << std::int32_t{scene.agents.size()}
-           << "\n";
+      for (int i = 0; i < planner::kStageCount; ++i)
+        text << " " << planner.work().spent(static_cast<planner::Stage>(i)) << "/" << counter_.row(i).last;
+      text << " all " << counter_.row(planner::kStageCount).last << " agents "
+           << std::int32_t{scene.agents.size()} << "\n";
       print(text.c_str());
     }
     for (int i = 0; i < StageCounter::kRows; ++i) {
@@ -49,7 +50,7 @@ class Meter final : public Probe {
 
 test::CostScene scene;  // not on the small stack
 Plan plan;
-Explanation explanation;
+planner::Explanation explanation;
 test::CostSearch search(1);
 std::uint32_t measured = 0;
 

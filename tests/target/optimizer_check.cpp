@@ -16,9 +16,9 @@ constexpr int kPasses = 16;
 constexpr std::uint32_t kGolden = 0xF11EB2AAU;  // as the host prints it
 
 /// Braking in a bend that tightens, jerkier and nearer to others from one problem to the next.
-void make_problem(int number, RefinementProblem& problem) {
+void make_problem(int number, trajectory::RefinementProblem& problem) {
   const float share = static_cast<float>(number) / static_cast<float>(kProblems);
-  problem = RefinementProblem{};
+  problem = trajectory::RefinementProblem{};
   problem.weights = {0.0033F, 0.13F, 0.0033F, 0.0067F, 0.067F, 0.33F, 0.02F, 0.33F, 0.13F, 0.67F, 0.13F};
   problem.end_importance = 5.0F;
   problem.acceleration_low_mps2 = -7.8F;
@@ -30,13 +30,13 @@ void make_problem(int number, RefinementProblem& problem) {
   problem.half_length_m = 2.5F;
   problem.half_width_m = 0.9F;
   problem.start.speed_mps = 12.0F - 8.0F * share;
-  MotionState state = problem.start;
+  trajectory::MotionState state = problem.start;
   for (int i = 0; i < kHorizonSteps; ++i) {
-    RefinementStep& step = problem.steps[i];
+    trajectory::RefinementStep& step = problem.steps[i];
     const float time_s = kStepS * static_cast<float>(i);
     const float wave = sin((2.0F + 3.0F * share) * time_s);
-    const MotionInput input = {(4.0F + 6.0F * share) * wave - 2.0F, 0.03F * wave + 0.01F * share};
-    state = motion_step(state, input);
+    const trajectory::MotionInput input = {(4.0F + 6.0F * share) * wave - 2.0F, 0.03F * wave + 0.01F * share};
+    state = trajectory::motion_step(state, input);
     step.reference = state;
     const SinCos heading = sin_cos(state.heading_rad);
     step.along_x = heading.cos;
@@ -49,7 +49,7 @@ void make_problem(int number, RefinementProblem& problem) {
     step.half_plane_count = number % 3;
     for (int k = 0; k < step.half_plane_count; ++k) {  // one beside, one ahead, both turned a little
       const SinCos turned = sin_cos(state.heading_rad + (k == 0 ? 1.4F : 3.0F));
-      HalfPlane& plane = step.half_planes[k];
+      trajectory::HalfPlane& plane = step.half_planes[k];
       plane.normal_x = turned.cos;
       plane.normal_y = turned.sin;
       const float reach_m = k == 0 ? 1.3F : 4.3F;
@@ -65,10 +65,10 @@ std::uint32_t hash(const void* data, std::size_t size, std::uint32_t value) {
   return value;
 }
 
-RefinementProblem problem;
-Motion motion;
-Ilqr ilqr;
-InputCorrection corrections[kHorizonSteps];
+trajectory::RefinementProblem problem;
+trajectory::Motion motion;
+trajectory::Ilqr ilqr;
+trajectory::InputCorrection corrections[kHorizonSteps];
 
 }  // namespace
 
@@ -80,14 +80,14 @@ int run(const char*, bool) {
   int improved = 0;
   for (int number = 0; number < kProblems; ++number) {
     make_problem(number, problem);
-    reference_motion(problem, motion);
-    BoundState bounds;
+    trajectory::reference_motion(problem, motion);
+    trajectory::BoundState bounds;
     bounds.penalty = 1.0F;
     std::uint32_t began = counts_now();
-    const float promised = backward_pass(problem, bounds, motion, 0.0F, corrections);
+    const float promised = trajectory::backward_pass(problem, bounds, motion, 0.0F, corrections);
     pass_counts += counts_now() - began;
     began = counts_now();
-    const IlqrResult result = ilqr.solve(problem, kPasses, motion);
+    const trajectory::IlqrResult result = ilqr.solve(problem, kPasses, motion);
     solve_counts += counts_now() - began;
     passes += result.passes;
     improved += result.improved ? 1 : 0;

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace s4tp {
+namespace s4tp::trajectory {
 namespace {
 
 TrajectoryPoint driving(float speed_mps, float curvature_1pm) {
@@ -111,4 +111,4 @@ TEST(Feasible, StartOutsideTheLimitsOnlyMustNotGetWorse) {
 }
 
 }  // namespace
-}  // namespace s4tp
+}  // namespace s4tp::trajectory

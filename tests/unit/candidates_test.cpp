@@ -12,7 +12,7 @@
 #include "algo/trajectory/roll_out.hpp"
 #include "tests/support/driving_scenes.hpp"
 
-namespace s4tp {
+namespace s4tp::trajectory {
 namespace {
 
 using namespace test;  // NOLINT: the map builders are the language of these tests
@@ -22,7 +22,7 @@ constexpr std::uint32_t kNow = 5000;
 /// The left turn of the scenario: 50 m straight, 90 degrees on radius 10.7 m in 8 vertices, 80 m straight.
 struct LeftTurn {
   LaneMap map;
-  LanePath path;
+  scene::LanePath path;
   LeftTurn() {
     const LaneIndex before = add_lane(map, {{-50.0F, 0.0F}, {0.0F, 0.0F}});
     const LaneIndex turn = add_lane(map, arc({0.0F, 0.0F, 0.0F}, 10.7F, 1.57079633F, 8));
@@ -36,12 +36,12 @@ struct LeftTurn {
 
 struct Roads {
   LaneMap map = straight_road(3, 300.0F);
-  Scene scene;
+  scene::Scene scene;
   /// In the middle of three lanes.
   Roads(float s_m, float speed_mps) {
     add_way(scene, map, path_of(map, {1}));
-    add_way(scene, map, path_of(map, {2}), Manoeuvre::kLeft);
-    add_way(scene, map, path_of(map, {0}), Manoeuvre::kRight);
+    add_way(scene, map, path_of(map, {2}), scene::Manoeuvre::kLeft);
+    add_way(scene, map, path_of(map, {0}), scene::Manoeuvre::kRight);
     scene.time_ms = kNow;
     start = state_on(map, scene.ego_paths[0].path, s_m, speed_mps);
     put_ego(scene, start);
@@ -49,7 +49,7 @@ struct Roads {
   TrajectoryPoint start;
 };
 
-CandidateList generate(const Scene& scene, const TrajectoryPoint& start, const Plan& running = {},
+CandidateList generate(const scene::Scene& scene, const TrajectoryPoint& start, const Plan& running = {},
                        int* left_out = nullptr) {
   ReferenceLines lines;
   CandidateList list;
@@ -59,7 +59,7 @@ CandidateList generate(const Scene& scene, const TrajectoryPoint& start, const P
   return list;
 }
 
-Trajectory rolled(const Scene& scene, const Candidate& candidate, const TrajectoryPoint& start,
+Trajectory rolled(const scene::Scene& scene, const Candidate& candidate, const TrajectoryPoint& start,
                   const Plan& running = {}) {
   ReferenceLine line;
   build_reference(*scene.map, scene.ego_paths[candidate.path].path, candidate.start_s_m, start.speed_mps,
@@ -224,7 +224,7 @@ TEST(Candidates, StandstillAndRestart) {
 TEST(Candidates, StopRestsBeforeItsLine) {
   LaneMap map = straight_road(1, 100.0F);
   map.lanes[0].on_route = false;
-  Scene scene;
+  scene::Scene scene;
   scene.time_ms = kNow;
   add_way(scene, map, path_of(map, {0}));
   TrajectoryPoint state = state_on(map, scene.ego_paths[0].path, 40.0F, 10.0F);
@@ -247,10 +247,10 @@ TEST(Candidates, StopRestsBeforeItsLine) {
 // zone.
 TEST(Candidates, StopsBeforeConflictZones) {
   LaneMap map = straight_road(1, 300.0F);
-  Scene scene;
+  scene::Scene scene;
   scene.time_ms = kNow;
-  EgoPath& way = add_way(scene, map, path_of(map, {0}));
-  ConflictZone zone;
+  scene::EgoPath& way = add_way(scene, map, path_of(map, {0}));
+  scene::ConflictZone zone;
   zone.entry_s_m = 80.0F;
   zone.exit_s_m = 90.0F;
   zone.stop_s_m = 78.0F;
@@ -273,10 +273,10 @@ TEST(Candidates, StopsBeforeConflictZones) {
 // it, but not between two zones that leave no room: the second one's edge, 90.5, lies in the first.
 TEST(Candidates, CreepToTheZone) {
   LaneMap map = straight_road(1, 300.0F);
-  Scene scene;
+  scene::Scene scene;
   scene.time_ms = kNow;
-  EgoPath& way = add_way(scene, map, path_of(map, {0}));
-  ConflictZone zone;
+  scene::EgoPath& way = add_way(scene, map, path_of(map, {0}));
+  scene::ConflictZone zone;
   zone.entry_s_m = 80.0F;
   zone.exit_s_m = 90.0F;
   zone.stop_s_m = 78.0F;
@@ -303,7 +303,7 @@ TEST(Candidates, CreepToTheZone) {
 // 3.7 m/s^2.
 TEST(Candidates, SlowDownForTheLeftTurn) {
   LeftTurn road;
-  Scene scene;
+  scene::Scene scene;
   scene.time_ms = kNow;
   add_way(scene, road.map, road.path);
   TrajectoryPoint state = state_on(road.map, road.path, 30.0F, 8.0F);
@@ -334,7 +334,7 @@ TEST(Candidates, SlowDownForTheLeftTurn) {
 // overshoot.
 TEST(Candidates, FollowSettlesBehindTheLeader) {
   LaneMap map = straight_road(1, 1000.0F);
-  Scene scene;
+  scene::Scene scene;
   scene.time_ms = kNow;
   add_way(scene, map, path_of(map, {0}));
   TrajectoryPoint state = state_on(map, scene.ego_paths[0].path, 10.0F, 13.0F);
@@ -362,10 +362,10 @@ TEST(Candidates, FollowSettlesBehindTheLeader) {
 TEST(Candidates, SettlesBesideAGap) {
   for (const bool leader : {false, true}) {
     LaneMap map = straight_road(2, 1000.0F);
-    Scene scene;
+    scene::Scene scene;
     scene.time_ms = kNow;
     add_way(scene, map, path_of(map, {0}));
-    add_way(scene, map, path_of(map, {1}), Manoeuvre::kLeft);
+    add_way(scene, map, path_of(map, {1}), scene::Manoeuvre::kLeft);
     TrajectoryPoint state = state_on(map, scene.ego_paths[0].path, 20.0F, 13.0F);
     MergeTarget aim{1, 30.0F, 8.0F};
     float leader_s_m = 70.0F;
@@ -557,4 +557,4 @@ TEST(Candidates, RollOutsAreCounted) {
 }
 
 }  // namespace
-}  // namespace s4tp
+}  // namespace s4tp::trajectory

@@ -77,12 +77,12 @@ struct Drive {
     input.start_ms = 0;
     input.ego = test::ego_at(20.0F, y_m, 0.0F, 10.0F);
     input.tracks = test::track_list(tracks);
-    Explanation explanation;
+    planner::Explanation explanation;
     (void)planner->plan(input, plan, explanation);
-    EXPECT_TRUE(feasible(plan.trajectory, Parameters{}));
+    EXPECT_TRUE(trajectory::feasible(plan.trajectory, Parameters{}));
   }
   std::unique_ptr<DrfControllerPlanner> planner = std::make_unique<DrfControllerPlanner>();
-  PlannerInput input;
+  planner::PlannerInput input;
   Plan plan;
 };
 

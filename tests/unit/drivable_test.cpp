@@ -4,7 +4,7 @@
 
 #include <memory>
 
-namespace s4tp {
+namespace s4tp::sadrf {
 namespace {
 
 void add_lane(LaneMap& map, int index, LaneKind kind, bool in_junction, Point from, Point to) {
@@ -82,7 +82,8 @@ TEST(Drivable, CrossSectionIsTheUnionOfStrips) {
   NearStrips near;
   near_strips(*area, path, 4.0F, near);
   CrossSection section;
-  cross_section(*area, near, {-40.0F, -1.5F, 0.0F}, 4.0F, section);
+  WorkMeter work{1'000'000};
+  cross_section(*area, near, {-40.0F, -1.5F, 0.0F}, 4.0F, section, work);
   ASSERT_EQ(section.ours.size(), 1);
   EXPECT_NEAR(section.ours[0].right_m, -1.5F, 1e-4F);
   EXPECT_NEAR(section.ours[0].left_m, 1.5F, 1e-4F);
@@ -98,4 +99,4 @@ TEST(Drivable, NoMapNoRoad) {
   EXPECT_TRUE(area->junctions.empty());
 }
 
-}  // namespace s4tp
+}  // namespace s4tp::sadrf

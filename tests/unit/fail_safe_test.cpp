@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace s4tp {
+namespace s4tp::safety {
 namespace {
 
 constexpr std::uint32_t kStartMs = 1000;
@@ -82,4 +82,4 @@ TEST(FailSafe, BrakesAsSteeredWithoutAPlan) {
 }
 
 }  // namespace
-}  // namespace s4tp
+}  // namespace s4tp::safety

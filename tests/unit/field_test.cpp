@@ -12,7 +12,7 @@
 #include "algo/sadrf/others_motion.hpp"
 #include "tests/support/risk_scenes.hpp"
 
-namespace s4tp {
+namespace s4tp::sadrf {
 namespace {
 
 const FieldParams kPaper = paper_preset(2.0F);
@@ -222,7 +222,7 @@ TEST(BoxIntegral, OutOfReachMeansNothing) {
 // A car turning at 10 m/s with 0.05 /m moves 3 m in 0.3 s and turns 0.15 rad; the sharpest curvature is 0.2
 // /m.
 TEST(OthersMotion, SpeedAndCurvatureFromTheFuture) {
-  Mode mode;
+  satp::Mode mode;
   for (int i = 0; i < kHorizonSteps; ++i) {
     const float angle = 0.05F * static_cast<float>(i);
     mode.steps[i] = {20.0F * std::sin(angle), 20.0F * (1.0F - std::cos(angle)), wrap_angle(angle)};
@@ -249,4 +249,4 @@ TEST(OthersMotion, FieldOfABox) {
   }
 }
 
-}  // namespace s4tp
+}  // namespace s4tp::sadrf

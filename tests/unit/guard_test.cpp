@@ -16,8 +16,8 @@ using namespace test;  // NOLINT: the map builders are the language of these tes
 
 /// Behind the first zone, with a lane of its own, from where it is as far as to the first.
 /// \return the way of those who come there
-LanePath add_second_zone(SharedGround& road, float entry_s_m, float exit_s_m) {
-  ConflictZone zone = road.zone();
+scene::LanePath add_second_zone(SharedGround& road, float entry_s_m, float exit_s_m) {
+  scene::ConflictZone zone = road.zone();
   zone.entry_s_m = entry_s_m;
   zone.exit_s_m = exit_s_m;
   zone.other_lane = add_lane(road.map, {{14.0F, -100.0F}, {14.0F, 300.0F}});
@@ -86,7 +86,7 @@ TEST(Guard, NobodyDrivesThroughTheOneAhead) {
   SharedGround road(Priority::kFirstYields);
   road.other(96.0F - 30.0F, 12.0F);
   EXPECT_FALSE(road.safe(95.3F, 0.0F, 2.0F));
-  Agent& ahead = road.other(96.0F - 6.0F, 0.0F);
+  scene::Agent& ahead = road.other(96.0F - 6.0F, 0.0F);
   ahead.stood_ms = 1000;
   road.scene.waited_s = 1.0F;
   EXPECT_TRUE(road.safe(95.3F, 0.0F, 2.0F));
@@ -96,7 +96,7 @@ TEST(Guard, NobodyDrivesThroughTheOneAhead) {
 // to it: 2.8 m into the zone.
 TEST(Guard, WhoStandsInTheZoneLetsTheNextOneIn) {
   SharedGround road(Priority::kFirstYields);
-  Agent& ahead = road.other(103.8F, 0.0F);
+  scene::Agent& ahead = road.other(103.8F, 0.0F);
   ahead.stood_ms = 1000;
   road.scene.waited_s = 1.0F;
   EXPECT_TRUE(road.safe(95.3F, 0.0F, 2.0F));
@@ -152,7 +152,7 @@ TEST(Guard, TheZoneIsEnteredWhenThereIsRoomBeyondIt) {
 TEST(Guard, ZonesWithoutRoomBetweenAreOneGroup) {
   for (const float between_m : {0.9F, 3.0F}) {
     SharedGround road(Priority::kFirstHasPriority);
-    ConflictZone next = road.zone();
+    scene::ConflictZone next = road.zone();
     next.entry_s_m = 104.0F + between_m;
     next.exit_s_m = next.entry_s_m + 6.0F;
     next.priority = Priority::kFirstYields;
@@ -194,7 +194,7 @@ TEST(Guard, AnOldSightingCounts) {
   for (const std::uint16_t age_ms : {std::uint16_t{0}, std::uint16_t{300}}) {
     SharedGround road(Priority::kFirstHasPriority);
     road.scene.ego_paths[0].zones.clear();
-    Agent& leader = road.leader(20.0F + 5.0F + 10.0F, 12.0F);
+    scene::Agent& leader = road.leader(20.0F + 5.0F + 10.0F, 12.0F);
     leader.age_ms = age_ms;
     leader.coasted_m = 0.012F * static_cast<float>(age_ms);
     EXPECT_EQ(road.cause(20.0F, 12.0F, 0.2F), age_ms == 0 ? Cause::kNone : Cause::kLeader) << age_ms;
@@ -299,14 +299,14 @@ TEST(Guard, ALicenceIsNotUsedBeforeWeAreBound) {
 TEST(Guard, ALicenceHoldsForItsZone) {
   SharedGround road(Priority::kFirstHasPriority);
   const LaneIndex beyond = add_lane(road.map, {{0.0F, 0.0F}, {6.0F, 2.0F}, {50.0F, 2.0F}});
-  ConflictZone& first = road.zone();
+  scene::ConflictZone& first = road.zone();
   Lane& before = road.map.lanes[first.other_lane];
   before.points[1].y_m = 0.0F;
   before.length_m = road.theirs.length_m = 100.0F;
   link(road.map, first.other_lane, beyond);
   first.other_entry_m = 86.0F;
   first.other_exit_m = 94.0F;
-  ConflictZone second = first;
+  scene::ConflictZone second = first;
   second.entry_s_m = 104.5F;
   second.exit_s_m = 110.0F;
   second.other_lane = beyond;
@@ -330,7 +330,7 @@ TEST(Guard, ALicenceHoldsForItsZone) {
 TEST(Guard, StopsShortOnlyWhereOthersCanStopForIt) {
   for (const float off_m : {30.0F, 5.0F}) {
     SharedGround road(Priority::kFirstYields);
-    const LanePath beside = add_second_zone(road, 104.5F, 110.0F);
+    const scene::LanePath beside = add_second_zone(road, 104.5F, 110.0F);
     const Verdict begun = road.judge(94.0F, 6.0F, 0.0F);
     ASSERT_TRUE(begun.safe() && begun.clears);
     road.guard.commit(0, begun);
@@ -345,7 +345,7 @@ TEST(Guard, StopsShortOnlyWhereOthersCanStopForIt) {
 // second; it is 8 m before that now, and has not been asked to stay out of it.
 TEST(Guard, LicencesOfLaterGroupsAreNotUsedYet) {
   SharedGround road(Priority::kFirstYields);
-  const LanePath beside = add_second_zone(road, 110.0F, 118.0F);
+  const scene::LanePath beside = add_second_zone(road, 110.0F, 118.0F);
   add_vehicle(road.scene, road.map, beside, 96.0F - 40.0F, 6.0F);
   const Verdict begun = road.judge(94.0F, 8.0F, 0.0F);
   ASSERT_TRUE(begun.safe() && begun.clears);
@@ -390,14 +390,14 @@ TEST(Guard, MergingBehindAnotherStopsBehindIt) {
 /// A change from the right lane to the left one, over within 3 s; our box centre is at 100.
 struct Change {
   LaneMap map = straight_road(2, 400.0F);
-  Scene scene;
+  scene::Scene scene;
   Parameters parameters;
 
   Change() {
     add_way(scene, map, path_of(map, {0}));
-    add_way(scene, map, path_of(map, {1}), Manoeuvre::kLeft);
+    add_way(scene, map, path_of(map, {1}), scene::Manoeuvre::kLeft);
   }
-  Agent& in_left_lane(float s_m, float speed_mps) {
+  scene::Agent& in_left_lane(float s_m, float speed_mps) {
     return add_vehicle(scene, map, path_of(map, {1}), s_m, speed_mps);
   }
   [[nodiscard]] Cause cause(float speed_mps, float acceleration_mps2, int path = 1) {
@@ -406,7 +406,8 @@ struct Change {
     Trajectory trajectory;
     trajectory.points[0] = start;
     for (int i = 1; i < kTrajectoryPoints; ++i) {
-      trajectory.points[i] = bicycle_step(trajectory.points[i - 1], acceleration_mps2, 0.0F, kStepS);
+      trajectory.points[i] =
+          trajectory::bicycle_step(trajectory.points[i - 1], acceleration_mps2, 0.0F, kStepS);
       if (path == 1) trajectory.points[i].rear_axle.y_m = kLaneWidthM * static_cast<float>(i) / 30.0F;
     }
     Guard guard;

@@ -16,7 +16,7 @@ namespace {
 using namespace test;  // NOLINT: the map builders are the language of these tests
 
 /// Nobody is missing within `radius_m` of our box centre at `centre_s_m`.
-KnownGround known_within(float radius_m, float centre_s_m = 95.3F) {
+scene::KnownGround known_within(float radius_m, float centre_s_m = 95.3F) {
   return {{centre_s_m - 100.0F, 0.0F}, radius_m, 0, 1};
 }
 
@@ -33,7 +33,7 @@ TEST(GuardUnseen, SomebodyMayComeFromTheEdge) {
     EXPECT_EQ(verdict.agent, kUnseen);
     EXPECT_NEAR(verdict.from_s, 2.37F, 0.03F);
     EXPECT_NEAR(verdict.needed_s, 2.95F, 0.06F);
-    road.scene.known = KnownGround{};
+    road.scene.known = scene::KnownGround{};
     EXPECT_TRUE(road.safe(95.3F, 0.0F, 2.0F));
   }
 }
@@ -64,7 +64,7 @@ TEST(GuardUnseen, WhoStaysOutHoldsBackWhoeverComesBehind) {
     SharedGround road(Priority::kFirstYields);
     road.scene.known = known_within(40.0F);
     if (!same_lane) road.theirs = path_of(road.map, {add_lane(road.map, {{9.0F, -100.0F}, {9.0F, -5.0F}})});
-    Agent& ahead = road.other(90.0F, 0.0F);
+    scene::Agent& ahead = road.other(90.0F, 0.0F);
     ahead.stood_ms = 1000;
     road.scene.waited_s = 1.0F;
     EXPECT_EQ(road.safe(95.3F, 0.0F, 2.0F), same_lane);
@@ -117,11 +117,11 @@ TEST(GuardUnseen, WhoLeadsUsIsNearerThanWhoeverMayStandAhead) {
 /// We are in the right one of two lanes, at 100 m, at 10 m/s, and change to the left one.
 struct Change {
   LaneMap map = straight_road(2, 400.0F);
-  Scene scene;
+  scene::Scene scene;
   Parameters parameters;
   Change() {
     add_way(scene, map, path_of(map, {0}));
-    add_way(scene, map, path_of(map, {1}), Manoeuvre::kLeft);
+    add_way(scene, map, path_of(map, {1}), scene::Manoeuvre::kLeft);
   }
   [[nodiscard]] Verdict judge(int path) {
     const TrajectoryPoint start = state_on(map, scene.ego_paths[0].path, 98.5F, 10.0F);
@@ -129,7 +129,7 @@ struct Change {
     Trajectory trajectory;
     trajectory.points[0] = start;
     for (int i = 1; i < kTrajectoryPoints; ++i)
-      trajectory.points[i] = bicycle_step(trajectory.points[i - 1], 0.0F, 0.0F, kStepS);
+      trajectory.points[i] = trajectory::bicycle_step(trajectory.points[i - 1], 0.0F, 0.0F, kStepS);
     Guard guard;
     guard.look(scene, start, 0.0F, parameters);
     return guard.judge(path, trajectory);
@@ -179,7 +179,7 @@ TEST(GuardUnseen, AnEdgeBetweenTwoLanesIsSeen) {
   lane.length_m = 300.0F + edge_m - 0.01F;
   const LaneIndex before = add_lane(road.map, {{0.0F, -100.0F}, {0.0F, -edge_m - 0.01F}});
   link(road.map, before, other);
-  ConflictZone& zone = road.zone();
+  scene::ConflictZone& zone = road.zone();
   zone.other_entry_m = edge_m - 4.0F - 0.01F;
   zone.other_exit_m = zone.other_entry_m + 8.0F;
   road.scene.known = known_within(40.0F);

@@ -7,25 +7,25 @@
 
 #include "algo/core/math.hpp"
 
-namespace s4tp {
+namespace s4tp::sadrf {
 namespace {
 
 struct Picture {
-  Scene scene;
+  scene::Scene scene;
   LaneMap lanes;
   DrivableArea area;
-  PredictionSet prediction;
-  KinematicSet others;
+  satp::PredictionSet prediction;
+  satp::KinematicSet others;
   HeatMap map;
 
   /// A car of 4 x 2 m, straight on along its heading.
   void add_car(const Pose& centre, float speed_mps) {
-    Agent agent;
+    scene::Agent agent;
     agent.track.centre = centre;
     agent.track.length_m = 4.0F;
     agent.track.width_m = 2.0F;
     EXPECT_TRUE(scene.agents.push(agent));
-    Mode mode;
+    satp::Mode mode;
     for (int i = 0; i < kHorizonSteps; ++i) {
       mode.steps[i] = shift_ahead(centre, speed_mps * kStepS * static_cast<float>(i + 1));
     }
@@ -97,4 +97,4 @@ TEST(HeatMap, IsInOurFrame) {
   EXPECT_EQ(kHeatColumns - kHeatBehind, 3 * kHeatColumns / 4);
 }
 
-}  // namespace s4tp
+}  // namespace s4tp::sadrf

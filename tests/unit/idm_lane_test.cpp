@@ -54,7 +54,7 @@ TEST(IdmLane, InsistsOnItsRightOfWayOnlyWhereThatIsSafe) {
 // At 10 m/s, somebody behind at 15 m/s: s* = 2.5 + 15 + 15 * 5 / 4.561 = 33.95 m. He brakes with 3 m/s^2 at
 // s* / sqrt(1 + 3 / 2.6) = 23.13 m: a change is accepted above that gap.
 TEST(IdmLane, AsksLittleOfTheOneBehind) {
-  const Leader nobody;
+  const trajectory::Leader nobody;
   EXPECT_TRUE(change_accepted(kDriver, 10.0F, nobody, nobody));
   EXPECT_TRUE(change_accepted(kDriver, 10.0F, nobody, {0, 23.3F, 15.0F, 0.0F}));
   EXPECT_FALSE(change_accepted(kDriver, 10.0F, nobody, {0, 22.9F, 15.0F, 0.0F}));
@@ -64,15 +64,15 @@ TEST(IdmLane, AsksLittleOfTheOneBehind) {
 Trajectory plan_of(const LaneMap& map, const EgoState& ego, const std::vector<Track>& tracks) {
   auto planner = std::make_unique<IdmLanePlanner>();
   EXPECT_EQ(planner->init(Parameters{}), Status::kOk);
-  PlannerInput input;
+  planner::PlannerInput input;
   input.map = &map;
   input.start_ms = 100;
   input.ego = ego;
   input.tracks = test::track_list(tracks);
   Plan plan;
-  Explanation explanation;
+  planner::Explanation explanation;
   EXPECT_EQ(planner->plan(input, plan, explanation), Status::kOk);
-  EXPECT_TRUE(feasible(plan.trajectory, Parameters{}));
+  EXPECT_TRUE(trajectory::feasible(plan.trajectory, Parameters{}));
   return plan.trajectory;
 }
 

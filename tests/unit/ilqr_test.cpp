@@ -10,7 +10,7 @@
 #include "algo/trajectory/ilqr_backward.hpp"
 #include "tests/support/refinement_scenes.hpp"
 
-namespace s4tp {
+namespace s4tp::trajectory {
 namespace {
 
 using Random = std::mt19937;
@@ -277,4 +277,4 @@ TEST(IlqrPass, KeepsItsPromise) {
 }
 
 }  // namespace
-}  // namespace s4tp
+}  // namespace s4tp::trajectory

@@ -21,8 +21,8 @@ class Lists {
   }
   std::uint32_t now_ms = 5000;
   LaneMap map = test::straight_road(2, 400.0F);
-  SceneBuilder builder;
-  Scene scene;
+  scene::SceneBuilder builder;
+  scene::Scene scene;
 };
 
 /// Cars that stand every 10 m from `first_m` ahead of our box centre on.
@@ -46,7 +46,7 @@ TEST(KnownGround, ReachesAsFarAsTheFurthestOfTheList) {
   EXPECT_EQ(lists.scene.known.left_out, 2);
   lists.step(queue(3, 10.0F));
   EXPECT_EQ(lists.scene.known.left_out, 0);
-  EXPECT_EQ(lists.scene.known.radius_m, KnownGround::kEverywhereM);
+  EXPECT_EQ(lists.scene.known.radius_m, scene::KnownGround::kEverywhereM);
 }
 
 // CORE-036 A list of nobody that left somebody out vouches for nothing.

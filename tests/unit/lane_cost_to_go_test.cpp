@@ -6,7 +6,7 @@
 
 #include "tests/support/driving_scenes.hpp"
 
-namespace s4tp {
+namespace s4tp::planner {
 namespace {
 
 using namespace test;  // NOLINT: the map builders are the language of these tests
@@ -15,20 +15,21 @@ using namespace test;  // NOLINT: the map builders are the language of these tes
 /// m.
 struct Road {
   LaneMap map = straight_road(2, 300.0F, 10.0F);
-  Scene scene;
+  scene::Scene scene;
   LaneCostToGo cost_to_go;
 
   Road() {
     add_way(scene, map, path_of(map, {0}));
-    add_way(scene, map, path_of(map, {1}), Manoeuvre::kLeft).changes_needed = -1;
+    add_way(scene, map, path_of(map, {1}), scene::Manoeuvre::kLeft).changes_needed = -1;
     put_ego(scene, state_on(map, scene.ego_paths[0].path, 20.0F, 10.0F));
   }
   void vehicle(int path, float s_m, float speed_mps) {
     add_vehicle(scene, map, scene.ego_paths[path].path, s_m, speed_mps);
   }
   void look() {
-    KinematicSet constant_velocity;
-    for (const Agent& agent : scene.agents) (void)constant_velocity.agents.push(steady_future(map, agent));
+    satp::KinematicSet constant_velocity;
+    for (const scene::Agent& agent : scene.agents)
+      (void)constant_velocity.agents.push(steady_future(map, agent));
     cost_to_go.look(scene, constant_velocity, 0.0F, Parameters{});
   }
 };
@@ -126,11 +127,11 @@ TEST(LaneCostToGo, GapsAreAimedAt) {
   road.look();
   EXPECT_NEAR(road.cost_to_go.time_to_gap_s(1, 50.0F, 10.0F), 5.48F, 0.05F);
   EXPECT_EQ(road.cost_to_go.time_to_gap_s(1, 36.0F, 10.0F), 0.0F);
-  const MergeTarget aim = road.cost_to_go.merge_target(road.scene, 1);
+  const trajectory::MergeTarget aim = road.cost_to_go.merge_target(road.scene, 1);
   EXPECT_EQ(aim.path, 1);
   EXPECT_NEAR(aim.s_m, 5.63F, 0.05F);
   EXPECT_EQ(aim.speed_mps, 10.0F);
 }
 
 }  // namespace
-}  // namespace s4tp
+}  // namespace s4tp::planner

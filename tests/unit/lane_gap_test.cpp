@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-namespace s4tp {
+namespace s4tp::planner {
 namespace {
 
 constexpr float kSpeedMps = 10.0F;
@@ -99,4 +99,4 @@ TEST(LaneGap, BeforeOurLaneEnds) {
 }
 
 }  // namespace
-}  // namespace s4tp
+}  // namespace s4tp::planner

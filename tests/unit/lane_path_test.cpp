@@ -6,7 +6,7 @@
 
 #include "tests/support/lane_maps.hpp"
 
-namespace s4tp {
+namespace s4tp::scene {
 namespace {
 
 // 100 m along +x: at s = 40 we are at (40, 0), heading 0, no curvature, with the lane's limit and width.
@@ -147,4 +147,4 @@ TEST(LanePath, RepeatedVertexIsHarmless) {
 }
 
 }  // namespace
-}  // namespace s4tp
+}  // namespace s4tp::scene

@@ -14,12 +14,12 @@ namespace {
 using namespace test;  // NOLINT: the map builders are the language of these tests
 
 /// A vehicle at `s_m` of the first lane of a way.
-Agent vehicle_on(const LaneMap& map, const LanePath& way, float s_m) {
-  Scene scene;
+scene::Agent vehicle_on(const LaneMap& map, const scene::LanePath& way, float s_m) {
+  scene::Scene scene;
   return add_vehicle(scene, map, way, s_m, 5.0F);
 }
 
-LaneReach reach_of(const LaneMap& map, const Agent& agent) {
+LaneReach reach_of(const LaneMap& map, const scene::Agent& agent) {
   LaneReach reach;
   reach.measure(map, agent);
   return reach;
@@ -48,7 +48,7 @@ TEST(LaneReach, WhoIsOnNoLaneMayBeOnOneThatWasLeftOut) {
   CrossJunction cross = cross_junction();
   const LaneIndex in = cross.in[CrossJunction::kEast];
   const LaneIndex ahead = cross.connection[CrossJunction::kEast][CrossJunction::kStraight];
-  Agent vehicle;
+  scene::Agent vehicle;
   const Point start = cross.map.lanes[in].points[0];
   vehicle.track.centre = {start.x_m - 30.0F, start.y_m - 40.0F, 1.0F};
   EXPECT_EQ(reach_of(cross.map, vehicle).to_start_m(in), kNoWayM);
@@ -106,8 +106,8 @@ TEST(LaneReach, RingsAndFarLanes) {
 // OCC-003 Who is on no lane, or whose place is not a number, reaches none.
 TEST(LaneReach, WhoIsNowhereReachesNothing) {
   const LaneMap map = straight_road(2, 100.0F);
-  EXPECT_EQ(reach_of(map, Agent{}).to_start_m(0), kNoWayM);
-  Agent lost = vehicle_on(map, path_of(map, {0}), 40.0F);
+  EXPECT_EQ(reach_of(map, scene::Agent{}).to_start_m(0), kNoWayM);
+  scene::Agent lost = vehicle_on(map, path_of(map, {0}), 40.0F);
   lost.frenet[0].s_m = std::numeric_limits<float>::quiet_NaN();
   EXPECT_EQ(reach_of(map, lost).to_start_m(0), kNoWayM);
 }

@@ -6,7 +6,7 @@
 #include "algo/trajectory/along_path.hpp"
 #include "tests/support/crossing.hpp"
 
-namespace s4tp {
+namespace s4tp::trajectory {
 namespace {
 
 using test::Crossing;
@@ -62,7 +62,7 @@ TEST(StandingRoom, AllOfTheLane) {
 TEST(StandingRoom, WhomWePassDoesNotLeadUs) {
   Bystander passed(-0.8F);
   passed.scene.agents[0].lane = kNoLaneIndex;
-  const EgoPath& path = passed.scene.ego_paths[0];
+  const scene::EgoPath& path = passed.scene.ego_paths[0];
   EXPECT_EQ(find_leader(passed.scene, path, path.frenet.s_m, passed.parameters).agent, 0);
   EXPECT_FLOAT_EQ(passed.aside_m(), 0.7F);
   EXPECT_EQ(find_leader(passed.scene, path, path.frenet.s_m, passed.parameters).agent, -1);
@@ -90,15 +90,15 @@ TEST(StandingRoom, MovesAsideForRoom) {
       return 0.01F * static_cast<float>(*rc::gen::inRange(low, high));
     };
     Bystander bystander(0.0F);
-    Agent& agent = bystander.scene.agents[0];
+    scene::Agent& agent = bystander.scene.agents[0];
     agent.track.centre = {between(-1500, 500), between(-500, 500), between(-314, 315)};
     agent.track.length_m = between(300, 1200);
     const float aside_m = bystander.aside_m();
-    EgoPath& path = bystander.scene.ego_paths[0];
+    scene::EgoPath& path = bystander.scene.ego_paths[0];
     const auto room = [&] {
       const Box other{agent.track.centre, agent.track.length_m, agent.track.width_m};
       for (float s_m = path.frenet.s_m; s_m < path.frenet.s_m + 30.0F; s_m += 0.5F) {
-        const Pose line = path_point(bystander.map, path.path, s_m).pose;
+        const Pose line = scene::path_point(bystander.map, path.path, s_m).pose;
         const Point at = offset_point(line, 0.0F, path.aside_m);
         const Pose rear_axle{at.x_m, at.y_m, line.heading_rad};
         if (separation(ego_box(rear_axle, bystander.parameters), other) < kBystanderGapM) return false;
@@ -114,4 +114,4 @@ TEST(StandingRoom, MovesAsideForRoom) {
 }
 
 }  // namespace
-}  // namespace s4tp
+}  // namespace s4tp::trajectory

@@ -10,7 +10,7 @@
 #include "algo/planner/planner.hpp"
 #include "tests/support/lane_maps.hpp"
 
-namespace s4tp {
+namespace s4tp::planner {
 namespace {
 
 using test::car;
@@ -130,4 +130,4 @@ TEST(LeftOut, BehindAQueueWeStandBehindItsLast) {
 }
 
 }  // namespace
-}  // namespace s4tp
+}  // namespace s4tp::planner

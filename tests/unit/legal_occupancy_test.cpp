@@ -18,7 +18,7 @@ struct Approach : SharedGround {
     other(96.0F - to_entry_m, speed_mps);
     agent().known_ms = 5000;
   }
-  Agent& agent() { return scene.agents[0]; }
+  scene::Agent& agent() { return scene.agents[0]; }
   [[nodiscard]] ZoneOccupancy when(float lead_s = 0.0F) const {
     occupancy::LaneReach reach;
     reach.measure(map, scene.agents[0]);
@@ -160,10 +160,10 @@ TEST(LegalOccupancy, BendsAreDrivenAsFastAsTheyAllow) {
     const LaneIndex turn = bend ? add_lane(map, arc({0.0F, 0.0F, 0.0F}, 9.6F, 1.5707963F, kMaxLanePoints))
                                 : add_lane(map, {{0.0F, 0.0F}, {7.5F, 0.0F}, {15.08F, 0.0F}});
     link(map, before, turn);
-    Scene scene;
+    scene::Scene scene;
     scene.map = &map;
-    const Agent& agent = add_vehicle(scene, map, path_of(map, {before, turn}), 40.0F, 13.0F);
-    ConflictZone zone;
+    const scene::Agent& agent = add_vehicle(scene, map, path_of(map, {before, turn}), 40.0F, 13.0F);
+    scene::ConflictZone zone;
     zone.other_lane = turn;
     zone.other_entry_m = 8.0F;
     zone.other_exit_m = 14.0F;

@@ -40,7 +40,7 @@ class Keeper final : public campaign::Onlooker {
     ASSERT_TRUE(tap_->open(name_, "s4tp", "test", Parameters{}, reason)) << reason.text;
   }
   hal::Telemetry* telemetry() override { return &*tap_; }
-  Probe* probe() override { return &*tap_; }
+  planner::Probe* probe() override { return &*tap_; }
   void ticked(const campaign::Driver& driver) override {
     tap_->note_status(driver.core(), driver.bus());
     if (watch_.look().plan && watch_.cycle() != nullptr) kept.push_back({watch_.plan(), *watch_.cycle()});
@@ -111,7 +111,7 @@ TEST(LiveCycle, ClaimsHaveWords) {
 // a vehicle's futures add up; the cheapest candidate has part 0, the dearest 1; lines are finite.
 TEST(LiveCycle, TellsTheRecordsNumbers) {
   const Keeper::Kept& one = left_turn().kept.at(left_turn().kept.size() / 2);
-  const auto map = std::make_unique<HeatMap>(heat_map_of(one.plan, one.cycle, Parameters{}));
+  const auto map = std::make_unique<sadrf::HeatMap>(heat_map_of(one.plan, one.cycle, Parameters{}));
   const nlohmann::ordered_json json = cycle_json(one.plan, one.cycle, Parameters{}, map.get());
   EXPECT_EQ(json.at("t"), one.plan.plan.start_ms);
   ASSERT_EQ(static_cast<int>(json.at("vehicles").size()), one.cycle.scene.agents.size());
@@ -131,8 +131,8 @@ TEST(LiveCycle, TellsTheRecordsNumbers) {
   }
   EXPECT_EQ(least, 0.0);
   EXPECT_LE(most, 1.0);
-  EXPECT_EQ(json.at("haze").at("columns"), kHeatColumns);
-  EXPECT_EQ(json.at("stages").size(), static_cast<std::size_t>(kStageCount));
+  EXPECT_EQ(json.at("haze").at("columns"), sadrf::kHeatColumns);
+  EXPECT_EQ(json.at("stages").size(), static_cast<std::size_t>(planner::kStageCount));
   EXPECT_EQ(json.dump().find("null,null"), std::string::npos) << "a coordinate is not finite";
 }
 

@@ -28,7 +28,7 @@ float pair_of(const NetworkInput& input, int hdv, PairFeature feature) {
 /// We turn left from the south; one comes straight from the north, one waits east of the junction.
 struct Junction {
   CrossJunction cross = test::cross_junction();
-  Scene scene;
+  scene::Scene scene;
   NetworkInput input;
 
   Junction() {
@@ -154,7 +154,7 @@ TEST(NetworkInput, SaysWhoIsAhead) {
   const LaneMap map = test::straight_road(1, 400.0F);
   const float centre_x = 100.0F + 1.5F;  // rear axle to box centre
   NetworkInput input;
-  const Scene scene = test::scene_of(
+  const scene::Scene scene = test::scene_of(
       map, test::ego_at(100.0F, 0.0F, 0.0F, 10.0F),
       {test::car(1, centre_x + 20.0F, 0.0F, 0.0F, 10.0F), test::car(2, centre_x - 20.0F, 0.0F, 0.0F, 10.0F)});
   build_network_input(scene, kParameters, kLeadS, input);

@@ -11,7 +11,7 @@
 #include "algo/trajectory/ilqr_backward.hpp"
 #include "tests/support/refinement_scenes.hpp"
 
-namespace s4tp {
+namespace s4tp::trajectory {
 namespace {
 
 using test::RefinementScene;
@@ -20,7 +20,7 @@ using test::RefinementScene;
 std::unique_ptr<RefinementScene> braking(float acceleration_mps2, float speed_mps = 13.0F) {
   auto scene = std::make_unique<RefinementScene>();
   scene->map = test::straight_road(2, 300.0F);
-  const LanePath path = test::path_of(scene->map, {0});
+  const scene::LanePath path = test::path_of(scene->map, {0});
   (void)test::add_way(scene->scene, scene->map, path);
   const TrajectoryPoint start = test::state_on(scene->map, path, 50.0F, speed_mps);
   test::put_ego(scene->scene, start);
@@ -89,10 +89,10 @@ TEST(Optimizer, GoesOnUntilLittleIsLeft) {
 // from 0.5 s on is never nearer than before.
 TEST(Optimizer, MakesRoomForWhoIsNear) {
   const auto scene = braking(0.0F);
-  const LanePath path = test::path_of(scene->map, {0});
-  const Agent& agent = test::add_vehicle(scene->scene, scene->map, path, 53.0F, 13.0F, 2.25F);
+  const scene::LanePath path = test::path_of(scene->map, {0});
+  const scene::Agent& agent = test::add_vehicle(scene->scene, scene->map, path, 53.0F, 13.0F, 2.25F);
   (void)scene->constant_velocity.agents.push(test::steady_future(scene->map, agent));
-  AgentPrediction predicted;
+  satp::AgentPrediction predicted;
   (void)predicted.modes.push(test::steady_future(scene->map, agent));
   (void)scene->prediction.agents.push(predicted);
   EXPECT_TRUE(refine(*scene, 16).improved);
@@ -105,11 +105,11 @@ TEST(Optimizer, MakesRoomForWhoIsNear) {
 // keeps it, the refined plan keeps the check's 0.3 m as well.
 TEST(Optimizer, KeepsItsDistance) {
   const auto scene = braking(-6.0F);
-  const LanePath path = test::path_of(scene->map, {0});
+  const scene::LanePath path = test::path_of(scene->map, {0});
   const float front_m = scene->trajectory.points[kHorizonSteps].rear_axle.x_m + 4.0F;
-  const Agent& agent = test::add_vehicle(scene->scene, scene->map, path, front_m + 0.35F + 2.5F, 0.0F);
+  const scene::Agent& agent = test::add_vehicle(scene->scene, scene->map, path, front_m + 0.35F + 2.5F, 0.0F);
   (void)scene->constant_velocity.agents.push(test::steady_future(scene->map, agent));
-  AgentPrediction predicted;
+  satp::AgentPrediction predicted;
   (void)predicted.modes.push(test::steady_future(scene->map, agent));
   (void)scene->prediction.agents.push(predicted);
   EXPECT_TRUE(refine(*scene, 16).improved);
@@ -117,4 +117,4 @@ TEST(Optimizer, KeepsItsDistance) {
 }
 
 }  // namespace
-}  // namespace s4tp
+}  // namespace s4tp::trajectory

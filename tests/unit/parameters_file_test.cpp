@@ -39,7 +39,7 @@ TEST(ParametersFile, PresetsByName) {
   const Parameters parameters =
       load("[risk]\nwidening = 0.02\npreset = \"kolekar2020\"\nlook_ahead = \"fixed\"\n");
   Parameters expected;
-  choose_risk(FieldPreset::kKolekar2020, LookAhead::kFixed, expected);
+  sadrf::choose_risk(sadrf::FieldPreset::kKolekar2020, sadrf::LookAhead::kFixed, expected);
   expected.risk.widening = 0.02F;
   EXPECT_EQ(parameters_crc(parameters), parameters_crc(expected));
 }

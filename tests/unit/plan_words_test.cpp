@@ -34,7 +34,7 @@ void add_track(campaign::CycleTrace& cycle, std::uint8_t id, Pose centre, float 
 
 void hold_up(campaign::CycleTrace& cycle, safety::Cause cause, std::uint8_t track, float from_s = 0.0F,
              float needed_s = 0.0F) {
-  BlockingReason& blocking = cycle.record.explanation.blocking;
+  planner::BlockingReason& blocking = cycle.record.explanation.blocking;
   blocking.verdict = {cause, 0, from_s, needed_s};
   blocking.track = track;
   blocking.way_m = 40.0F;
@@ -56,7 +56,7 @@ TEST(PlanWords, FreeRoadNeedsNoReason) {
 TEST(PlanWords, NamesWhoIsNotToldOf) {
   campaign::CycleTrace cycle = plan(0.0F, 0.0F);
   hold_up(cycle, safety::Cause::kZone, 255, 3.2F, 4.1F);
-  BlockingReason& blocking = cycle.record.explanation.blocking;
+  planner::BlockingReason& blocking = cycle.record.explanation.blocking;
   blocking.verdict.agent = safety::kUnseen;
   cycle.record.explanation.tracks_left_out = 4;
   EXPECT_EQ(in_words(cycle),
@@ -136,12 +136,12 @@ TEST(PlanWords, FollowingAndNotPassing) {
   campaign::CycleTrace cycle = plan(8.0F, 8.0F);
   add_track(cycle, 7, {20.0F, 0.0F, 0.0F});
   add_track(cycle, 9, {-12.0F, 3.2F, 0.0F});
-  Explanation& e = cycle.record.explanation;
-  e.chosen.intent = Intent::kFollow;
+  planner::Explanation& e = cycle.record.explanation;
+  e.chosen.intent = trajectory::Intent::kFollow;
   e.leader_track = 7;
   e.leader_gap_m = 13.4F;
   EXPECT_EQ(in_words(cycle), "Driving on: the car ahead is 13 m away.");
-  e.beside = {{safety::Cause::kFollower, 1}, 9, Manoeuvre::kLeft, 40.0F};
+  e.beside = {{safety::Cause::kFollower, 1}, 9, scene::Manoeuvre::kLeft, 40.0F};
   EXPECT_EQ(in_words(cycle),
             "Driving on: the car ahead is 13 m away. No change to the left: the car behind on the left would "
             "have to "
@@ -156,7 +156,7 @@ TEST(PlanWords, OtherReasonsToSlowDown) {
 
   campaign::CycleTrace risky = plan(8.0F, 6.0F);
   add_track(risky, 7, {20.0F, 3.2F, 0.0F});
-  Explanation& e = risky.record.explanation;
+  planner::Explanation& e = risky.record.explanation;
   e.dominating_track = 7;
   e.chosen_cost.progress = -20.0F;
   e.runner_up_cost.progress = -25.0F;
@@ -168,7 +168,7 @@ TEST(PlanWords, OtherReasonsToSlowDown) {
 // Lane changes are named, minimum-risk manoeuvres say what was wrong.
 TEST(PlanWords, LaneChangesAndStops) {
   campaign::CycleTrace change = plan(10.0F, 10.0F);
-  change.record.explanation.manoeuvre = Manoeuvre::kLeft;
+  change.record.explanation.manoeuvre = scene::Manoeuvre::kLeft;
   EXPECT_EQ(in_words(change), "Changing to the left lane.");
 
   campaign::CycleTrace stop = plan(10.0F, 0.0F);
@@ -192,18 +192,18 @@ TEST(PlanWords, LaneChangesAndStops) {
 TEST(PlanWords, NumbersForAnEngineer) {
   campaign::CycleTrace cycle = plan(8.0F, 5.0F);
   add_track(cycle, 7, {20.0F, 0.0F, 0.0F});
-  Explanation& e = cycle.record.explanation;
+  planner::Explanation& e = cycle.record.explanation;
   e.candidate_count = 4;
   e.decisions = 2;
-  e.rejections[0] = e.rejections[1] = Rejection::kRefused;
-  e.rejections[2] = Rejection::kInfeasible;
+  e.rejections[0] = e.rejections[1] = trajectory::Rejection::kRefused;
+  e.rejections[2] = trajectory::Rejection::kInfeasible;
   e.chosen_cost.progress = -20.0F;
   e.chosen_cost.risk = 2.5F;
   e.runner_up_cost.progress = -15.0F;
-  e.runner_up_manoeuvre = Manoeuvre::kRight;
+  e.runner_up_manoeuvre = scene::Manoeuvre::kRight;
   e.dominating_track = 7;
   e.dominating_step = 11;
-  e.work[static_cast<int>(Stage::kPredict)] = 150;
+  e.work[static_cast<int>(planner::Stage::kPredict)] = 150;
   const std::string numbers = in_numbers(cycle);
   for (const char* part :
        {"cost -17.5 = progress -20.0", "risk 2.5", "runner-up: right", "cost -15.0",

@@ -16,7 +16,7 @@ namespace {
 class Fixed {
  public:
   [[nodiscard]] Status init(const Parameters&) { return Status::kOk; }
-  [[nodiscard]] Status plan(const PlannerInput& input, Plan& plan, Explanation&) {
+  [[nodiscard]] Status plan(const planner::PlannerInput& input, Plan& plan, planner::Explanation&) {
     plan = wish;
     plan.start_ms = input.start_ms;
     return status;
@@ -56,7 +56,7 @@ struct StraightRoad {
     (void)input.tracks.push(car);
   }
   LaneMap map;
-  PlannerInput input;
+  planner::PlannerInput input;
 };
 
 struct Answer {
@@ -70,7 +70,7 @@ Answer ask(const StraightRoad& road, const Plan& wish, Status status = Status::k
   guarded->inner().status = status;
   EXPECT_EQ(guarded->init(Parameters{}), Status::kOk);
   Answer answer;
-  Explanation explanation;
+  planner::Explanation explanation;
   answer.status = guarded->plan(road.input, answer.plan, explanation);
   return answer;
 }
@@ -145,8 +145,8 @@ TEST(BarePlanner, DrivesEvenWhatNoCheckWouldPass) {
   road.add_standing_car(24.0F);
   road.input.ego.speed_mps = 18.0F;
   Plan plan;
-  Explanation explanation;
-  const auto guarded = std::make_unique<Planner>();
+  planner::Explanation explanation;
+  const auto guarded = std::make_unique<planner::Planner>();
   ASSERT_EQ(guarded->init(Parameters{}), Status::kOk);
   (void)guarded->plan(road.input, plan, explanation);
   EXPECT_LT(plan.trajectory.points[10].speed_mps, 13.0F);

@@ -14,7 +14,7 @@
 #include "algo/trajectory/plan_limits.hpp"
 #include "tests/support/lane_maps.hpp"
 
-namespace s4tp {
+namespace s4tp::planner {
 namespace {
 
 using test::car;
@@ -35,7 +35,7 @@ class Drive {
     Plan next;
     const Status status = planner->plan(input, next, explanation);
     running = next;
-    EXPECT_TRUE(keeps_limits(running.trajectory, Parameters{})) << input.now_ms;  // CAND-020
+    EXPECT_TRUE(trajectory::keeps_limits(running.trajectory, Parameters{})) << input.now_ms;  // CAND-020
     input.now_ms += 100;
     input.start_ms += 100;
     input.tracks_ms = input.now_ms;
@@ -147,7 +147,7 @@ TEST(Planner, TakesNoRunningPlanThatCannotBeOurs) {
       ASSERT_EQ(drive.planner->plan(drive.input, plan, drive.explanation), Status::kInvalidInput)
           << which << " " << absurd;
       ASSERT_EQ(plan.kind, PlanKind::kMinimumRisk);
-      ASSERT_TRUE(keeps_limits(plan.trajectory, Parameters{}));
+      ASSERT_TRUE(trajectory::keeps_limits(plan.trajectory, Parameters{}));
       ASSERT_NEAR(plan.trajectory.points[0].rear_axle.x_m, drive.input.ego.rear_axle.x_m + 1.0F, 0.1F);
       drive.running = good;
     }
@@ -163,13 +163,13 @@ TEST(Planner, TakesNoRunningPlanBeyondTheCarsLimits) {
     for (int i = 0; i < kTrajectoryPoints; ++i) {
       TrajectoryPoint& point = drive.running.trajectory.points[i];
       point = drive.running.trajectory.points[i > 0 ? i - 1 : 0];
-      if (i > 0) point = bicycle_step(point, acceleration_mps2, 0.0F, kStepS);
+      if (i > 0) point = trajectory::bicycle_step(point, acceleration_mps2, 0.0F, kStepS);
     }
     Plan plan;
     drive.input.running = &drive.running;
     const Status expected = acceleration_mps2 > 3.5F ? Status::kInvalidInput : Status::kOk;
     EXPECT_EQ(drive.planner->plan(drive.input, plan, drive.explanation), expected);
-    EXPECT_TRUE(keeps_limits(plan.trajectory, Parameters{}));
+    EXPECT_TRUE(trajectory::keeps_limits(plan.trajectory, Parameters{}));
   }
 }
 
@@ -294,12 +294,13 @@ class Witness final : public Probe {
  public:
   void stage_begin(Stage) override {}
   void stage_end(Stage) override {}
-  void cycle_done(const Scene& of, const PredictionSet& expected, const RiskProfile&) override {
+  void cycle_done(const scene::Scene& of, const satp::PredictionSet& expected,
+                  const sadrf::RiskProfile&) override {
     scene = of;
     prediction = expected;
   }
-  Scene scene;
-  PredictionSet prediction;
+  scene::Scene scene;
+  satp::PredictionSet prediction;
 };
 
 // CORE-072: behind a slower car every plan carries the risk of each of its steps: that of the very trajectory
@@ -310,15 +311,15 @@ TEST(Planner, EveryPlanCarriesItsRiskAndItsCause) {
   drive.input.ego.speed_mps = 12.0F;
   ASSERT_TRUE(drive.input.tracks.push(car(7, 52.0F, 0.0F, 0.0F, 8.0F)));
   const auto witness = std::make_unique<Witness>();
-  const auto area = std::make_unique<DrivableArea>();
+  const auto area = std::make_unique<sadrf::DrivableArea>();
   drive.planner->probe = witness.get();
   for (int cycle = 0; cycle < 10; ++cycle) {
     ASSERT_EQ(drive.step(), Status::kOk);
     const Explanation& why = drive.explanation;
-    RiskProfile expected;
-    build_drivable(witness->scene.map, *area);
-    exact_risk(witness->scene, *area, witness->prediction, {}, drive.running.trajectory, Parameters{},
-               expected);
+    sadrf::RiskProfile expected;
+    sadrf::build_drivable(witness->scene.map, *area);
+    sadrf::exact_risk(witness->scene, *area, witness->prediction, {}, drive.running.trajectory, Parameters{},
+                      expected);
     float largest = 0.0F;
     for (int i = 0; i < kHorizonSteps; ++i) {
       ASSERT_EQ(why.risk.obstacle[i], expected.obstacle[i]) << cycle << ' ' << i;
@@ -361,4 +362,4 @@ TEST(Planner, IsDeterministic) {
 }
 
 }  // namespace
-}  // namespace s4tp
+}  // namespace s4tp::planner

@@ -20,19 +20,19 @@ struct Road {
         scene(test::scene_of(map, ego, tracks)) {
     predictor.encode(scene, parameters, scene.time_ms);
     predictor.constant_velocity(others);
-    build_reference(map, scene.ego_paths[0].path, 20.0F, 10.0F, parameters, line);
+    trajectory::build_reference(map, scene.ego_paths[0].path, 20.0F, 10.0F, parameters, line);
   }
   /// Every vehicle as "keeps doing what it does", which is easy to work out by hand.
   [[nodiscard]] PdCost cost_of(const Trajectory& trajectory, int path = 0) const {
-    return pd_features(scene, path, line, trajectory, PredictionSet{}, others, parameters);
+    return pd_features(scene, path, line, trajectory, satp::PredictionSet{}, others, parameters);
   }
   LaneMap map;
   EgoState ego;
   Parameters parameters;
-  Scene scene;
-  Predictor predictor;
-  KinematicSet others;
-  ReferenceLine line;
+  scene::Scene scene;
+  satp::Predictor predictor;
+  satp::KinematicSet others;
+  trajectory::ReferenceLine line;
 };
 
 // 1 * 0.1 + 0.5 * 0.2 + 0.1 * 0.3 + 0.1 * 0.4 + 1 * 0.5 + 5 * 0.6 + 10 * 0.7 = 10.77.
@@ -98,13 +98,13 @@ TEST(PredictiveDecision, StopsForAStandingCar) {
   const LaneMap map = test::straight_road(1, 300.0F);
   auto planner = std::make_unique<PredictiveDecisionPlanner<false>>();
   ASSERT_EQ(planner->init(Parameters{}), Status::kOk);
-  PlannerInput input;
+  planner::PlannerInput input;
   input.map = &map;
   input.start_ms = 100;
   input.ego = test::ego_at(20.0F, 0.0F, 0.0F, 10.0F);
   (void)input.tracks.push(test::car(1, 46.5F, 0.0F, 0.0F, 0.0F));
   Plan plan;
-  Explanation explanation;
+  planner::Explanation explanation;
   ASSERT_EQ(planner->plan(input, plan, explanation), Status::kOk);
   EXPECT_LT(plan.trajectory.points[kHorizonSteps].rear_axle.x_m, 40.0F);  // its rear is at 44 m
 }

@@ -7,13 +7,13 @@
 #include "tests/support/lane_maps.hpp"
 #include "tests/support/scene_support.hpp"
 
-namespace s4tp {
+namespace s4tp::satp {
 namespace {
 
 using test::CrossJunction;
 
 struct Predicted {
-  Scene scene;
+  scene::Scene scene;
   Predictor predictor;
   PredictionSet set;
   KinematicSet constant_velocity;
@@ -225,4 +225,4 @@ TEST(Predictor, CountsItsWork) {
 }
 
 }  // namespace
-}  // namespace s4tp
+}  // namespace s4tp::satp

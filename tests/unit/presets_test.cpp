@@ -4,7 +4,7 @@
 
 #include "algo/sadrf/field.hpp"
 
-namespace s4tp {
+namespace s4tp::sadrf {
 
 // CORE-071: the default parameters are the paper's preset with the look-ahead that shrinks, but for the
 // threshold.
@@ -42,4 +42,4 @@ TEST(Presets, EveryPairIsValid) {
   }
 }
 
-}  // namespace s4tp
+}  // namespace s4tp::sadrf

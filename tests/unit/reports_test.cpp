@@ -11,7 +11,7 @@
 namespace s4tp::ecu {
 namespace {
 
-wire::PlanReason sent(const Explanation& explanation) {
+wire::PlanReason sent(const planner::Explanation& explanation) {
   hal::linux_host::FakeBus bus;
   Reporter reporter;
   reporter.plan(bus, 1, 2, explanation);
@@ -23,7 +23,7 @@ wire::PlanReason sent(const Explanation& explanation) {
 // ECU-101 Four vehicles and 200 lanes were left out, of which 31 can be said; what holds us up is one of them, then
 // it is vehicle 7, then nobody.
 TEST(Reports, SayWhomThePlanWasNotToldOf) {
-  Explanation explanation;
+  planner::Explanation explanation;
   explanation.tracks_left_out = 4;
   explanation.lanes_left_out = 200;
   explanation.blocking.verdict.cause = safety::Cause::kZone;
@@ -34,8 +34,8 @@ TEST(Reports, SayWhomThePlanWasNotToldOf) {
   explanation.blocking.verdict.agent = 3;
   explanation.blocking.track = 7;
   EXPECT_EQ(sent(explanation).unseen, 0);
-  EXPECT_EQ(sent(Explanation{}).unseen, 0);
-  EXPECT_EQ(sent(Explanation{}).tracks_left_out, 0);
+  EXPECT_EQ(sent(planner::Explanation{}).unseen, 0);
+  EXPECT_EQ(sent(planner::Explanation{}).tracks_left_out, 0);
 }
 
 }  // namespace

@@ -9,16 +9,16 @@
 #include "algo/sadrf/box_integral.hpp"
 #include "algo/sadrf/field.hpp"
 
-namespace s4tp {
+namespace s4tp::sadrf {
 namespace {
 
 /// A scene with everything the risk needs, and shorthand to fill it.
 struct Stage {
-  Scene scene;
+  scene::Scene scene;
   LaneMap map;
   DrivableArea area;
-  PredictionSet prediction;
-  KinematicSet others;
+  satp::PredictionSet prediction;
+  satp::KinematicSet others;
   Trajectory trajectory;
   Parameters parameters;
   RiskProfile profile;
@@ -33,8 +33,8 @@ struct Stage {
     }
   }
 
-  static Mode straight(const Pose& start, float speed_mps, float probability) {
-    Mode mode;
+  static satp::Mode straight(const Pose& start, float speed_mps, float probability) {
+    satp::Mode mode;
     mode.probability = probability;
     for (int i = 0; i < kHorizonSteps; ++i) {
       mode.steps[i] = shift_ahead(start, speed_mps * kStepS * static_cast<float>(i + 1));
@@ -44,7 +44,7 @@ struct Stage {
 
   /// A 5 x 1.8 m car, straight on at constant speed. \return its index
   int add_car(const Pose& centre, float speed_mps) {
-    Agent agent;
+    scene::Agent agent;
     agent.track.centre = centre;
     agent.track.speed_mps = speed_mps;
     agent.track.length_m = 5.0F;
@@ -55,8 +55,8 @@ struct Stage {
   }
 
   /// Gives agent `index` two predicted futures instead of its kinematic one.
-  void predict(int index, const Mode& one, const Mode& two) {
-    AgentPrediction of;
+  void predict(int index, const satp::Mode& one, const satp::Mode& two) {
+    satp::AgentPrediction of;
     of.agent = static_cast<std::uint8_t>(index);
     EXPECT_TRUE(of.modes.push(one));
     EXPECT_TRUE(of.modes.push(two));
@@ -214,7 +214,7 @@ TEST(Risk, ModesAddAndVehiclesCover) {
 
   const auto split = stage_with_straight_drive(12.0F);
   const int car = split->add_car(there, 0.0F);
-  const Mode half = Stage::straight(there, 12.0F, 0.5F);
+  const satp::Mode half = Stage::straight(there, 12.0F, 0.5F);
   split->predict(car, half, half);
   EXPECT_NEAR(split->exact().obstacle[3], once, 1e-4F * once);
 
@@ -264,7 +264,7 @@ TEST(Risk, AgreesWithTheGridOfTheWholeScene) {
         if (in_box(stage->others.agents[agent].steps[kStep], point)) presence = 1.0F;
       }
       float third = 0.0F;
-      for (const Mode& mode : stage->prediction.agents[0].modes) {
+      for (const satp::Mode& mode : stage->prediction.agents[0].modes) {
         if (in_box(mode.steps[kStep], point)) third += mode.probability;
       }
       presence = std::max(presence, third);
@@ -375,4 +375,4 @@ TEST(Risk, EnoughWorkChangesNothing) {
   EXPECT_EQ(whole.dominating_step, enough.profile.dominating_step);
 }
 
-}  // namespace s4tp
+}  // namespace s4tp::sadrf

@@ -66,11 +66,11 @@ class CFacade : public testing::Test {
 // API-011: ten cycles beside the planner itself; every number of every plan and of its explanation is the
 // same.
 TEST_F(CFacade, PlansAsThePlannerDoes) {
-  const auto planner = std::make_unique<Planner>();
+  const auto planner = std::make_unique<planner::Planner>();
   ASSERT_EQ(planner->init(Parameters{}), Status::kOk);
-  PlannerInput core;
+  planner::PlannerInput core;
   Plan expected;
-  Explanation reason;
+  planner::Explanation reason;
   int driven = 0;
   for (int cycle = 0; cycle < 10; ++cycle) {
     input.running = &plan;
@@ -113,10 +113,10 @@ TEST_F(CFacade, PlansAsThePlannerDoes) {
     int rejected = 0;
     int all = 0;
     for (int i = 0; i < reason.candidate_count; ++i)
-      rejected += reason.rejections[i] != Rejection::kNone ? 1 : 0;
+      rejected += reason.rejections[i] != trajectory::Rejection::kNone ? 1 : 0;
     for (const std::uint8_t count : why.rejected) all += count;
     EXPECT_EQ(all, rejected);
-    for (int i = 0; i < kStageCount; ++i) EXPECT_EQ(why.work[i], reason.work[i]);
+    for (int i = 0; i < planner::kStageCount; ++i) EXPECT_EQ(why.work[i], reason.work[i]);
 
     input.now_ms += 100;
     s4tp_plan_point now;
@@ -227,19 +227,21 @@ TEST_F(CFacade, AnswersInvalidInputWithMinimumRisk) {
   EXPECT_EQ(plan.kind, static_cast<std::uint32_t>(S4TP_PLAN_MINIMUM_RISK));
 }
 
-// API-017: a list of nobody that left 300 out vouches for no ground at all: at 8 m/s no plan is safe, and the
-// explanation says for whom. The same list, nobody left out: we drive. Of 300 the explanation tells 255.
+// API-017: a list of nobody that left 300 out vouches for no ground at all: at 8 m/s only braking as hard as the
+// fail-safe is left, and the explanation says for whom. The same list, nobody left out: we drive. Of 300 it tells 255.
 TEST_F(CFacade, WhomTheListLeftOutIsReckonedWith) {
   tracks.count = 0;
   EXPECT_EQ(plan_now(), S4TP_OK);
   EXPECT_EQ(why.tracks_left_out, 0);
   EXPECT_EQ(why.unseen, 0);
+  EXPECT_GT(plan.points[30].speed_mps, 5.0F);
   input.now_ms += 100;
   input.start_ms += 100;
   tracks.time_ms += 100;
   tracks.left_out = 300;
   map.lanes_left_out = 7;
-  EXPECT_EQ(plan_now(), S4TP_NO_SAFE_PLAN);
+  EXPECT_EQ(plan_now(), S4TP_OK);
+  EXPECT_EQ(plan.points[20].speed_mps, 0.0F);
   EXPECT_EQ(why.tracks_left_out, 255);
   EXPECT_EQ(why.lanes_left_out, 7);
   EXPECT_EQ(why.unseen, 1);

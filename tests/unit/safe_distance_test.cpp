@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace s4tp {
+namespace s4tp::occupancy {
 namespace {
 
 // RSS-001 At 13.9 m/s both: 13.9 * 0.5 + 0.5 * 2 * 0.25 + 14.9^2 / 10 - 13.9^2 / 16 = 6.95 + 0.25 + 22.20
@@ -16,4 +16,4 @@ TEST(Rss, SafeDistanceByHand) {
 }
 
 }  // namespace
-}  // namespace s4tp
+}  // namespace s4tp::occupancy

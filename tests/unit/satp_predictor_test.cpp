@@ -16,7 +16,7 @@
 #include "tests/support/random_network.hpp"
 #include "tests/support/scene_support.hpp"
 
-namespace s4tp {
+namespace s4tp::satp {
 namespace {
 
 using test::CrossJunction;
@@ -31,7 +31,7 @@ struct Junction {
   EgoState ego = test::ego_at(1.6F, -35.0F, 1.5707963F, 9.0F);
   std::vector<Track> tracks = {test::car(1, -35.0F, -1.6F, 0.0F, 10.0F),
                                test::car(2, -1.6F, 40.0F, -1.5707963F, 8.0F)};
-  Scene scene;
+  scene::Scene scene;
   satp::EncoderScratch scratch;
   SatpPredictor predictor;
   PredictionSet set;
@@ -129,7 +129,7 @@ TEST(PredictionTrust, IsLostAndWonBack) {
   EXPECT_EQ(trust.of(id), 1.0F);
   const auto half_a_second = [&](float off_m) {
     trust.remember(junction.scene, prediction, junction.scene.time_ms + 100);
-    Scene later = junction.scene;
+    scene::Scene later = junction.scene;
     later.time_ms += 600;
     for (int i = 0; i < later.watched; ++i) {
       later.agents[i].track.centre = prediction.agents[i].modes[0].steps[4];
@@ -163,7 +163,7 @@ TEST(SatpPredictor, LostTrustGoesToTheKinematicFuture) {
   for (int loss = 1; loss <= 3; ++loss) {
     const PredictionSet prediction = junction.predict(satp::Weights{}, nullptr);
     trust.remember(junction.scene, prediction, junction.scene.time_ms + 100);
-    Scene later = junction.scene;
+    scene::Scene later = junction.scene;
     later.time_ms += 600;
     for (int i = 0; i < later.watched; ++i) later.agents[i].track.centre.x_m += 500.0F;
     trust.observe(later, 0.4F);
@@ -199,13 +199,13 @@ TEST(SatpPlanner, UsesTheWeightsItIsGiven) {
   satp::Weights carried;
   const satp::ShippedWeights shipped = satp::shipped_weights();
   const auto first_plan = [&](const void* image, satp::WeightStatus expected) {
-    const auto planner = std::make_unique<Planner>();
+    const auto planner = std::make_unique<planner::Planner>();
     EXPECT_EQ(planner->init(kParameters), Status::kOk);
     EXPECT_EQ(planner->weight_status(), satp::Weights::check(shipped.image, shipped.size_bytes, carried));
     EXPECT_EQ(planner->use_weights(image, satp::kImageBytes), expected);
     EXPECT_EQ(planner->init(kParameters), Status::kOk);
     EXPECT_EQ(planner->weight_status(), expected);
-    PlannerInput input;
+    planner::PlannerInput input;
     input.now_ms = 1000;
     input.start_ms = 1100;
     input.ego = test::ego_at(100.0F, 0.0F, 0.0F, 12.0F);
@@ -214,7 +214,7 @@ TEST(SatpPlanner, UsesTheWeightsItIsGiven) {
     input.tracks_ms = 1000;
     input.map = &map;
     Plan plan;
-    Explanation explanation;
+    planner::Explanation explanation;
     EXPECT_EQ(planner->plan(input, plan, explanation), Status::kOk);
     EXPECT_EQ(explanation.learned, expected == satp::WeightStatus::kOk);
     risk = explanation.chosen_cost.risk;
@@ -231,4 +231,4 @@ TEST(SatpPlanner, UsesTheWeightsItIsGiven) {
 }
 
 }  // namespace
-}  // namespace s4tp
+}  // namespace s4tp::satp

@@ -14,7 +14,7 @@ namespace {
 
 using test::CrossJunction;
 
-float sum_of_probabilities(const Agent& agent) {
+float sum_of_probabilities(const scene::Agent& agent) {
   float sum = 0.0F;
   for (int i = 0; i < agent.paths.size(); ++i) sum += agent.path_probability[i];
   return sum;
@@ -39,8 +39,8 @@ class Drive {
   }
 
   std::uint32_t now_ms = 5000;
-  SceneBuilder builder;
-  Scene scene;
+  scene::SceneBuilder builder;
+  scene::Scene scene;
   Parameters parameters;
 
  private:
@@ -50,14 +50,14 @@ class Drive {
 // Three lanes: keep, then left, then right; each 50 m into its lane.
 TEST(SceneBuilder, OffersKeepLeftRight) {
   const LaneMap map = test::straight_road(3, 200.0F);
-  const Scene scene = test::scene_of(map, test::ego_at(50.0F, 3.0F, 0.0F, 10.0F), {});
+  const scene::Scene scene = test::scene_of(map, test::ego_at(50.0F, 3.0F, 0.0F, 10.0F), {});
   ASSERT_EQ(scene.ego_paths.size(), 3);
-  EXPECT_EQ(scene.ego_paths[0].manoeuvre, Manoeuvre::kKeep);
+  EXPECT_EQ(scene.ego_paths[0].manoeuvre, scene::Manoeuvre::kKeep);
   EXPECT_EQ(scene.ego_paths[0].path.lanes[0].lane, 1);
   EXPECT_NEAR(scene.ego_paths[0].frenet.d_m, -0.2F, 1e-4F);
-  EXPECT_EQ(scene.ego_paths[1].manoeuvre, Manoeuvre::kLeft);
+  EXPECT_EQ(scene.ego_paths[1].manoeuvre, scene::Manoeuvre::kLeft);
   EXPECT_EQ(scene.ego_paths[1].path.lanes[0].lane, 2);
-  EXPECT_EQ(scene.ego_paths[2].manoeuvre, Manoeuvre::kRight);
+  EXPECT_EQ(scene.ego_paths[2].manoeuvre, scene::Manoeuvre::kRight);
   EXPECT_NEAR(scene.ego_paths[2].frenet.s_m, 50.0F, 1e-3F);
   EXPECT_NEAR(scene.ego_paths[0].goal_s_m, 200.0F, 1e-3F);
 }
@@ -69,8 +69,8 @@ TEST(SceneBuilder, RemembersHowLongWeWaited) {
   LaneMap map = test::straight_road(1, 200.0F);
   const LaneIndex across = test::add_lane(map, {{100.0F, -50.0F}, {100.0F, 50.0F}});
   test::add_conflict(map, 0, across, Priority::kFirstYields);
-  SceneBuilder builder;
-  Scene scene;
+  scene::SceneBuilder builder;
+  scene::Scene scene;
   std::uint32_t now_ms = 1000;
   const auto waited_s = [&](float x_m, float speed_mps, std::uint32_t step_ms = 100) {
     now_ms += step_ms;
@@ -96,8 +96,8 @@ TEST(SceneBuilder, RemembersHowLongWeWaited) {
 // been seen goes on.
 TEST(SceneBuilder, CountsHowLongSomebodyStands) {
   const LaneMap map = test::straight_road(1, 200.0F);
-  SceneBuilder builder;
-  Scene scene;
+  scene::SceneBuilder builder;
+  scene::Scene scene;
   std::uint32_t now_ms = 1000;
   const auto step = [&](float speed_mps) {
     now_ms += 100;
@@ -117,8 +117,8 @@ TEST(SceneBuilder, CountsHowLongSomebodyStands) {
 
 // No map at all, and a map without a lane under us: kNoLane, no paths, but the others are still there.
 TEST(SceneBuilder, SaysThatThereIsNoLane) {
-  SceneBuilder builder;
-  Scene scene;
+  scene::SceneBuilder builder;
+  scene::Scene scene;
   const Parameters parameters;
   const TrackList tracks = test::track_list({test::car(1, 20.0F, 0.0F, 0.0F, 5.0F)});
   const EgoState ego = test::ego_at(0.0F, 50.0F, 0.0F, 5.0F);
@@ -132,8 +132,8 @@ TEST(SceneBuilder, SaysThatThereIsNoLane) {
 
 // CORE-005 An ego pose that is not a number makes an empty scene and says so.
 TEST(SceneBuilder, RefusesAnEgoThatIsNotFinite) {
-  SceneBuilder builder;
-  Scene scene;
+  scene::SceneBuilder builder;
+  scene::Scene scene;
   const Parameters parameters;
   const LaneMap map = test::straight_road(1, 100.0F);
   const EgoState ego = test::ego_at(std::numeric_limits<float>::quiet_NaN(), 0.0F, 0.0F, 5.0F);
@@ -144,7 +144,7 @@ TEST(SceneBuilder, RefusesAnEgoThatIsNotFinite) {
 // 20 m before its lane begins, heading for it: the lane goes on straight backwards, s = -20.
 TEST(SceneBuilder, TakesTheLaneThatBeginsAhead) {
   const LaneMap map = test::straight_road(1, 100.0F);
-  const Scene scene = test::scene_of(map, test::ego_at(-20.0F, 0.2F, 0.0F, 8.0F), {});
+  const scene::Scene scene = test::scene_of(map, test::ego_at(-20.0F, 0.2F, 0.0F, 8.0F), {});
   ASSERT_EQ(scene.ego_paths.size(), 1);
   EXPECT_NEAR(scene.ego_paths[0].frenet.s_m, -20.0F, 0.1F);
 }
@@ -153,8 +153,8 @@ TEST(SceneBuilder, TakesTheLaneThatBeginsAhead) {
 // drifting back are still on lane 1 at 1.4 m.
 TEST(SceneBuilder, EgoLaneHasHysteresis) {
   const LaneMap map = test::straight_road(2, 200.0F);
-  SceneBuilder builder;
-  Scene scene;
+  scene::SceneBuilder builder;
+  scene::Scene scene;
   const Parameters parameters;
   std::uint32_t now_ms = 0;
   const auto lane_at = [&](float y_m) {
@@ -177,9 +177,9 @@ TEST(SceneBuilder, FollowsTheRouteThroughTheJunction) {
   for (const CrossJunction::Turn turn :
        {CrossJunction::kLeft, CrossJunction::kStraight, CrossJunction::kRight}) {
     test::set_route(cross, CrossJunction::kEast, turn);
-    const Scene scene = test::scene_of(cross.map, test::ego_at(-40.0F, -1.6F, 0.0F, 8.0F), {});
+    const scene::Scene scene = test::scene_of(cross.map, test::ego_at(-40.0F, -1.6F, 0.0F, 8.0F), {});
     ASSERT_EQ(scene.ego_paths.size(), 1);
-    const EgoPath& path = scene.ego_paths[0];
+    const scene::EgoPath& path = scene.ego_paths[0];
     ASSERT_GE(path.path.lanes.size(), 3);
     EXPECT_EQ(path.path.lanes[1].lane, cross.connection[CrossJunction::kEast][turn]);
     EXPECT_NEAR(path.goal_s_m, path.path.length_m, 0.1F);
@@ -192,14 +192,14 @@ TEST(SceneBuilder, FollowsTheRouteThroughTheJunction) {
 TEST(SceneBuilder, FindsTheZonesOfALeftTurn) {
   CrossJunction cross = test::cross_junction();
   test::set_route(cross, CrossJunction::kEast, CrossJunction::kLeft);
-  const Scene scene = test::scene_of(cross.map, test::ego_at(-40.0F, -1.6F, 0.0F, 8.0F), {});
-  const EgoPath& path = scene.ego_paths[0];
+  const scene::Scene scene = test::scene_of(cross.map, test::ego_at(-40.0F, -1.6F, 0.0F, 8.0F), {});
+  const scene::EgoPath& path = scene.ego_paths[0];
   ASSERT_FALSE(path.zones.empty());
   EXPECT_NEAR(path.zones[0].stop_s_m, 51.0F, 1e-3F);
   bool oncoming = false;
   bool from_left = false;
   float last_s_m = 0.0F;
-  for (const ConflictZone& zone : path.zones) {
+  for (const scene::ConflictZone& zone : path.zones) {
     EXPECT_GE(zone.entry_s_m, last_s_m);
     last_s_m = zone.entry_s_m;
     EXPECT_LE(zone.entry_s_m, zone.exit_s_m);
@@ -216,11 +216,11 @@ TEST(SceneBuilder, FindsTheZonesOfALeftTurn) {
 // The same conflict seen from both sides: whoever yields on the ramp has priority over on the road.
 TEST(SceneBuilder, ConvertsThePriorityToOurView) {
   const test::Merge merge = test::merge_road();
-  const Scene ramp = test::scene_of(merge.map, test::ego_at(-50.0F, -8.75F, 0.17F, 8.0F), {});
+  const scene::Scene ramp = test::scene_of(merge.map, test::ego_at(-50.0F, -8.75F, 0.17F, 8.0F), {});
   ASSERT_EQ(ramp.ego_paths[0].zones.size(), 1);
   EXPECT_EQ(ramp.ego_paths[0].zones[0].priority, Priority::kFirstYields);
   EXPECT_EQ(ramp.ego_paths[0].zones[0].other_lane, merge.main_joint);
-  const Scene road = test::scene_of(merge.map, test::ego_at(-50.0F, 0.0F, 0.0F, 8.0F), {});
+  const scene::Scene road = test::scene_of(merge.map, test::ego_at(-50.0F, 0.0F, 0.0F, 8.0F), {});
   ASSERT_EQ(road.ego_paths[0].zones.size(), 1);
   EXPECT_EQ(road.ego_paths[0].zones[0].priority, Priority::kFirstHasPriority);
   EXPECT_EQ(road.ego_paths[0].zones[0].other_lane, merge.ramp_joint);
@@ -230,9 +230,9 @@ TEST(SceneBuilder, ConvertsThePriorityToOurView) {
 // A vehicle before the junction may go three ways; they end in three different lanes.
 TEST(SceneBuilder, AgentsBranchAtTheJunction) {
   const CrossJunction cross = test::cross_junction();
-  const Scene scene = test::scene_of(cross.map, test::ego_at(-40.0F, -1.6F, 0.0F, 8.0F),
-                                     {test::car(1, 1.6F, -30.0F, 1.5708F, 12.0F)});
-  const Agent& agent = scene.agents[0];
+  const scene::Scene scene = test::scene_of(cross.map, test::ego_at(-40.0F, -1.6F, 0.0F, 8.0F),
+                                            {test::car(1, 1.6F, -30.0F, 1.5708F, 12.0F)});
+  const scene::Agent& agent = scene.agents[0];
   ASSERT_EQ(agent.paths.size(), 3);
   EXPECT_NEAR(sum_of_probabilities(agent), 1.0F, 1e-5F);
   EXPECT_EQ(agent.paths[0].lanes[1].lane, cross.connection[CrossJunction::kNorth][CrossJunction::kStraight]);
@@ -245,12 +245,12 @@ TEST(SceneBuilder, AgentsBranchAtTheJunction) {
 TEST(SceneBuilder, SpeedAndYawTellWhoTurns) {
   const CrossJunction cross = test::cross_junction();
   const EgoState ego = test::ego_at(-40.0F, -1.6F, 0.0F, 8.0F);
-  const Scene fast = test::scene_of(cross.map, ego, {test::car(1, 1.6F, -11.0F, 1.5708F, 13.0F)});
+  const scene::Scene fast = test::scene_of(cross.map, ego, {test::car(1, 1.6F, -11.0F, 1.5708F, 13.0F)});
   EXPECT_GT(fast.agents[0].path_probability[0], 0.9F);
   Track turning = test::car(1, 1.6F, -9.0F, 1.65F, 5.0F);
   turning.yaw_rate_radps = 0.3F;
   turning.acceleration_mps2 = -1.5F;
-  const Scene slow = test::scene_of(cross.map, ego, {turning});
+  const scene::Scene slow = test::scene_of(cross.map, ego, {turning});
   EXPECT_EQ(slow.agents[0].paths[0].lanes[1].lane,
             cross.connection[CrossJunction::kNorth][CrossJunction::kLeft]);
 }
@@ -262,7 +262,7 @@ TEST(SceneBuilder, KeepsSiblingWaysInsideTheJunction) {
   const Pose pose = test::on_lane(cross.map.lanes[left], 3.0F);
   Track track = test::car(1, pose.x_m, pose.y_m, pose.heading_rad, 6.0F);
   track.yaw_rate_radps = 6.0F / 9.6F;
-  const Scene scene = test::scene_of(cross.map, test::ego_at(-40.0F, -1.6F, 0.0F, 8.0F), {track});
+  const scene::Scene scene = test::scene_of(cross.map, test::ego_at(-40.0F, -1.6F, 0.0F, 8.0F), {track});
   EXPECT_GE(scene.agents[0].paths.size(), 2);
   EXPECT_EQ(scene.agents[0].paths[0].lanes[0].lane, left);
 }
@@ -270,10 +270,10 @@ TEST(SceneBuilder, KeepsSiblingWaysInsideTheJunction) {
 // Lateral speed 15 sin(0.06) = 0.9 m/s at 0.4 m left of the centre: changing to the left lane.
 TEST(SceneBuilder, SeesALaneChangeUnderWay) {
   const LaneMap map = test::straight_road(2, 300.0F);
-  const Scene scene =
+  const scene::Scene scene =
       test::scene_of(map, test::ego_at(20.0F, 3.2F, 0.0F, 10.0F),
                      {test::car(1, 50.0F, 0.4F, 0.06F, 15.0F), test::car(2, 80.0F, 0.4F, 0.0F, 15.0F)});
-  const Agent* changing = test::find_agent(scene, 1);
+  const scene::Agent* changing = test::find_agent(scene, 1);
   ASSERT_NE(changing, nullptr);
   ASSERT_EQ(changing->paths.size(), 2);
   EXPECT_EQ(changing->paths[0].lanes[0].lane, 1);
@@ -291,8 +291,8 @@ TEST(SceneBuilder, BringsTracksForward) {
 // Around a bend the way forward is the lane, not the tangent: still on the circle of 20 m.
 TEST(SceneBuilder, BringsTracksForwardAlongTheirLane) {
   const LaneMap map = test::curved_road(20.0F, 1.5F);
-  SceneBuilder builder;
-  Scene scene;
+  scene::SceneBuilder builder;
+  scene::Scene scene;
   const Parameters parameters;
   const Pose pose = test::on_lane(map.lanes[1], 4.09F);
   const TrackList tracks = test::track_list({test::car(1, pose.x_m, pose.y_m, pose.heading_rad, 10.0F)});
@@ -315,7 +315,7 @@ TEST(SceneBuilder, KeepsVehiclesThatShareAnId) {
     EXPECT_EQ(drive.scene.id_clashes, 2);
     std::set<int> ids;
     std::set<int> places_m;
-    for (const Agent& agent : drive.scene.agents) {
+    for (const scene::Agent& agent : drive.scene.agents) {
       ids.insert(agent.track.id);
       places_m.insert(static_cast<int>(std::lround(agent.track.centre.x_m)));
       const bool own = agent.track.id == 9;
@@ -387,11 +387,11 @@ TEST(SceneBuilder, HistoryFillsUpWithAMask) {
   Drive drive;
   for (int i = 0; i < 11; ++i) {
     drive.step({test::car(1, 50.0F + static_cast<float>(i), 0.0F, 0.0F, 10.0F)});
-    const History& history = drive.scene.agents[0].history;
+    const scene::History& history = drive.scene.agents[0].history;
     const int valid = (1 << 11) - (1 << (10 - i));
     EXPECT_EQ(history.valid, valid) << i;
   }
-  const History& history = drive.scene.agents[0].history;
+  const scene::History& history = drive.scene.agents[0].history;
   for (int i = 0; i < 11; ++i) EXPECT_NEAR(history.samples[i].pose.x_m, 50.0F + static_cast<float>(i), 1e-3F);
   EXPECT_EQ(drive.scene.ego_history.valid, 0x7FF);
 }
@@ -404,7 +404,7 @@ TEST(SceneBuilder, HistoryIsRobustAgainstJitter) {
     const float behind_m = 0.01F * static_cast<float>(latency_ms);
     drive.step({test::car(1, 50.0F + static_cast<float>(i) - behind_m, 0.0F, 0.0F, 10.0F)}, latency_ms);
   }
-  const History& history = drive.scene.agents[0].history;
+  const scene::History& history = drive.scene.agents[0].history;
   EXPECT_EQ(history.valid, 0x7FF);
   for (int i = 0; i < 11; ++i) EXPECT_NEAR(history.samples[i].pose.x_m, 50.0F + static_cast<float>(i), 1e-2F);
 }
@@ -441,7 +441,7 @@ TEST(SceneBuilder, WatchesTheMostRelevant) {
   tracks.push_back(test::car(4, 1.6F, -30.0F, 1.5708F, 10.0F));
   tracks.push_back(test::car(5, -50.0F, 1.6F, 3.1416F, 10.0F));  // has passed us on the other lane
   tracks.push_back(test::car(6, -55.0F, -1.6F, 0.0F, 8.0F));     // behind us
-  const Scene scene = test::scene_of(cross.map, test::ego_at(-40.0F, -1.6F, 0.0F, 8.0F), tracks);
+  const scene::Scene scene = test::scene_of(cross.map, test::ego_at(-40.0F, -1.6F, 0.0F, 8.0F), tracks);
   ASSERT_EQ(scene.agents.size(), 7);
   EXPECT_EQ(scene.watched, kMaxAgents);
   for (int i = 0; i < scene.watched; ++i) EXPECT_NE(scene.agents[i].track.id, 5);
@@ -455,9 +455,9 @@ TEST(SceneBuilder, WatchesTheMostRelevant) {
 // The option `nearest` is plain distance.
 TEST(SceneBuilder, CanWatchTheNearest) {
   const LaneMap map = test::straight_road(2, 300.0F);
-  SceneBuilder builder;
-  builder.relevance = Relevance::kNearest;
-  Scene scene;
+  scene::SceneBuilder builder;
+  builder.relevance = scene::Relevance::kNearest;
+  scene::Scene scene;
   const Parameters parameters;
   const TrackList tracks =
       test::track_list({test::car(1, 90.0F, 0.0F, 0.0F, 5.0F), test::car(2, 20.0F, 3.2F, 0.0F, 5.0F)});
@@ -475,8 +475,8 @@ TEST(SceneBuilder, RingRoadEnds) {
         map, test::arc({20.0F * std::cos(a), 20.0F * std::sin(a), a + 1.5707963F}, 20.0F, 1.5707963F, 6));
   }
   for (int i = 0; i < 4; ++i) test::link(map, static_cast<LaneIndex>(i), static_cast<LaneIndex>((i + 1) % 4));
-  const Scene scene = test::scene_of(map, test::ego_at(20.0F, 1.0F, 1.6F, 5.0F),
-                                     {test::car(1, -20.0F, 0.0F, -1.5707963F, 5.0F)});
+  const scene::Scene scene = test::scene_of(map, test::ego_at(20.0F, 1.0F, 1.6F, 5.0F),
+                                            {test::car(1, -20.0F, 0.0F, -1.5707963F, 5.0F)});
   ASSERT_EQ(scene.ego_paths.size(), 1);
   EXPECT_EQ(scene.ego_paths[0].path.lanes.size(), 4);
   EXPECT_EQ(scene.agents[0].paths.size(), 1);

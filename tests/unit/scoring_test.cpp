@@ -7,7 +7,7 @@
 #include "algo/trajectory/bicycle.hpp"
 #include "tests/support/driving_scenes.hpp"
 
-namespace s4tp {
+namespace s4tp::planner {
 namespace {
 
 using namespace test;  // NOLINT: the map builders are the language of these tests
@@ -17,15 +17,15 @@ constexpr float kMissed = 480.0F;  // 80 times scoring.lane_route
 /// We are at s = 40 m of the right of two lanes; to the goal we have to be in the left one, from `route_end_m` on.
 struct Road {
   LaneMap map = straight_road(2, 300.0F, 10.0F);
-  Scene scene;
+  scene::Scene scene;
   LaneCostToGo cost_to_go;
   Parameters parameters;
 
   explicit Road(float route_end_m) {
-    EgoPath& own = add_way(scene, map, path_of(map, {0}));
+    scene::EgoPath& own = add_way(scene, map, path_of(map, {0}));
     own.changes_needed = 1;
     own.route_end_s_m = route_end_m;
-    (void)add_way(scene, map, path_of(map, {1}), Manoeuvre::kLeft);
+    (void)add_way(scene, map, path_of(map, {1}), scene::Manoeuvre::kLeft);
     put_ego(scene, state_on(map, scene.ego_paths[0].path, 40.0F, 5.0F));
     cost_to_go.look(scene, {}, 0.0F, parameters);
   }
@@ -55,7 +55,7 @@ TEST(Scoring, ALaneChangeThatIsDueIsOverItsLineInTime) {
 // is possible; with 7 m some is lacking, (1 - 7 / 15)^2 = 0.28 of a missed route; who cannot stop before its end
 // has missed it.
 TEST(Scoring, WhoWaitsForALaneChangeKeepsRoomForIt) {
-  const float stands_m = 55.0F + rear_axle_to_front_m(Parameters{}) + 5.0F;
+  const float stands_m = 55.0F + trajectory::rear_axle_to_front_m(Parameters{}) + 5.0F;
   const float with_room = Road(stands_m + 15.0F).lane_cost(false);
   EXPECT_LT(with_room, 0.2F * kMissed);
   EXPECT_NEAR(Road(stands_m + 7.0F).lane_cost(false) - with_room, 0.28F * kMissed, 10.0F);
@@ -63,4 +63,4 @@ TEST(Scoring, WhoWaitsForALaneChangeKeepsRoomForIt) {
 }
 
 }  // namespace
-}  // namespace s4tp
+}  // namespace s4tp::planner

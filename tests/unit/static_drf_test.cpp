@@ -14,16 +14,17 @@ namespace s4tp::baselines {
 namespace {
 
 /// Keeps what the planner believed of the first vehicle.
-class Beliefs : public Probe {
+class Beliefs : public planner::Probe {
  public:
-  void stage_begin(Stage) override {}
-  void stage_end(Stage) override {}
-  void cycle_done(const Scene& scene, const PredictionSet& prediction, const RiskProfile&) override {
+  void stage_begin(planner::Stage) override {}
+  void stage_end(planner::Stage) override {}
+  void cycle_done(const scene::Scene& scene, const satp::PredictionSet& prediction,
+                  const sadrf::RiskProfile&) override {
     track = scene.agents[0].track;
     modes = prediction.agents[0].modes;
   }
   Track track;
-  BoundedVector<Mode, kMaxModes> modes;
+  BoundedVector<satp::Mode, kMaxModes> modes;
 };
 
 /// On the minor road of a cross junction, 20 m before it, at 6 m/s; one car on the main road.
@@ -34,16 +35,16 @@ struct Junction {
     input.ego = test::ego_at(-28.0F, -1.6F, 0.0F, 6.0F);
   }
   test::CrossJunction cross;
-  PlannerInput input;
+  planner::PlannerInput input;
 };
 
 template <class PlannerT>
-Plan plan_of(const PlannerInput& input, Beliefs& beliefs) {
+Plan plan_of(const planner::PlannerInput& input, Beliefs& beliefs) {
   auto planner = std::make_unique<PlannerT>();
   EXPECT_EQ(planner->init(Parameters{}), Status::kOk);
   planner->probe = &beliefs;
   Plan plan;
-  Explanation explanation;
+  planner::Explanation explanation;
   EXPECT_EQ(planner->plan(input, plan, explanation), Status::kOk);
   return plan;
 }
@@ -54,7 +55,7 @@ TEST(StaticDrf, ACrossingCarIsNotAnticipated) {
   Junction junction;
   (void)junction.input.tracks.push(test::car(1, 1.6F, -28.0F, 1.5708F, 10.0F));
   Beliefs moving;
-  (void)plan_of<Planner>(junction.input, moving);
+  (void)plan_of<planner::Planner>(junction.input, moving);
   EXPECT_NEAR(moving.modes[0].steps[kHorizonSteps - 1].y_m, 2.0F, 8.0F);
   Beliefs frozen;
   (void)plan_of<StaticDrfPlanner<true>>(junction.input, frozen);
@@ -70,7 +71,7 @@ TEST(StaticDrf, NobodyStarts) {
   Junction junction;
   (void)junction.input.tracks.push(test::car(1, 1.6F, -12.0F, 1.5708F, 0.0F));
   Beliefs starting;
-  (void)plan_of<Planner>(junction.input, starting);
+  (void)plan_of<planner::Planner>(junction.input, starting);
   EXPECT_GT(starting.modes[0].steps[kHorizonSteps - 1].y_m, -11.0F);
   Beliefs frozen;
   (void)plan_of<StaticDrfPlanner<false>>(junction.input, frozen);
@@ -90,7 +91,7 @@ TEST(StaticDrf, SpeedOfOthersChangesNothing) {
     }
     return std::memcmp(&trajectories[0], &trajectories[1], sizeof(Trajectory)) != 0;
   };
-  EXPECT_TRUE(differs(std::type_identity<Planner>{}));
+  EXPECT_TRUE(differs(std::type_identity<planner::Planner>{}));
   EXPECT_FALSE(differs(std::type_identity<StaticDrfPlanner<false>>{}));
   EXPECT_FALSE(differs(std::type_identity<StaticDrfPlanner<true>>{}));
 }

@@ -21,7 +21,7 @@ constexpr std::uint32_t kNow = 5000;
 /// 60 m straight, a right turn by 105 degrees, 80 m straight.
 struct Corner {
   LaneMap map;
-  LanePath path;
+  scene::LanePath path;
   explicit Corner(float radius_m) {
     const LaneIndex before = add_lane(map, {{-60.0F, 0.0F}, {0.0F, 0.0F}});
     const LaneIndex turn = add_lane(map, arc({0.0F, 0.0F, 0.0F}, radius_m, -1.8326F, 5));
@@ -35,9 +35,9 @@ struct Corner {
   }
 };
 
-float sharpest_1pm(const ReferenceLine& line) {
+float sharpest_1pm(const trajectory::ReferenceLine& line) {
   float most = 0.0F;
-  for (const ReferenceLine::Sample& sample : line.samples)
+  for (const trajectory::ReferenceLine::Sample& sample : line.samples)
     most = std::max(most, std::abs(sample.curvature_1pm));
   return most;
 }
@@ -48,12 +48,12 @@ float sharpest_1pm(const ReferenceLine& line) {
 TEST(TightCorner, IsWidenedToWhatCanBeSteered) {
   const Corner corner(5.0F);
   const Parameters parameters;
-  ReferenceLine line;
-  build_reference(corner.map, corner.path, 50.0F, 4.0F, parameters, line);
+  trajectory::ReferenceLine line;
+  trajectory::build_reference(corner.map, corner.path, 50.0F, 4.0F, parameters, line);
   const float limit_1pm = std::tan(parameters.vehicle.steering_max_rad) / parameters.vehicle.wheelbase_m;
   EXPECT_LE(sharpest_1pm(line), 1.05F * limit_1pm);
-  for (const ReferenceLine::Sample& sample : line.samples) {
-    const Frenet at = project(corner.map, corner.path, position(sample.pose), 60.0F, 60.0F);
+  for (const trajectory::ReferenceLine::Sample& sample : line.samples) {
+    const scene::Frenet at = scene::project(corner.map, corner.path, position(sample.pose), 60.0F, 60.0F);
     EXPECT_LT(std::abs(at.d_m), 0.7F);
   }
 }
@@ -61,10 +61,10 @@ TEST(TightCorner, IsWidenedToWhatCanBeSteered) {
 // A corner that can be steered is left alone: at 10.7 m only the usual 0.67 / 10.7 = 6 cm are cut.
 TEST(TightCorner, AWideOneIsNot) {
   const Corner corner(10.7F);
-  ReferenceLine line;
-  build_reference(corner.map, corner.path, 50.0F, 4.0F, Parameters{}, line);
-  for (const ReferenceLine::Sample& sample : line.samples) {
-    const Frenet at = project(corner.map, corner.path, position(sample.pose), 60.0F, 60.0F);
+  trajectory::ReferenceLine line;
+  trajectory::build_reference(corner.map, corner.path, 50.0F, 4.0F, Parameters{}, line);
+  for (const trajectory::ReferenceLine::Sample& sample : line.samples) {
+    const scene::Frenet at = scene::project(corner.map, corner.path, position(sample.pose), 60.0F, 60.0F);
     EXPECT_LT(std::abs(at.d_m), 0.25F);
   }
 }
@@ -73,13 +73,14 @@ TEST(TightCorner, AWideOneIsNot) {
 // within 3 cm, from 2 m behind the car to 15 m ahead.
 TEST(TightCorner, TheLineStaysWhereItIsAsWeGoAlong) {
   const Corner corner(4.0F);
-  ReferenceLine before;
-  build_reference(corner.map, corner.path, 40.0F, 3.0F, Parameters{}, before);
+  trajectory::ReferenceLine before;
+  trajectory::build_reference(corner.map, corner.path, 40.0F, 3.0F, Parameters{}, before);
   for (float s_m = 41.0F; s_m < 90.0F; s_m += 1.0F) {
-    ReferenceLine now;
-    build_reference(corner.map, corner.path, s_m, 3.0F, Parameters{}, now);
+    trajectory::ReferenceLine now;
+    trajectory::build_reference(corner.map, corner.path, s_m, 3.0F, Parameters{}, now);
     for (float at_m = s_m - 2.0F; at_m < s_m + 15.0F; at_m += 1.0F) {
-      const Point moved = position(reference_at(now, at_m).pose) - position(reference_at(before, at_m).pose);
+      const Point moved = position(trajectory::reference_at(now, at_m).pose) -
+                          position(trajectory::reference_at(before, at_m).pose);
       EXPECT_LT(std::hypot(moved.x_m, moved.y_m), 0.03F) << "at " << at_m << " m, seen from " << s_m << " m";
     }
     before = now;
@@ -91,9 +92,9 @@ TEST(TightCorner, TheLineStaysWhereItIsAsWeGoAlong) {
 TEST(TightCorner, IsDrivenNoFasterThanTheWheelsTurn) {
   const Corner corner(3.5F);
   const Parameters parameters;
-  ReferenceLine line;
-  build_reference(corner.map, corner.path, 50.0F, 4.0F, parameters, line);
-  for (int i = 0; i + 1 < kReferenceSamples; ++i) {
+  trajectory::ReferenceLine line;
+  trajectory::build_reference(corner.map, corner.path, 50.0F, 4.0F, parameters, line);
+  for (int i = 0; i + 1 < trajectory::kReferenceSamples; ++i) {
     const float change = std::abs(line.samples[i + 1].curvature_1pm - line.samples[i].curvature_1pm);
     const float rate_radps =
         line.samples[i].speed_cap_mps * parameters.vehicle.wheelbase_m * change / line.spacing_m;
@@ -106,7 +107,7 @@ TEST(TightCorner, IsDrivenNoFasterThanTheWheelsTurn) {
 // found.
 TEST(TightCorner, FromRestWithLockedWheelsThereIsAWayOn) {
   const Corner corner(5.0F);
-  Scene scene;
+  scene::Scene scene;
   add_way(scene, corner.map, corner.path);
   scene.time_ms = kNow;
   TrajectoryPoint start = state_on(corner.map, corner.path, 70.5F, 0.0F);
@@ -114,14 +115,15 @@ TEST(TightCorner, FromRestWithLockedWheelsThereIsAWayOn) {
   start.rear_axle.x_m -= 0.4F;
   start.curvature_1pm = -0.19F;
   put_ego(scene, start);
-  ReferenceLines lines;
-  CandidateList list;
+  trajectory::ReferenceLines lines;
+  trajectory::CandidateList list;
   int left_out = 0;
-  generate_candidates(scene, start, Plan{}, kNow, Parameters{}, kMaxCandidates, lines, list, left_out);
+  trajectory::generate_candidates(scene, start, Plan{}, kNow, Parameters{}, kMaxCandidates, lines, list,
+                                  left_out);
   float furthest_m = 0.0F;
-  for (const Candidate& candidate : list) {
+  for (const trajectory::Candidate& candidate : list) {
     Trajectory trajectory;
-    roll_out(lines[0], candidate, start, Plan{}, kNow, Parameters{}, trajectory);
+    trajectory::roll_out(lines[0], candidate, start, Plan{}, kNow, Parameters{}, trajectory);
     const Pose& end = trajectory.points[kHorizonSteps].rear_axle;
     furthest_m =
         std::max(furthest_m, std::hypot(end.x_m - start.rear_axle.x_m, end.y_m - start.rear_axle.y_m));
@@ -137,31 +139,33 @@ TEST(TightCorner, SteeringComesBackFromAnywhere) {
       return 0.01F * static_cast<float>(*rc::gen::inRange(low, high + 1));
     };
     const LaneMap map = straight_road(1, 300.0F);
-    Scene scene;
+    scene::Scene scene;
     add_way(scene, map, path_of(map, {0}));
     const Parameters parameters;
     TrajectoryPoint start = state_on(map, scene.ego_paths[0].path, 100.0F, hundredths(0, 300));
     start.rear_axle.y_m += hundredths(-200, 200);
     start.rear_axle.heading_rad += hundredths(-60, 60);
     start.curvature_1pm = hundredths(-20, 20);
-    ReferenceLine line;
-    Candidate candidate;
+    trajectory::ReferenceLine line;
+    trajectory::Candidate candidate;
     candidate.steered = true;
     float way_m = 0.0F;
     TrajectoryPoint at = start;
     for (int cycle = 0; cycle < 12 && way_m < 45.0F; ++cycle) {
-      build_reference(map, scene.ego_paths[0].path, 100.0F + way_m, at.speed_mps, parameters, line);
-      candidate.start_s_m = locate_on(line, position(at.rear_axle), 100.0F + way_m).s_m;
+      trajectory::build_reference(map, scene.ego_paths[0].path, 100.0F + way_m, at.speed_mps, parameters,
+                                  line);
+      candidate.start_s_m = trajectory::locate_on(line, position(at.rear_axle), 100.0F + way_m).s_m;
       candidate.acceleration_mps2 = at.speed_mps < 3.0F ? 1.0F : 0.0F;
       Trajectory trajectory;
-      roll_out(line, candidate, at, Plan{}, kNow, parameters, trajectory);
-      RC_ASSERT(feasible(trajectory, parameters));
+      trajectory::roll_out(line, candidate, at, Plan{}, kNow, parameters, trajectory);
+      RC_ASSERT(trajectory::feasible(trajectory, parameters));
       for (int i = 1; i < kTrajectoryPoints; ++i) {
         way_m += 0.5F * kStepS * (trajectory.points[i - 1].speed_mps + trajectory.points[i].speed_mps);
       }
       at = trajectory.points[kHorizonSteps];
     }
-    const Frenet end = project(map, scene.ego_paths[0].path, position(at.rear_axle), 100.0F + way_m, 30.0F);
+    const scene::Frenet end =
+        scene::project(map, scene.ego_paths[0].path, position(at.rear_axle), 100.0F + way_m, 30.0F);
     RC_ASSERT(std::abs(end.d_m) < 0.5F);
     RC_ASSERT(std::abs(at.rear_axle.heading_rad - start.rear_axle.heading_rad) < 3.2F);
   }));

@@ -6,17 +6,17 @@
 
 #include <cmath>
 
-namespace s4tp {
+namespace s4tp::satp {
 namespace {
 
 /// One watched vehicle: it would gain 1 m/s^2 to go first and brake with 2 to let us go.
 struct Watch {
-  Scene scene;
+  scene::Scene scene;
   YieldBeliefs beliefs;
   YieldHypotheses expected[kMaxAgents];
 
   Watch() {
-    Agent agent;
+    scene::Agent agent;
     agent.track.id = 7;
     (void)scene.agents.push(agent);
     scene.watched = 1;
@@ -84,9 +84,9 @@ TEST(YieldBelief, StandingWithTheWayOpenIsEvidence) {
 TEST(YieldBelief, BeliefsBelongToTracks) {
   Watch watch;
   const float known = watch.see(-12.0F, 3);
-  Agent first;
+  scene::Agent first;
   first.track.id = 9;
-  const Agent second = watch.scene.agents[0];
+  const scene::Agent second = watch.scene.agents[0];
   watch.scene.agents.clear();
   (void)watch.scene.agents.push(first);
   (void)watch.scene.agents.push(second);
@@ -116,4 +116,4 @@ TEST(YieldBelief, ThePriorWithEvidence) {
 }
 
 }  // namespace
-}  // namespace s4tp
+}  // namespace s4tp::satp

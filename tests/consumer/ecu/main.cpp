@@ -11,7 +11,7 @@ void s4tp::assertion_failed(const char*, const char*, int) {
   std::abort();
 }
 
-static s4tp::ecu::Ecu<s4tp::Planner> ecu;
+static s4tp::ecu::Ecu<s4tp::planner::Planner> ecu;
 
 struct NoKeys final : s4tp::hal::Authenticator {
   bool cmac(s4tp::hal::KeySlot, const std::uint8_t*, std::uint32_t,
