@@ -122,12 +122,13 @@ Status PlanningCycle::plan(const PlannerInput& input, Plan& plan, Explanation& e
                                     parameters_, scene_);
       believe(scene_);
       sadrf::build_drivable(input.map, drivable_);
-      trajectory::set_lateral_offsets(parameters_, scene_);
+      const int tried = trajectory::set_lateral_offsets(parameters_, scene_);
       explanation.id_clashes = scene_.id_clashes;
       explanation.tracks_left_out = scene_.known.left_out;
       explanation.lanes_left_out = input.map != nullptr ? input.map->lanes_left_out : std::uint8_t{0};
       count(explanation, Stage::kScene, scene_.agents.size());
-      work_.spend(Stage::kScene, work::kScene + work::kSceneAgent * scene_.agents.size());
+      work_.spend(Stage::kScene,
+                  work::kScene + work::kSceneAgent * scene_.agents.size() + work::kOffsetTried * tried);
     }
     start_ = trajectory::plan_start(input.ego, input.now_ms, running_, start_ms_, parameters_);
     if (status == Status::kOk && scene_.list_refused) status = Status::kStaleTracks;

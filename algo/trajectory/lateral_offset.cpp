@@ -33,7 +33,8 @@ bool leaves_room(const Pose& centre_line, float aside_m, const Box& other, const
 
 /// Of the places in `from` (bit k: kAsidesM[k]), those from which our box at one point of the centre line
 /// leaves room to `other`.
-unsigned passed_from(const Pose& centre_line, const Box& other, unsigned from, const Parameters& parameters) {
+unsigned passed_from(const Pose& centre_line, const Box& other, unsigned from, const Parameters& parameters,
+                     int& tried) {
   const float reach_m = parameters.vehicle.length_m + 0.5F * (other.length_m + other.width_m) + 1.0F;
   const Point apart = position(other.centre) - position(centre_line);
   const bool across =
@@ -42,6 +43,7 @@ unsigned passed_from(const Pose& centre_line, const Box& other, unsigned from, c
   unsigned left = 0;
   for (int k = 0; k < kAsides; ++k) {
     const bool open = (from >> k & 1U) != 0;
+    tried += open ? 1 : 0;
     if (open && leaves_room(centre_line, kAsidesM[k], other, parameters)) left |= 1U << k;
   }
   return left;
@@ -56,7 +58,8 @@ unsigned within_lane(float width_m, const Parameters& parameters) {
   return within;
 }
 
-float find_aside_m(const scene::Scene& scene, const scene::EgoPath& path, const Parameters& parameters) {
+float find_aside_m(const scene::Scene& scene, const scene::EgoPath& path, const Parameters& parameters,
+                   int& tried) {
   unsigned from[kMaxTracks];
   for (unsigned& one : from) one = kAnywhere;
   float width_m = kWideM;
@@ -67,7 +70,7 @@ float find_aside_m(const scene::Scene& scene, const scene::EgoPath& path, const 
     for (int k = 0; k < scene.agents.size(); ++k) {
       const scene::Agent& agent = scene.agents[k];
       if (is_standing(agent) && from[k] != 0)
-        from[k] = passed_from(point.pose, box_of(agent), from[k], parameters);
+        from[k] = passed_from(point.pose, box_of(agent), from[k], parameters, tried);
     }
   }
   unsigned all = within_lane(width_m, parameters);
@@ -85,12 +88,14 @@ bool is_standing(const scene::Agent& agent) {
   return agent.track.speed_mps < kStandsMps;
 }
 
-void set_lateral_offsets(const Parameters& parameters, scene::Scene& scene) {
+int set_lateral_offsets(const Parameters& parameters, scene::Scene& scene) {
+  int tried = 0;
   bool somebody_stands = false;
   for (const scene::Agent& agent : scene.agents) somebody_stands = somebody_stands || is_standing(agent);
   for (scene::EgoPath& path : scene.ego_paths) {
-    path.aside_m = somebody_stands ? find_aside_m(scene, path, parameters) : 0.0F;
+    path.aside_m = somebody_stands ? find_aside_m(scene, path, parameters, tried) : 0.0F;
   }
+  return tried;
 }
 
 }  // namespace s4tp::trajectory

@@ -19,7 +19,7 @@ struct Bystander : Crossing {
     other(100.0F + front_m - 2.5F, 0.0F);
   }
   float aside_m() {
-    set_lateral_offsets(parameters, scene);
+    (void)set_lateral_offsets(parameters, scene);
     return scene.ego_paths[0].aside_m;
   }
 };
