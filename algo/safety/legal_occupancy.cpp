@@ -52,15 +52,11 @@ bool can_stop_gently(const Pace& fastest, float to_entry_m, float unseen_s, cons
   return room_m > 0.0F && square(later_mps) <= 2.0F * law.ask_braking_mps2 * room_m;
 }
 
-/// Who is not seen any more may have set off.
-bool stands(const scene::Agent& agent, const Parameters& parameters) {
-  return agent.age_ms <= scene::kFreshMs && agent.track.speed_mps < kStandingMps &&
-         agent.track.acceleration_mps2 < kSetsOffMps2 && seconds(agent.stood_ms) >= parameters.law.seen_s;
-}
-
-/// L2.
+/// L2. Who is not seen any more may have set off.
 bool stands_in_sight(const scene::Scene& scene, const scene::Agent& agent, const Parameters& parameters) {
-  return stands(agent, parameters) && scene.waited_s >= parameters.law.seen_s;
+  return agent.age_ms <= scene::kFreshMs && agent.track.speed_mps < kStandingMps &&
+         agent.track.acceleration_mps2 < kSetsOffMps2 && seconds(agent.stood_ms) >= parameters.law.seen_s &&
+         scene.waited_s >= parameters.law.seen_s;
 }
 
 }  // namespace
@@ -98,10 +94,8 @@ ZoneOccupancy zone_occupancy(const scene::Scene& scene, const scene::Agent& agen
       occupancy::latest_time_s(seen_mps(agent), parameters.law.braking_max_mps2, exit_m) - unseen_s - lead_s;
   if (result.to_entry_m <= 0.0F) {
     // Where it stands it is an obstacle like any other; the rest of the zone is left by whoever does not
-    // move. Who owes us the way need not have seen us wait.
-    const bool owes = zone.priority == Priority::kFirstHasPriority;
-    if (owes && stands(agent, parameters)) result.claim = Claim::kOwes;
-    if (!owes && stands_in_sight(scene, agent, parameters)) result.claim = Claim::kStands;
+    // move.
+    if (stands_in_sight(scene, agent, parameters)) result.claim = Claim::kStands;
     result.from_s = -lead_s;
     return result;
   }

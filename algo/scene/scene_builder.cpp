@@ -123,8 +123,7 @@ void SceneBuilder::note_waiting(std::int32_t passed_ms, const Scene& scene, cons
     const EgoPath& path = scene.ego_paths[0];
     const float to_front_m = parameters.vehicle.length_m - parameters.vehicle.rear_overhang_m;
     for (const ConflictZone& zone : path.zones) {
-      const bool near = zone.entry_s_m - path.frenet.s_m - to_front_m < kAtJunctionM;
-      at_junction = at_junction || (near && zone.priority != Priority::kFirstHasPriority);
+      at_junction = at_junction || zone.entry_s_m - path.frenet.s_m - to_front_m < kAtJunctionM;
     }
   }
   if (!at_junction) {

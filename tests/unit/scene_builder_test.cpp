@@ -62,9 +62,8 @@ TEST(SceneBuilder, OffersKeepLeftRight) {
   EXPECT_NEAR(scene.ego_paths[0].goal_s_m, 200.0F, 1e-3F);
 }
 
-// CORE-033 20 steps at rest 10 m before a zone we give way at are 2 s; driving off keeps them, and a hole of
-// 10 s counts as half a second. Where we have the way, or 60 m before, nothing is counted; behind the
-// junction it is forgotten.
+// CORE-033 20 steps at rest 10 m before a zone are 2 s; driving off keeps them, and a hole of 10 s counts as half
+// a second. 60 m before nothing is counted; behind the junction it is forgotten. Who has the way does not matter.
 TEST(SceneBuilder, RemembersHowLongWeWaited) {
   LaneMap map = test::straight_road(1, 200.0F);
   const LaneIndex across = test::add_lane(map, {{100.0F, -50.0F}, {100.0F, 50.0F}});
@@ -89,7 +88,7 @@ TEST(SceneBuilder, RemembersHowLongWeWaited) {
   EXPECT_FLOAT_EQ(waited_s(36.0F, 0.0F), 0.0F);
   EXPECT_FLOAT_EQ(waited_s(36.0F, 0.0F), 0.0F);
   map.conflicts[0].priority = Priority::kFirstHasPriority;
-  EXPECT_FLOAT_EQ(waited_s(85.0F, 0.0F), 0.0F);
+  EXPECT_GT(waited_s(85.0F, 0.0F), 0.0F);
 }
 
 // CORE-034 Twenty steps of standing are 2 s; at 1 m/s it moves, and the count begins anew. How long it has
