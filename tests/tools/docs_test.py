@@ -55,9 +55,9 @@ class Pages(unittest.TestCase):
     def test_word_without_definition_is_found(self):
         page = (self.root / "docs/glossary.md").read_text(encoding="utf-8")
         self.write("docs/glossary.md", "".join(line for line in page.splitlines(True) if not line.startswith("| guard ")))
-        self.write("algo/names.hpp", (self.root / "algo/names.hpp").read_text(encoding="utf-8").replace("Way", "Hypothesis"))
+        self.write("algo/names.hpp", (self.root / "algo/names.hpp").read_text(encoding="utf-8").replace("PathHypothesis", "Hypothesis"))
         self.assertEqual(self.found(), ["docs/glossary.md: guard is not defined",
-                                        "docs/glossary.md: there is no Way in algo any more"])
+                                        "docs/glossary.md: there is no PathHypothesis in algo any more"])
 
     def test_long_readme_is_found(self):
         self.write("README.md", "x\n" * (check_docs.README_LINES + 1))

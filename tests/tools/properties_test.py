@@ -8,7 +8,7 @@ TESTS = pathlib.Path(__file__).resolve().parents[1]
 
 
 def unheard(text):
-    return len(re.findall(r"\brc::check\s*\(", text)) - len(re.findall(r"\bEXPECT_TRUE\(rc::check\(", text))
+    return len(re.findall(r"\brc::check\s*\(", text)) - len(re.findall(r"\bEXPECT_TRUE\(\s*rc::check\(", text))
 
 
 class Properties(unittest.TestCase):
