@@ -43,12 +43,8 @@ void LaneReach::measure(const LaneMap& map, const scene::Agent& agent, bool chan
       offer(part.lane, part.start_s_m - agent.frenet[i].s_m);
   }
   if (agent.paths.empty() && map.lanes_left_out > 0) {
-    bool led_into[kMaxLanes] = {};
-    for (const Lane& lane : map.lanes) {
-      for (const LaneIndex successor : lane.successors) {
-        if (lane.present && has_lane(map, successor)) led_into[successor] = true;
-      }
-    }
+    bool led_into[kMaxLanes];
+    scene::find_led_into(map, led_into);
     for (LaneIndex lane = 0; lane < kMaxLanes; ++lane) {
       if (!led_into[lane]) offer(lane, distance(position(agent.track.centre), map.lanes[lane].points[0]));
     }

@@ -20,8 +20,7 @@ inline constexpr std::int32_t kPassWork = 1'400;        ///< for a pass of the o
 namespace work {
 inline constexpr std::int32_t kScene = 1'000;
 inline constexpr std::int32_t kSceneAgent = 350;
-inline constexpr std::int32_t kOffsetTried =
-    4;  ///< a place of our box against somebody's (lateral_offset.hpp)
+inline constexpr std::int32_t kOffsetTried = 4;  ///< a place of our box tried (lateral_offset.hpp)
 inline constexpr std::int32_t kEncode = 16'000;
 inline constexpr std::int32_t kEncodeAgent = 500;
 inline constexpr std::int32_t kDecode = 300;         ///< of all vehicles, and ...

@@ -27,7 +27,6 @@ constexpr float kEasesOff = 0.25F;  // share of the fail-safe's braking that is 
 constexpr float kEndShare =
     0.5F;  // of that braking, at least, past the last place to stop before the road's end
 constexpr float kEndRoundingM = 0.01F;
-constexpr float kUsualHalfLengthM = 2.5F;  // of the boxes the map node takes for its zones
 
 }  // namespace
 
@@ -148,10 +147,11 @@ bool Guard::passes_threat(const scene::EgoPath& path, const Sight& sight, const 
   if (!zone.merging && when.from_s > out_s) return true;
   if (zone.merging) {
     const bool unseen = threat.agent == kUnseen;
-    const float its_half_m = unseen ? kUsualHalfLengthM : 0.5F * scene_->agents[threat.agent].track.length_m;
+    const float its_half_m =
+        unseen ? scene::kUsualHalfLengthM : 0.5F * scene_->agents[threat.agent].track.length_m;
     // Along the common lane: our centre's way and its centre's way to where the zone ends.
     const float half_m = 0.5F * parameters_->vehicle.length_m + its_half_m;
-    const float its_to_exit_m = when.to_exit_m - (its_half_m - kUsualHalfLengthM);
+    const float its_to_exit_m = when.to_exit_m - (its_half_m - scene::kUsualHalfLengthM);
     const bool ahead = when.to_entry_m <= 0.0F && zone.exit_s_m - own.s_m[0] > its_to_exit_m;
     if (ahead) {
       const float its_mps = unseen ? 0.0F : scene_->agents[threat.agent].track.speed_mps;

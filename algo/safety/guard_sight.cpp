@@ -13,6 +13,7 @@ constexpr float kWaitingRoomM = 1.0F;  // between two zones there is room to sta
 constexpr float kClearOfZoneM = 0.7F;  // before it
 constexpr float kCurvesMps2 = 3.0F;
 constexpr int kCapSamples = 4;
+constexpr float kStandingMps = 0.3F;
 
 }  // namespace
 
@@ -22,6 +23,8 @@ void Guard::look(const scene::Scene& scene, const TrajectoryPoint& start, float 
   parameters_ = &parameters;
   start_ = start;
   lead_s_ = lead_s;
+  // A licence is used by going: who has come to a stand asks anew.
+  if (start.speed_mps < kStandingMps) latched_.clear();
   centre_m_ = trajectory::rear_axle_to_centre_m(parameters);
   front_m_ = trajectory::rear_axle_to_front_m(parameters);
   if (scene.map == nullptr) return;

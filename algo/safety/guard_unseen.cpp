@@ -10,7 +10,7 @@ using occupancy::kNeverS;
 using occupancy::kNoWayM;
 using occupancy::LaneReach;
 
-constexpr float kLengthM = 5.0F;  // of whom we expect: a car, as the map node takes it for its zones
+constexpr float kLengthM = 2.0F * scene::kUsualHalfLengthM;  // of whom we expect
 
 bool is_known(const scene::KnownGround& known, Point place) {
   return distance(place, known.centre) < known.radius_m;
@@ -40,7 +40,6 @@ void Guard::look_beyond(const LaneReach (&reach)[kMaxTracks]) {
   const LaneMap& map = *scene_->map;
   for (int path = 0; path < scene_->ego_paths.size(); ++path)
     expect_ahead(scene_->ego_paths[path], sights_[path]);
-  bool led_into[kMaxLanes] = {};
   for (LaneIndex index = 0; index < kMaxLanes; ++index) {
     const Lane& lane = map.lanes[index];
     if (!scene::usable(lane)) continue;
@@ -63,10 +62,11 @@ void Guard::look_beyond(const LaneReach (&reach)[kMaxTracks]) {
       // A gap between two lanes may lie on the edge.
       const bool gap = !ends_known && is_known(known, map.lanes[next].points[0]);
       if (gap) expect_from(next, 0.0F, reach);
-      led_into[next] = true;
     }
   }
   if (map.lanes_left_out == 0) return;
+  bool led_into[kMaxLanes];
+  scene::find_led_into(map, led_into);
   for (LaneIndex index = 0; index < kMaxLanes; ++index) {
     const Lane& lane = map.lanes[index];
     if (led_into[index] || !scene::usable(lane) || !is_known(known, lane.points[0])) continue;

@@ -8,8 +8,7 @@ namespace {
 using occupancy::kNeverS;
 using occupancy::Pace;
 
-constexpr float kUsualHalfLengthM = 2.5F;  // of the boxes the map node takes for its zones
-constexpr float kStandingMps = 0.3F;       // all that a standing vehicle's measured speed may be
+constexpr float kStandingMps = 0.3F;  // all that a standing vehicle's measured speed may be
 constexpr float kSetsOffMps2 = 0.5F;
 constexpr float kShortOfZoneM = 0.5F;  // who gives way stops so far before
 constexpr float kBendRad = 0.5F;       // lanes that turn by less are driven like straight ones
@@ -34,18 +33,18 @@ float seen_mps(const scene::Agent& agent) {
 }
 
 /// D1 and D2: whoever owes us the way, or finds us there by right, stops before the zone if the duty's braking
-/// does it. The response runs once: from when the vehicle was first in sight.
-bool can_stop(const scene::Agent& agent, float to_entry_m, const Parameters& parameters) {
+/// does it after the response.
+bool can_stop(const scene::Agent& agent, float to_entry_m, float response_s, const Parameters& parameters) {
   const auto& law = parameters.law;
-  const float known_s = seconds(agent.known_ms) - seconds(agent.age_ms);
-  const float response_s = max(0.0F, law.duty_response_s - max(0.0F, known_s));
   const float room_m = to_entry_m - seen_mps(agent) * response_s;
   return room_m > 0.0F && occupancy::stopping_way_m(seen_mps(agent), law.duty_braking_mps2) <= room_m;
 }
 
-/// L1.
-bool can_stop_gently(const Pace& fastest, float to_entry_m, float unseen_s, const Parameters& parameters) {
+/// L1. Who gains speed does not leave it to us.
+bool can_stop_gently(const scene::Agent& agent, const Pace& fastest, float to_entry_m, float unseen_s,
+                     const Parameters& parameters) {
   const auto& law = parameters.law;
+  if (agent.track.acceleration_mps2 >= kSetsOffMps2) return false;
   const float asked_s = unseen_s + law.ask_response_s;
   const float room_m = to_entry_m - kShortOfZoneM - occupancy::way_after_m(fastest, asked_s);
   const float later_mps = occupancy::speed_after_mps(fastest, asked_s);
@@ -70,7 +69,10 @@ Pace fastest_legal(const scene::Scene& scene, LaneIndex lane, float seen_mps, co
 
 Pace fastest_legal(const scene::Scene& scene, const scene::Agent& agent, const scene::ConflictZone& zone,
                    const Parameters& parameters) {
-  return fastest_legal(scene, agent.lane, seen_mps(agent), zone, parameters);
+  // Who gains speed faster than the law lets it has broken it, and may go on doing so.
+  Pace fastest = fastest_legal(scene, agent.lane, seen_mps(agent), zone, parameters);
+  fastest.gain_mps2 = max(fastest.gain_mps2, agent.track.acceleration_mps2);
+  return fastest;
 }
 
 ZoneOccupancy zone_occupancy(const scene::Scene& scene, const scene::Agent& agent,
@@ -79,7 +81,7 @@ ZoneOccupancy zone_occupancy(const scene::Scene& scene, const scene::Agent& agen
   ZoneOccupancy result;
   const float to_lane_m = reach.to_start_m(zone.other_lane);
   if (to_lane_m >= occupancy::kNoWayM) return result;
-  const float longer_m = 0.5F * agent.track.length_m - kUsualHalfLengthM;
+  const float longer_m = 0.5F * agent.track.length_m - scene::kUsualHalfLengthM;
   result.to_entry_m = to_lane_m + zone.other_entry_m - longer_m;
   result.to_exit_m = to_lane_m + zone.other_exit_m + longer_m;
   if (result.to_exit_m <= 0.0F) return result;
@@ -107,10 +109,13 @@ ZoneOccupancy zone_occupancy(const scene::Scene& scene, const scene::Agent& agen
     const float before_s = occupancy::time_to_cover_s(fastest, entry_m - in_bend_m);
     result.from_s = max(result.from_s, before_s + in_bend_m / max(grip_mps, 1.0F) - unseen_s - lead_s);
   }
-  result.can_stop = can_stop(agent, entry_m, parameters);
+  const float response_s = parameters.law.duty_response_s;
+  result.can_stop = can_stop(agent, entry_m, response_s, parameters);
   if (zone.priority == Priority::kFirstHasPriority) {
-    if (result.can_stop) result.claim = Claim::kOwes;
-  } else if (can_stop_gently(fastest, entry_m, unseen_s, parameters)) {
+    // What it owes it has owed since it was first in sight: the response runs once.
+    const float known_s = max(0.0F, seconds(agent.known_ms) - unseen_s);
+    if (can_stop(agent, entry_m, max(0.0F, response_s - known_s), parameters)) result.claim = Claim::kOwes;
+  } else if (can_stop_gently(agent, fastest, entry_m, unseen_s, parameters)) {
     result.claim = Claim::kCanStop;
   } else if (stands_in_sight(scene, agent, parameters)) {
     result.claim = Claim::kStands;

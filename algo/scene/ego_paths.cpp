@@ -6,14 +6,13 @@
 namespace s4tp::scene {
 namespace {
 
-constexpr float kAheadM = 150.0F;          // the map's own horizon
-constexpr float kBehindStartM = 10.0F;     // a neighbour lane may begin this far ahead of us
-constexpr float kUsualHalfLengthM = 2.5F;  // of the boxes the map node takes for its zones
-constexpr float kStopMarginM = 1.0F;       // before the zone, where no stop line says otherwise
-constexpr float kShortOfLineM = 0.5F;      // a little too far, and others see us in the junction
-constexpr float kPassedLineM = 0.5F;       // a stop line this far behind our front no longer binds
-constexpr float kJunctionReachM = 8.0F;    // zones this close behind a junction still belong to it
-constexpr float kStraightRad = 0.05F;      // turns that differ by less are equally straight
+constexpr float kAheadM = 150.0F;        // the map's own horizon
+constexpr float kBehindStartM = 10.0F;   // a neighbour lane may begin this far ahead of us
+constexpr float kStopMarginM = 1.0F;     // before the zone, where no stop line says otherwise
+constexpr float kShortOfLineM = 0.5F;    // a little too far, and others see us in the junction
+constexpr float kPassedLineM = 0.5F;     // a stop line this far behind our front no longer binds
+constexpr float kJunctionReachM = 8.0F;  // zones this close behind a junction still belong to it
+constexpr float kStraightRad = 0.05F;    // turns that differ by less are equally straight
 
 // Whether the route asks for `a` rather than `b`.
 bool better_successor(const LaneTable& table, LaneIndex a, LaneIndex b) {

@@ -217,6 +217,16 @@ bool usable(const Lane& lane) {
   return sound && centre_line_length(lane) > 0.1F;
 }
 
+void find_led_into(const LaneMap& map, bool (&led_into)[kMaxLanes]) {
+  for (bool& led : led_into) led = false;
+  for (const Lane& lane : map.lanes) {
+    if (!usable(lane)) continue;
+    for (const LaneIndex next : lane.successors) {
+      if (next >= 0 && next < kMaxLanes && usable(map.lanes[next])) led_into[next] = true;
+    }
+  }
+}
+
 LaneFix nearest_on_lane(const Lane& lane, Point point) {
   LaneFix fix;
   float best_square = 1e30F;

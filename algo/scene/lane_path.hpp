@@ -97,6 +97,9 @@ class PathCursor {
 /// sound.
 [[nodiscard]] bool usable(const Lane& lane);
 
+/// Which lanes another one leads into.
+void find_led_into(const LaneMap& map, bool (&led_into)[kMaxLanes]);
+
 /// Nearest point of one lane's centre line, ends included. \pre usable(lane)
 struct LaneFix {
   float s_m = 0.0F;

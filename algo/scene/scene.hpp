@@ -38,6 +38,8 @@ struct Agent {
   History history;
 };
 
+inline constexpr float kUsualHalfLengthM = 2.5F;  ///< of the boxes the map node takes for its zones
+
 /// Where our path and another lane share ground.
 struct ConflictZone {
   float entry_s_m = 0.0F;  ///< on our path, of our box centre

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "sim_host/world/nodes/append_frame.hpp"
 #include "sim_host/world/traffic/box.hpp"
 
 namespace s4tp::world {
@@ -13,15 +14,6 @@ constexpr double kFallbackBraking_mps2 = 4.0;
 
 float clamped(double value, double low, double high) {
   return static_cast<float>(std::clamp(value, low, high));
-}
-
-template <class Message>
-void append(const Message& message, wire::E2eSender& sender, std::vector<wire::Frame>& frames) {
-  wire::Frame frame;
-  if (wire::encode(message, frame)) {
-    sender.protect(frame);
-    frames.push_back(frame);
-  }
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include "firmware/wire/codec.hpp"
 #include "firmware/wire/version.hpp"
+#include "sim_host/world/nodes/append_frame.hpp"
 
 namespace s4tp::world {
 namespace {
@@ -17,15 +18,6 @@ constexpr std::uint32_t kSlow_ms = 1000;
 /// MapOrigin reaches 838 km: of coordinates counted from further away (UTM's) it says the last 1000 km.
 double on_the_wire(double coordinate_m) {
   return std::remainder(coordinate_m, 1e6);
-}
-
-template <class Message>
-void append(const Message& message, wire::E2eSender& sender, std::vector<wire::Frame>& frames) {
-  wire::Frame frame;
-  if (wire::encode(message, frame)) {
-    sender.protect(frame);
-    frames.push_back(frame);
-  }
 }
 
 }  // namespace
