@@ -6,7 +6,6 @@ namespace s4tp::safety {
 
 namespace {
 constexpr float kShare = 0.8F;  // of the fail-safe's braking: leaves room ahead and behind alike
-constexpr float kOverLineS = 0.5F;
 }  // namespace
 
 float change_gap_to_leader_m(float own_mps, float leader_mps, const Parameters& parameters) {

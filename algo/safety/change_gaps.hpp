@@ -7,6 +7,7 @@
 namespace s4tp::safety {
 
 inline constexpr float kChangeStandingGapM = 1.0F;  ///< to either, when both stand
+inline constexpr float kOverLineS = 0.5F;           ///< until a lane change just begun is over the line
 
 /// Least gap [m] to a leader at `leader_mps` that brakes with law.braking_max.
 [[nodiscard]] float change_gap_to_leader_m(float own_mps, float leader_mps, const Parameters& parameters);

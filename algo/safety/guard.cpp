@@ -1,6 +1,7 @@
 #include "algo/safety/guard.hpp"
 
 #include "algo/core/inline.hpp"
+#include "algo/safety/change_gaps.hpp"
 #include "algo/trajectory/along_path.hpp"
 #include "algo/trajectory/bicycle.hpp"
 
@@ -16,7 +17,6 @@ constexpr float kCrawledM = 0.05F;
 constexpr float kStopTubeM = 0.4F;
 constexpr float kStoppingMps2 = -2.0F;
 constexpr float kGoesOnMps2 = 1.5F;  // how a plan is driven on beyond its horizon
-constexpr float kOverLineS = 0.5F;   // until a lane change just begun is over the line
 /// A fail-safe after a lane change: how long the plan is driven on, and how much of the braking then follows.
 struct Settling {
   float drives_on_s;
@@ -294,6 +294,11 @@ Verdict Guard::judge(int path_index, const Trajectory& trajectory) const {
   own.blocked = coasting_s_m > free_s_m;
   if (stop_s_m > free_s_m) {
     verdict = {Cause::kLeader, sight.leader};
+    return verdict;
+  }
+  if (sight.changes && !sight.half_over &&
+      own.place_at_m(kOverLineS, 0.0F) + front_m + guard.margin_m > sight.beside_s_m) {
+    verdict = {Cause::kLeader, sight.beside};
     return verdict;
   }
   for (const ZoneGroup& group : sight.groups) {

@@ -6,14 +6,16 @@
 /// leave it to us. GUARD-003 Nobody stops in a group where it gives way, nor enters one without room beyond.
 /// GUARD-004 It can be stopped behind a leader who brakes as hard as can be; behind a cut-in it only must not
 /// get worse. GUARD-005 What is safe only by hard braking says so. GUARD-006 A licence used holds, for the
-/// ground it was given for; used it is once we cannot stop before that any more. GUARD-007 Who cannot stay out
-/// of a zone any more leaves it no later than it was to. GUARD-008 Merging leaves room, in both orders.
-/// GUARD-009 A lane change leaves who is behind room to brake. GUARD-010 Whoever drives only what passes, and
-/// else the last fail-safe, touches nobody who keeps to the law. GUARD-011 Who entered a group by right may
-/// stand in it, short of one that comes after all, where nobody comes who cannot stop for it. GUARD-012 Beyond
-/// the known ground (scene.hpp) there may be anybody: on each lane that leads in from there somebody comes at the
-/// limit's speed, in a lane we change into as well; on our way out of it somebody stands. Whoever is nearer in
-/// that lane and stays out of a zone, leads us, or follows us, is in its way.
+/// ground it was given for; used it is once we cannot stop before that any more, and until we stand.
+/// GUARD-007 Who cannot stay out of a zone any more leaves it no later than it was to. GUARD-008 Merging
+/// leaves room, in both orders. GUARD-009 A lane change leaves who is behind room to brake, and begins only
+/// when who is ahead is ahead of all of us by the time we are over the line, braking as hard as can be.
+/// GUARD-010 Whoever drives only what passes, and else the last fail-safe, touches nobody who keeps to the
+/// law. GUARD-011 Who entered a group by right may stand in it, short of one that comes after all, where
+/// nobody comes who cannot stop for it. GUARD-012 Beyond the known ground (scene.hpp) there may be anybody:
+/// on each lane that leads in from there somebody comes at the limit's speed, in a lane we change into as
+/// well; on our way out of it somebody stands. Whoever is nearer in that lane and stays out of a zone, leads
+/// us, or follows us, is in its way.
 ///
 /// \code
 ///   plan    ----+------------------------>
@@ -119,8 +121,10 @@ class Guard {
     float leader_stop_s_m = 0.0F;  ///< foremost place for our front bumper if who is ahead brakes hard
     std::uint8_t leader = 255;
     float leader_mps = 0.0F;
-    bool changes = false;             ///< our box is, or comes, from another lane
-    bool half_over = false;           ///< most of us is in the lane already
+    float beside_s_m = 0.0F;    ///< our front stays behind it until a change just begun is over the line, ...
+    std::uint8_t beside = 255;  ///< ... because of whom
+    bool changes = false;       ///< our box is, or comes, from another lane
+    bool half_over = false;     ///< most of us is in the lane already
     BoundedVector<InLane, 4> behind;  ///< only where `changes`
     BoundedVector<ZoneGroup, kMaxPathZones> groups;
     BoundedVector<Threat, kMostThreats> threats;

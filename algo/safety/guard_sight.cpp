@@ -1,5 +1,6 @@
 // What the guard sees of a scene before it judges plans: leader, followers, groups of zones, who may be in them.
 #include "algo/core/inline.hpp"
+#include "algo/safety/change_gaps.hpp"
 #include "algo/safety/guard.hpp"
 #include "algo/trajectory/along_path.hpp"
 #include "algo/trajectory/bicycle.hpp"
@@ -47,6 +48,7 @@ void Guard::look_at_path(int path_index) {
                    occupancy::stopping_way_m(start_.speed_mps, parameters_->guard.braking_mps2);
   sight.end_s_m = trajectory::dead_end_s_m(*scene_, path);
   sight.leader_stop_s_m = trajectory::kNoDeadEndM;
+  sight.beside_s_m = trajectory::kNoDeadEndM;
   const float half_lane_m = 0.5F * scene::path_point(*scene_->map, path.path, path.frenet.s_m).width_m;
   sight.changes = path.manoeuvre != scene::Manoeuvre::kKeep;
   sight.half_over = abs(path.frenet.d_m) < half_lane_m;
@@ -65,6 +67,14 @@ void Guard::look_at_path(int path_index) {
       const float seen_mps = max(0.0F, along_mps - agent.coasted_mps);
       const float stop_s_m =
           seen_s_m + occupancy::stopping_way_m(seen_mps, parameters_->law.braking_max_mps2);
+      const float slowest_mps =
+          max(0.0F, seen_mps - parameters_->law.braking_max_mps2 * (lead_s_ + kOverLineS));
+      const float over_line_s_m =
+          stop_s_m - occupancy::stopping_way_m(slowest_mps, parameters_->law.braking_max_mps2);
+      if (over_line_s_m < sight.beside_s_m) {
+        sight.beside_s_m = over_line_s_m;
+        sight.beside = static_cast<std::uint8_t>(i);
+      }
       if (stop_s_m >= sight.leader_stop_s_m) continue;
       sight.leader_stop_s_m = stop_s_m;
       sight.leader = static_cast<std::uint8_t>(i);

@@ -2,9 +2,10 @@
 /// Legal occupancy (method.md 4.9): when a vehicle that keeps to the law can be on ground we share with it.
 /// Knows tracks and map; never predictions, beliefs or manoeuvres.
 /// LEGAL-001 A vehicle is in a zone from when it can be there at the earliest, bends counted, until it has
-/// left at the latest, its own length counted. LEGAL-002 D1: who owes us the way stops before the zone if the
-/// duty's braking does it; its response runs once. LEGAL-003 L1: who has priority stays out if it can stop
-/// gently from as fast as it may be. LEGAL-004 L2: so does who stands, and has seen us stand. LEGAL-005 Whoever
+/// left at the latest, its own length counted; who gains speed faster than the law lets it may go on doing so.
+/// LEGAL-002 D1: who owes us the way stops before the zone if the duty's braking does it; its response runs
+/// once. LEGAL-003 L1: who has priority and gains no speed stays out if it can stop gently from as fast as it
+/// may be. LEGAL-004 L2: so does who stands, and has seen us stand. LEGAL-005 Whoever
 /// is not seen any more can be all that the law allows from its last sight on.
 ///
 /// \code

@@ -273,6 +273,19 @@ TEST(Guard, ALicenceUsedHolds) {
   EXPECT_FALSE(road.safe(95.2F, 3.0F, 0.0F));
 }
 
+// GUARD-006 A licence is used by going. Half a metre into the zone at 0.5 m/s it holds; to who has come to a stand
+// there, and was to be out sooner than from rest, the one that comes is asked anew.
+TEST(Guard, WhoHasComeToAStandAsksAnew) {
+  for (const float speed_mps : {0.5F, 0.0F}) {
+    SharedGround road(Priority::kFirstYields);
+    road.other(96.0F - 40.0F, 6.0F);
+    road.guard.commit(0, road.judge(94.0F, 3.0F, 1.0F));
+    road.scene.agents.clear();
+    road.other(96.0F - 8.0F, 6.0F);
+    EXPECT_EQ(road.safe(96.5F, speed_mps, 2.0F), speed_mps > 0.0F) << speed_mps;
+  }
+}
+
 // GUARD-006 Both stand, it in sight of us (L2), and we set off. Then it does too, at 1 m/s 8 m before the zone
 // (0.35 s at our speed, then the way of a stop with 6 m/s^2). At 95.4 and 0.8 m/s we can still stand at 95.73,
 // before the zone at 96: the licence is not used, and we do. At 95.4 and 1.6 m/s that would be 96.17: it holds.
@@ -442,6 +455,17 @@ TEST(Guard, AChangeStopsBehindTheLeaderThere) {
     Change change;
     change.in_left_lane(100.0F + 5.0F + gap_m, 0.0F);
     EXPECT_EQ(change.cause(10.0F, 0.0F), gap_m > 12.0F ? Cause::kNone : Cause::kLeader) << gap_m;
+  }
+}
+
+// GUARD-009 One that passes us in the lane we come to, its rear 3 m behind our front: after 0.5 s, braking with 8
+// m/s^2, that is 99.5 + 5.5 = 105, our front at 102.5 + 4.5 = 107. Its rear 3 m ahead of our front it has gone by.
+TEST(Guard, NobodyChangesIntoOneThatPasses) {
+  for (const float ahead_m : {-3.0F, 3.0F}) {
+    Change change;
+    change.in_left_lane(102.5F + ahead_m + 2.5F, 13.0F);
+    EXPECT_EQ(change.cause(9.0F, 0.0F), ahead_m > 0.0F ? Cause::kNone : Cause::kLeader) << ahead_m;
+    EXPECT_EQ(change.cause(9.0F, 0.0F, 0), Cause::kNone);
   }
 }
 

@@ -39,6 +39,16 @@ TEST(LegalOccupancy, FromTheFastestToTheSlowest) {
   EXPECT_NEAR(when.to_exit_m, 48.0F, 0.01F);
 }
 
+// LEGAL-001 Who gains 3 m/s^2 may go on doing so: 24.56 m in 2 s, and 15.44 m at 15.28 m/s take 1.01 s. That it
+// brakes is not counted on.
+TEST(LegalOccupancy, WhoGainsFasterThanTheLawIsTakenAtItsWord) {
+  Approach approach(Priority::kFirstYields, 40.0F, 9.279F);
+  approach.agent().track.acceleration_mps2 = 3.0F;
+  EXPECT_NEAR(approach.when().from_s, 3.011F, 0.005F);
+  approach.agent().track.acceleration_mps2 = -3.0F;
+  EXPECT_NEAR(approach.when().from_s, 3.207F, 0.005F);
+}
+
 // LEGAL-001 2 m before its exit at 12 m/s it stops in no less than 9 m: it is out after at most (12 -
 // sqrt(144 - 32)) / 8 = 0.177 s. Plans that begin 0.1 s later count from there.
 TEST(LegalOccupancy, WhoCannotStopLeavesTheZone) {
@@ -102,6 +112,22 @@ TEST(LegalOccupancy, WhoCanStopGentlyMayBeAsked) {
     EXPECT_EQ(Approach(priority, 81.5F, 15.279F).claim(), Claim::kMayCome);
     EXPECT_EQ(Approach(priority, 32.1F, 6.0F).claim(), Claim::kCanStop);
     EXPECT_EQ(Approach(priority, 31.9F, 6.0F).claim(), Claim::kMayCome);
+  }
+}
+
+// LEGAL-002 D2: for who is there by right it stops from 8 m/s within 16 m, a whole response counted, however
+// long it has been in sight: that we would come in it did not know.
+TEST(LegalOccupancy, AStopForWhoIsThereTakesAWholeResponse) {
+  EXPECT_TRUE(Approach(Priority::kFirstYields, 16.1F, 8.0F).when().can_stop);
+  EXPECT_FALSE(Approach(Priority::kFirstYields, 15.9F, 8.0F).when().can_stop);
+}
+
+// LEGAL-003 Who gains speed does not leave it to us, far as it may be.
+TEST(LegalOccupancy, WhoGainsSpeedIsNotAsked) {
+  for (const float gain_mps2 : {-1.0F, 0.4F, 0.6F}) {
+    Approach approach(Priority::kFirstYields, 35.0F, 6.0F);
+    approach.agent().track.acceleration_mps2 = gain_mps2;
+    EXPECT_EQ(approach.claim(), gain_mps2 < 0.5F ? Claim::kCanStop : Claim::kMayCome) << gain_mps2;
   }
 }
 
