@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""Who may include whom: fails on any include that this table does not allow.
+"""Who may include whom: fails on any include that this table does not allow, and on a table by which rooms include each other.
 
     check_includes.py [ROOT]
 """
 
+import graphlib
 import pathlib
 import re
 import sys
@@ -35,7 +36,8 @@ WORLD = {
 }
 # What only looks at the world.
 MEASURING = {"metrics": ["world/"], "roads": ["world/"]}
-# What drives a planner in it, all of them above the world. A planner is known by its name in the registry, and to nobody else.
+# What drives a planner in it, all of them above the world, each by those before it. A planner is known by its name in the
+# registry, and to nobody else.
 REGISTRY = ["baselines/any_ecu.hpp", "baselines/planner_registry.hpp"]
 DRIVING = {
     "baselines": ["metrics/"],
@@ -45,9 +47,8 @@ DRIVING = {
     "train": ["campaign/"],
     "view": ["campaign/", "metrics/"],
     "recording": ["campaign/", "metrics/", "view/"],
-    # Each has one thing of the other's: the ECU process writes the records that telemetry reads.
+    "telemetry": ["campaign/", "view/"],
     "processes": [*REGISTRY, "campaign/", "metrics/", "recording/", "telemetry/"],
-    "telemetry": ["campaign/", "processes/", "view/"],
 }
 # Room (longest prefix wins) -> prefixes of project headers it may include, besides its own.
 ALLOWED = {
@@ -71,7 +72,7 @@ ALLOWED = {
     **{f"sim_host/{room}/": ["algo/", *(f"firmware/{part}/" for part in ("can", "ecu", "gate", "lockstep", "secoc", "wire")), "hal/",
                              "sim_host/world/", *(f"sim_host/{below}" for below in under)]
        for room, under in DRIVING.items()},
-    "sim_host/": ["algo/", "firmware/", "hal/", "sim_host/"],  # main.cpp and its commands
+    "sim_host/": ["algo/", "firmware/", "hal/", "sim_host/"],  # main.cpp and its commands, and the other programs
     "tests/": ["algo/", "firmware/", "hal/", "sim_host/", "tests/"],
 }
 # May not even be reached through a directory that is allowed: interfaces know no platform, nor does the ECU.
@@ -120,8 +121,22 @@ def judge(path, quote, header):
     return "the core uses no such library"
 
 
+def circle(allowed):
+    """Rooms that the table lets include each other, as a finding; headers it names one by one do not count."""
+    graph = {}
+    for room, prefixes in allowed.items():
+        refused = tuple(FORBIDDEN.get(room, ()))
+        graph[room] = {other for other in allowed for prefix in prefixes
+                       if other != room and other.startswith(prefix) and not other.startswith(refused)}
+    try:
+        graphlib.TopologicalSorter(graph).prepare()
+    except graphlib.CycleError as error:
+        return [f"the table lets these include each other: {' <- '.join(error.args[1])}"]
+    return []
+
+
 def findings(root):
-    result = []
+    result = circle(ALLOWED)
     for folder in ROOTS:
         for file in sorted((root / folder).rglob("*")):
             if file.suffix not in (".hpp", ".cpp", ".h", ".c", ".def"):

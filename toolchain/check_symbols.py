@@ -18,7 +18,7 @@ import stack_depth  # noqa: E402  (the flag above has to come first)
 
 BARE_METAL = ("m7", "m55", "r52")
 PREFIX = {"m7": "arm-none-eabi-", "m55": "arm-none-eabi-", "r52": "arm-none-eabi-", "aarch64": "aarch64-linux-gnu-",
-          "host": "", "asan": ""}
+          "host": ""}
 CORE_ARCHIVES = ("algo/libs4tp_core.a", "firmware/libs4tp_wire.a", "firmware/libs4tp_gate.a", "firmware/libs4tp_ecu.a")
 
 # What must not be in an image, and why.

@@ -136,7 +136,7 @@ def fuzz(options):
 
 
 def known(options, target):
-    return [folder for folder in (KEPT / target, options.build.parent / "fuzz/corpus" / target) if folder.is_dir()]
+    return [folder for folder in (KEPT / target, options.build.parent / "sanitize/corpus" / target) if folder.is_dir()]
 
 
 def coverage(options):
@@ -196,7 +196,7 @@ def keep(options):
 def main(arguments_given):
     parser = argparse.ArgumentParser(prog="s4tp fuzz", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("targets", nargs="*", metavar="TARGET", help=f"of {', '.join(TARGETS)}; all when none is named")
-    parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build/fuzz", help=argparse.SUPPRESS)
+    parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build/sanitize", help=argparse.SUPPRESS)
     parser.add_argument("--seconds", type=int, help="for each target; a minute where nothing is said")
     parser.add_argument("--runs", type=int, help="executions for each target, shared out to the shards")
     parser.add_argument("--shards", type=int, default=1, help="processes at a time, each with a seed of its own")

@@ -21,7 +21,7 @@ semihosting=enable=on,target=native,arg=image
 for argument; do semihosting+=",arg=$argument"; done
 board=(-display none -monitor none -serial stdio "${can[@]}" "${count[@]}" -semihosting-config "$semihosting" -kernel "$image")
 case $target in
-  host | asan) exec "$image" "$@" ;;
+  host) exec "$image" "$@" ;;
   m7) exec qemu-system-arm -M mps2-an500 "${board[@]}" 2>&1 ;;
   m55) exec qemu-system-arm -M mps3-an547 "${board[@]}" 2>&1 ;;
   r52) exec qemu-arm -cpu max "$image" "$@" 2>&1 ;;

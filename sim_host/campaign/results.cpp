@@ -1,6 +1,8 @@
 #include "sim_host/campaign/results.hpp"
 
 #include <fstream>
+#include <iomanip>
+#include <sstream>
 #include <stdexcept>
 
 #include "sim_host/campaign/episode_record.hpp"
@@ -119,9 +121,12 @@ void write_json(const std::filesystem::path& file, const ordered_json& document)
 
 void print_episode(std::ostream& out, const EpisodeRow& row, const world::Recording& recording) {
   const metrics::EpisodeMetrics& m = row.metrics;
+  std::ostringstream figures;  // as many digits as are read
+  figures << std::fixed << std::setprecision(2) << m.duration_s << " s, smallest gap " << m.min_gap_m
+          << " m, smallest time to collision " << m.min_time_to_collision_s << " s, mean |jerk| "
+          << m.mean_abs_jerk_mps3 << " m/s^3\n";
   out << words(row.cell) << ", seed " << m.seed << ": " << metrics::ending_name(m.ending) << " after "
-      << m.duration_s << " s, smallest gap " << m.min_gap_m << " m, smallest time to collision "
-      << m.min_time_to_collision_s << " s, mean |jerk| " << m.mean_abs_jerk_mps3 << " m/s^3\n";
+      << figures.str();
   for (const world::Collision& collision : recording.collisions) {
     out << "  at " << collision.time_s << " s: " << world::cause_words(collision.fault, collision.cause)
         << ", vehicle " << collision.other << '\n';

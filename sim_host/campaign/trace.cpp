@@ -14,11 +14,17 @@ RecordT copy_of(const void* record) {
 
 }  // namespace
 
+void EcuState::change(const ecu::ModeRecord& record) {
+  if (record.to == ecu::Mode::kMinimumRisk || record.to == ecu::Mode::kFault) stopped_for = record.faults;
+  mode = record.to;
+}
+
 bool Trace::publish(std::uint16_t kind, const void* record, std::uint32_t size) {
   switch (static_cast<ecu::RecordKind>(kind)) {
     case ecu::RecordKind::kPlan:
       if (size != sizeof(ecu::PlanRecord)) return false;
       pending_.record = copy_of<ecu::PlanRecord>(record);
+      pending_.ecu = ecu_;
       cycles.push_back(std::move(pending_));
       pending_ = CycleTrace{};
       return true;
@@ -29,6 +35,7 @@ bool Trace::publish(std::uint16_t kind, const void* record, std::uint32_t size) 
     case ecu::RecordKind::kModeChange:
       if (size != sizeof(ecu::ModeRecord)) return false;
       modes.push_back(copy_of<ecu::ModeRecord>(record));
+      ecu_.change(modes.back());
       return true;
   }
   return false;

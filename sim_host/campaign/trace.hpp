@@ -11,9 +11,18 @@
 
 namespace s4tp::campaign {
 
+/// The ECU's mode, and the faults that took it out of the planner's hands.
+struct EcuState {
+  ecu::Mode mode = ecu::Mode::kStandby;
+  ecu::Faults stopped_for = 0;  ///< as it began to stop, or refused to drive; kept while it does
+
+  void change(const ecu::ModeRecord& record);
+};
+
 /// One planning cycle.
 struct CycleTrace {
   ecu::PlanRecord record;
+  EcuState ecu;               ///< when the plan took effect
   std::vector<Track> tracks;  ///< as the scene saw them
   std::vector<satp::AgentPrediction> predictions;
   sadrf::RiskProfile risk;
@@ -34,6 +43,7 @@ class Trace final : public hal::Telemetry, public planner::Probe {
 
  private:
   CycleTrace pending_;
+  EcuState ecu_;
 };
 
 }  // namespace s4tp::campaign

@@ -3,6 +3,7 @@
 #include <iomanip>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
@@ -17,6 +18,7 @@
 #include "sim_host/processes/drive_on_target.hpp"
 #include "sim_host/processes/emulated_board.hpp"
 #include "sim_host/processes/own_files.hpp"
+#include "sim_host/processes/stop_signals.hpp"
 #include "sim_host/recording/recorder.hpp"
 #include "sim_host/telemetry/live_drive.hpp"
 #include "sim_host/telemetry/records.hpp"
@@ -110,7 +112,7 @@ world::Scenario scenario_of(RunOptions& run) {
   return scenario;
 }
 
-int run_one(RunOptions run) {
+int run_one(RunOptions run) try {
   const world::Scenario scenario = scenario_of(run);
   campaign::EpisodeOptions options;
   options.seed = run.common.seed;
@@ -121,8 +123,10 @@ int run_one(RunOptions run) {
   options.parameters = run.common.parameters();
   options.trace = true;
   if (!run.log.empty()) options.log = run.log;
-  telemetry::LiveDrive live(run.telemetry, run.planner, options.parameters);
-  if (run.live) options.onlooker = &live;
+  std::optional<telemetry::LiveDrive> live;  // a signal must not leave its memory behind
+  if (run.live)
+    options.onlooker =
+        &live.emplace(run.telemetry, run.planner, options.parameters, &processes::stop_on_signals());
   if (!run.record.empty() && baselines::find_planner(run.planner).drives_in_sumo) {
     throw std::runtime_error("--record: " + run.planner + " runs on no ECU, so there is nothing to replay");
   }
@@ -159,6 +163,8 @@ int run_one(RunOptions run) {
   if (!run.log.empty()) std::cout << "bus log: " << run.log.string() << '\n';
   if (recorder) finish(*recorder, run);
   return result.recording.ending == world::Ending::kGoal ? 0 : kNotGoodEnough;
+} catch (const telemetry::DriveStopped&) {
+  return kInterrupted;
 }
 
 /// The same episode, with the ECU at the other end of a real bus.

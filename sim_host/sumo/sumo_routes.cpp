@@ -4,6 +4,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "sim_host/world/map/escaped.hpp"
 #include "sim_host/world/traffic/social_value.hpp"
 
 namespace s4tp::world {
@@ -20,7 +21,7 @@ class Element {
   explicit Element(const char* name) { text_ << std::boolalpha, text_.precision(17), text_ << '<' << name; }
 
   Element& with(const char* attribute, const std::string& value) {
-    text_ << ' ' << attribute << "=\"" << escaped(value) << '"';
+    text_ << ' ' << attribute << "=\"" << escaped(value) << '"';  // edge ids may hold any character
     return *this;
   }
   Element& with(const char* attribute, const char* value) { return with(attribute, std::string(value)); }
@@ -34,27 +35,6 @@ class Element {
   }
 
  private:
-  /// Edge ids may hold any character.
-  static std::string escaped(const std::string& value) {
-    std::string result;
-    for (const char c : value) {
-      switch (c) {
-        case '&':
-          result += "&amp;";
-          break;
-        case '<':
-          result += "&lt;";
-          break;
-        case '"':
-          result += "&quot;";
-          break;
-        default:
-          result += c;
-      }
-    }
-    return result;
-  }
-
   std::ostringstream text_;
 };
 

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "sim_host/telemetry/dds_messages.hpp"
+#include "sim_host/view/plan_numbers.hpp"
 #include "sim_host/view/plan_words.hpp"
 
 namespace s4tp::telemetry {
@@ -130,7 +131,7 @@ void DdsPublisher::publish_plan(const Watch& watch) {
   write(kTrajectoryTopic, trajectory(plan.plan, parameters.vehicle.wheelbase_m, arena));
   write(kPathTopic, path(plan.plan, arena));
   std_msgs_msg_dds__String_ words{};
-  const campaign::CycleTrace trace = trace_of(plan, watch.cycle());
+  const campaign::CycleTrace trace = trace_of(plan, watch.cycle(), watch.ecu());
   words.data = arena.text(view::in_words(trace) + "\n" + view::in_numbers(trace));
   write(kExplanationTopic, words);
   if (watch.cycle() == nullptr) return;

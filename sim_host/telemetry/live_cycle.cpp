@@ -9,6 +9,7 @@
 #include "sim_host/telemetry/who_matters.hpp"
 #include "sim_host/view/haze.hpp"
 #include "sim_host/view/html.hpp"
+#include "sim_host/view/plan_numbers.hpp"
 #include "sim_host/view/plan_words.hpp"
 
 namespace s4tp::telemetry {
@@ -190,12 +191,12 @@ ordered_json ecu_json(const IdentityRecord& identity, const ecu::ControlRecord& 
           {"state", kStates[static_cast<int>(status.bus_state)]}};
 }
 
-ordered_json cycle_json(const ecu::PlanRecord& plan, const CycleRecord& cycle, const Parameters& parameters,
-                        const sadrf::HeatMap* risk) {
-  const campaign::CycleTrace trace = trace_of(plan, &cycle);
+ordered_json cycle_json(const ecu::PlanRecord& plan, const CycleRecord& cycle, const campaign::EcuState& ecu,
+                        const Parameters& parameters, const sadrf::HeatMap* risk) {
+  const campaign::CycleTrace trace = trace_of(plan, &cycle, ecu);
   const planner::Explanation& e = plan.explanation;
   const std::vector<GroundClaim> claims = claims_of(plan, cycle, parameters);
-  const WhoMatters who = who_matters(plan, cycle, claims);
+  const WhoMatters who = who_matters(trace, cycle, claims);
   const EgoState& us = cycle.scene.ego;
   const auto rejected = [&](trajectory::Rejection why) {
     return std::count(e.rejections, e.rejections + std::min<int>(e.candidate_count, kMaxCandidates), why);

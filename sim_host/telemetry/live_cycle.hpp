@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "sim_host/campaign/trace.hpp"
 #include "sim_host/telemetry/derive.hpp"
 #include "sim_host/telemetry/records.hpp"
 
@@ -17,6 +18,7 @@ namespace s4tp::telemetry {
 /// VIEW-012 Scene, futures, candidates by cost, plan and fail-safe, reasons, costs of stages.
 /// \param risk  the picture of it, or null: none was computed
 [[nodiscard]] nlohmann::ordered_json cycle_json(const ecu::PlanRecord& plan, const CycleRecord& cycle,
-                                                const Parameters& parameters, const sadrf::HeatMap* risk);
+                                                const campaign::EcuState& ecu, const Parameters& parameters,
+                                                const sadrf::HeatMap* risk);
 
 }  // namespace s4tp::telemetry

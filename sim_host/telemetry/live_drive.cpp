@@ -17,6 +17,7 @@ void LiveDrive::begin(campaign::Trace* trace) {
 }
 
 void LiveDrive::ticked(const campaign::Driver& driver) {
+  if (stop_ != nullptr && *stop_) throw DriveStopped();
   tap_->note_status(driver.core(), driver.bus());
   // What was late is not made up for: nobody could look at it.
   next_ = std::max(next_ + kTick, std::chrono::steady_clock::now());

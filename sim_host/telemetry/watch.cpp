@@ -23,6 +23,7 @@ News Watch::look() {
   if (news.plan) cycle_known_ = find_cycle();
   for (ecu::ModeRecord change; memory_.next(kModeChanges, seen_[kModeChanges], lost_, &change);)
     news.mode_changes.push_back(change);
+  for (const ecu::ModeRecord& change : news.mode_changes) ecu_.change(change);
   return news;
 }
 
@@ -40,6 +41,7 @@ void Watch::attach(News& news) {
   std::fill(std::begin(seen_), std::end(seen_), 0U);
   cycle_known_ = false;
   plan_ = {};
+  ecu_ = {};
   control_ = {};
   status_ = {};
   looks_ = 1;
@@ -67,9 +69,11 @@ bool Watch::find_cycle() {
   return false;
 }
 
-campaign::CycleTrace trace_of(const ecu::PlanRecord& plan, const CycleRecord* cycle) {
+campaign::CycleTrace trace_of(const ecu::PlanRecord& plan, const CycleRecord* cycle,
+                              const campaign::EcuState& ecu) {
   campaign::CycleTrace trace;
   trace.record = plan;
+  trace.ecu = ecu;
   trace.risk = plan.explanation.risk;
   if (cycle == nullptr) return trace;
   for (const scene::Agent& agent : cycle->scene.agents) trace.tracks.push_back(agent.track);

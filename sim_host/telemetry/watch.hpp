@@ -36,6 +36,8 @@ class Watch {
   [[nodiscard]] const ecu::PlanRecord& plan() const { return plan_; }
   /// TELE-004 The cycle that plan() came of; null when it was overwritten before it was read.
   [[nodiscard]] const CycleRecord* cycle() const { return cycle_known_ ? &cycle_ : nullptr; }
+  /// By the mode changes seen; of those before it looked, as many as are kept.
+  [[nodiscard]] const campaign::EcuState& ecu() const { return ecu_; }
   [[nodiscard]] const ecu::ControlRecord& control() const { return control_; }
   [[nodiscard]] const StatusRecord& status() const { return status_; }
   [[nodiscard]] std::uint64_t lost_mode_changes() const { return lost_; }
@@ -56,12 +58,14 @@ class Watch {
   bool cycle_known_ = false;
   IdentityRecord identity_;
   ecu::PlanRecord plan_;
+  campaign::EcuState ecu_;
   CycleRecord cycle_;
   ecu::ControlRecord control_;
   StatusRecord status_;
 };
 
 /// The same as campaign::Trace keeps of a cycle, for words and pictures.
-[[nodiscard]] campaign::CycleTrace trace_of(const ecu::PlanRecord& plan, const CycleRecord* cycle);
+[[nodiscard]] campaign::CycleTrace trace_of(const ecu::PlanRecord& plan, const CycleRecord* cycle,
+                                            const campaign::EcuState& ecu);
 
 }  // namespace s4tp::telemetry

@@ -71,9 +71,9 @@ std::string claim_words(const GroundClaim& claim) {
   return "";
 }
 
-WhoMatters who_matters(const ecu::PlanRecord& plan, const CycleRecord& cycle,
+WhoMatters who_matters(const campaign::CycleTrace& trace, const CycleRecord& cycle,
                        const std::vector<GroundClaim>& claims) {
-  const campaign::CycleTrace trace = trace_of(plan, &cycle);
+  const ecu::PlanRecord& plan = trace.record;
   const view::Reason reason = view::reason_of(trace);
   WhoMatters who;
   int agent = agent_of(cycle, reason.track);

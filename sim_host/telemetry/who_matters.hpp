@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "sim_host/campaign/trace.hpp"
 #include "sim_host/telemetry/derive.hpp"
 #include "sim_host/telemetry/records.hpp"
 
@@ -20,7 +21,7 @@ struct WhoMatters {
 
 /// VIEW-010 Of whom a reason names, it; else who may come first where ways meet, else whose risk is largest.
 /// \param claims  of claims_of()
-[[nodiscard]] WhoMatters who_matters(const ecu::PlanRecord& plan, const CycleRecord& cycle,
+[[nodiscard]] WhoMatters who_matters(const campaign::CycleTrace& trace, const CycleRecord& cycle,
                                      const std::vector<GroundClaim>& claims);
 
 /// What a vehicle may claim, behind "it"; empty: nothing.

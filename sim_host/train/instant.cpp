@@ -110,7 +110,6 @@ void complete(Instant& instant, const world::Scenario& scenario, const world::Ro
   for (int i = 0; i < kMaxAgents; ++i) {
     sample.yields[i] = sample.route[i] = -1;
     if (instant.car[i] == world::kNoCar) continue;
-    Pose at_horizon;
     for (int step = 0; step < kHorizonSteps; ++step) {
       const world::CarState* car =
           find(drive[kLeadSnapshots + 1 + static_cast<std::size_t>(step)].others, instant.car[i]);

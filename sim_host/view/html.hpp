@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "sim_host/world/map/escaped.hpp"
+
 namespace s4tp::view {
 
 /// Style and scripts, the bytes of the files of the same name beside this one.
@@ -19,8 +21,7 @@ extern const char* const kReplayJs;
 extern const char* const kLiveHtml;
 extern const char* const kLiveJs;
 
-/// For text and for attributes in double quotes.
-[[nodiscard]] std::string escaped(const std::string& text);
+using world::escaped;
 
 /// As printf.
 [[nodiscard]] std::string format(const char* pattern, ...) __attribute__((format(printf, 1, 2)));

@@ -5,32 +5,17 @@
 
 #include "algo/core/inline.hpp"
 #include "sim_host/view/html.hpp"
+#include "sim_host/view/plan_numbers.hpp"
 
 namespace s4tp::view {
 namespace {
 
-constexpr int kNobody = 255;
-constexpr int kUnseen = -2;  // has no track
 constexpr float kRestMps = 0.3F;
-constexpr float kNoticeableMps = 0.7F;  // within the horizon
-constexpr float kNoticeableM = 2.0F;    // as much further the rejected motion must have gone
-constexpr float kFollowingS = 2.5F;     // farther ahead nobody is followed
-constexpr float kBendMps2 = 1.5F;
 constexpr float kSoonS = 60.0F;          // later arrivals have no number
 constexpr std::size_t kBriefCycles = 3;  // shorter reason_spans are passed over
 
 const TrajectoryPoint& start_of(const campaign::CycleTrace& cycle) {
   return cycle.record.plan.trajectory.points[0];
-}
-
-const TrajectoryPoint& end_of(const campaign::CycleTrace& cycle) {
-  return cycle.record.plan.trajectory.points[kHorizonSteps];
-}
-
-float way_m(const Trajectory& trajectory) {
-  float way = 0.0F;
-  for (const TrajectoryPoint& point : trajectory.points) way += kStepS * point.speed_mps;
-  return way;
 }
 
 const Track* find_track(const campaign::CycleTrace& cycle, int id) {
@@ -67,80 +52,6 @@ std::string name_of(const campaign::CycleTrace& cycle, int id) {
   return kind + where + (beside_lane ? std::string(" on the ") + side : std::string());
 }
 
-Because because_of(const safety::Verdict& verdict) {
-  switch (verdict.cause) {
-    case safety::Cause::kNone:
-      return Because::kNothing;
-    case safety::Cause::kNoPath:
-    case safety::Cause::kRoadEnd:
-      return Because::kRoadEnd;
-    case safety::Cause::kNoRoom:
-      return Because::kNoRoom;
-    case safety::Cause::kZone:
-      return Because::kGivingWay;
-    case safety::Cause::kLeader:
-      return Because::kLeader;
-    case safety::Cause::kFollower:
-      return Because::kBehind;
-  }
-  return Because::kNothing;
-}
-
-Doing doing_of(const campaign::CycleTrace& cycle) {
-  const float before = start_of(cycle).speed_mps;
-  const float after = end_of(cycle).speed_mps;
-  if (cycle.record.plan.kind == PlanKind::kMinimumRisk) return Doing::kStopping;
-  if (before < kRestMps) return after < kNoticeableMps ? Doing::kWaiting : Doing::kSettingOff;
-  if (cycle.record.explanation.manoeuvre == scene::Manoeuvre::kLeft) return Doing::kLeft;
-  if (cycle.record.explanation.manoeuvre == scene::Manoeuvre::kRight) return Doing::kRight;
-  if (after < kRestMps) return Doing::kHalting;
-  if (after < before - kNoticeableMps) return Doing::kSlower;
-  return after > before + kNoticeableMps ? Doing::kFaster : Doing::kDriving;
-}
-
-/// The sharpest turning of the plan.
-float lateral_mps2(const Trajectory& trajectory) {
-  float most = 0.0F;
-  for (const TrajectoryPoint& point : trajectory.points)
-    most = std::max(most, square(point.speed_mps) * std::abs(point.curvature_1pm));
-  return most;
-}
-
-bool risk_decided(const planner::Explanation& e) {
-  return e.dominating_track != kNobody && e.runner_up_cost.progress < e.chosen_cost.progress - 1.0F &&
-         e.runner_up_cost.risk > e.chosen_cost.risk + 1.0F;
-}
-
-Reason about(Doing doing, Because because, int track = kNobody) {
-  return {doing, because, track == kNobody ? -1 : track};
-}
-
-Reason about(Doing doing, const planner::BlockingReason& blocking) {
-  if (blocking.unseen()) return {doing, because_of(blocking.verdict), kUnseen};
-  return about(doing, because_of(blocking.verdict), blocking.track);
-}
-
-/// What a drive under way is about.
-Reason driving_reason(const campaign::CycleTrace& cycle, Doing doing) {
-  const planner::Explanation& e = cycle.record.explanation;
-  const bool slow = doing == Doing::kWaiting || doing == Doing::kHalting || doing == Doing::kSlower ||
-                    doing == Doing::kDriving;
-  if (!slow) return about(doing, Because::kNothing);
-  const bool held =
-      !e.blocking.verdict.safe() && e.blocking.way_m > way_m(cycle.record.plan.trajectory) + kNoticeableM;
-  const bool near =
-      e.leader_track != kNobody && e.leader_gap_m < 8.0F + kFollowingS * start_of(cycle).speed_mps;
-  if (held) {
-    return about(doing, e.blocking);
-  }
-  if (near && (doing != Doing::kDriving || e.chosen.intent == trajectory::Intent::kFollow))
-    return about(doing, Because::kLeader, e.leader_track);
-  if (risk_decided(e)) return about(doing, Because::kRisk, e.dominating_track);
-  if (doing == Doing::kSlower && lateral_mps2(cycle.record.plan.trajectory) > kBendMps2)
-    return about(doing, Because::kBend);
-  return about(doing, Because::kNothing);
-}
-
 const char* doing_words(Doing doing) {
   switch (doing) {
     case Doing::kWaiting:
@@ -161,8 +72,23 @@ const char* doing_words(Doing doing) {
       return "Changing to the right lane";
     case Doing::kStopping:
       return "Stopping to be safe";
+    case Doing::kStopped:
+      return "Stopped to be safe";
+    case Doing::kOutOfOrder:
+      return "Out of order";
   }
   return "?";
+}
+
+std::string fault_words(const campaign::EcuState& ecu) {
+  std::string names;
+  for (int bit = 0; bit < ecu::kFaultCount; ++bit) {
+    if ((ecu.stopped_for >> bit & 1U) != 0)
+      names += (names.empty() ? "" : ", ") + std::string(ecu::fault_name(bit));
+  }
+  const std::string found = "the ECU found a fault (" + names + ") and ";
+  if (ecu.mode == ecu::Mode::kMinimumRisk) return found + "no longer follows the planner";
+  return found + (ecu.mode == ecu::Mode::kStopped ? "stands until the driver takes over" : "cannot drive");
 }
 
 std::string giving_way(const std::string& who, const safety::Verdict& verdict) {
@@ -204,71 +130,19 @@ std::string because_words(const campaign::CycleTrace& cycle, const Reason& reaso
       return "no way on is safe enough";
     case Because::kBadInput:
       return "what the sensors say cannot be right";
+    case Because::kEcuFault:
+      return fault_words(cycle.ecu);
     case Because::kNobodySeen:
       return "the sensors have not said for too long who is around";
   }
   return "";
 }
 
-const char* manoeuvre_name(scene::Manoeuvre manoeuvre) {
-  static constexpr const char* kNames[] = {"keep", "left", "right"};
-  return kNames[static_cast<int>(manoeuvre)];
-}
-
-std::string candidate_text(const trajectory::Candidate& candidate, scene::Manoeuvre manoeuvre) {
-  static constexpr const char* kIntents[] = {"accelerate", "stop", "follow", "previous plan"};
-  const char* const intent = candidate.in_gap ? "beside a gap" : kIntents[static_cast<int>(candidate.intent)];
-  return format("%s, %s, %.1f m/s2", manoeuvre_name(manoeuvre), intent,
-                static_cast<double>(candidate.acceleration_mps2));
-}
-
-std::string cost_text(const planner::CostBreakdown& cost) {
-  return format("cost %.1f = progress %.1f + speed %.1f + jerk %.2f + lateral %.2f + lane %.1f + risk %.1f",
-                cost.total(), cost.progress, cost.speed, cost.jerk, cost.lateral, cost.lane, cost.risk);
-}
-
-std::string blocking_text(const campaign::CycleTrace& cycle, const planner::BlockingReason& blocking,
-                          const char* where) {
-  static constexpr const char* kCauses[] = {
-      "", "no path", "road's end", "leader", "follower", "zone", "would stand in the zone"};
-  const safety::Verdict& verdict = blocking.verdict;
-  if (verdict.safe()) return "";
-  std::string line = format("\n  held up %s: %s, %.1f m wanted", where,
-                            kCauses[static_cast<int>(verdict.cause)], blocking.way_m);
-  if (blocking.track != kNobody)
-    line += format(", track %d (%s)", blocking.track, name_of(cycle, blocking.track).c_str());
-  if (blocking.unseen()) line += ", somebody we are not told of";
-  if (verdict.cause == safety::Cause::kZone)
-    line += format(", there in %.1f s, we leave in %.1f s", verdict.from_s, verdict.needed_s);
-  return line;
-}
-
 double since_entry_s(const campaign::CycleTrace& cycle, double pre_roll_s) {
   return cycle.record.plan.start_ms / 1000.0 - pre_roll_s;
 }
 
-int rejected(const planner::Explanation& e, trajectory::Rejection why) {
-  return static_cast<int>(
-      std::count(e.rejections, e.rejections + std::min<int>(e.candidate_count, kMaxCandidates), why));
-}
-
 }  // namespace
-
-Reason reason_of(const campaign::CycleTrace& cycle) {
-  const Doing doing = doing_of(cycle);
-  switch (cycle.record.explanation.status) {
-    case Status::kOk:
-      return driving_reason(cycle, doing);
-    case Status::kNoLane:
-      return about(doing, Because::kNoLane);
-    case Status::kNoSafePlan:
-      return {doing, Because::kNoSafeWay, about(doing, cycle.record.explanation.blocking).track};
-    case Status::kStaleTracks:
-      return about(doing, Because::kNobodySeen);
-    default:
-      return about(doing, Because::kBadInput);
-  }
-}
 
 std::string in_words(const campaign::CycleTrace& cycle) {
   const planner::Explanation& e = cycle.record.explanation;
@@ -279,52 +153,21 @@ std::string in_words(const campaign::CycleTrace& cycle) {
   // The check's word on the way that was wanted most.
   if (reason.because == Because::kNoSafeWay && !e.blocking.verdict.safe()) {
     Reason wanted = reason;
-    wanted.because = because_of(e.blocking.verdict);
+    wanted.because = reason_of(reason.doing, e.blocking).because;
     words += "; " + because_words(cycle, wanted, e.blocking.verdict);
   }
   words += ".";
   // Behind somebody slower a passenger wonders why he is not passed.
   const bool follows = reason.because == Because::kLeader && reason.doing == Doing::kDriving;
-  if (follows && !e.beside.verdict.safe() && (e.beside.track != kNobody || e.beside.unseen()) &&
-      e.beside.way_m > way_m(cycle.record.plan.trajectory) + kNoticeableM) {
-    words += std::string(" No change to the ") + manoeuvre_name(e.beside.manoeuvre) + ": " +
-             because_words(cycle, about(reason.doing, e.beside), e.beside.verdict) + ".";
+  if (follows && (e.beside.track != kNobody || e.beside.unseen()) && wanted_further(cycle, e.beside)) {
+    words += std::string(" No change to the ") + name_of(e.beside.manoeuvre) + ": " +
+             because_words(cycle, reason_of(reason.doing, e.beside), e.beside.verdict) + ".";
   }
   return words;
 }
 
 std::string vehicle_name(const campaign::CycleTrace& cycle, int track) {
   return name_of(cycle, track);
-}
-
-std::string in_numbers(const campaign::CycleTrace& cycle) {
-  const planner::Explanation& e = cycle.record.explanation;
-  std::string lines = format("  %s, %.1f m/s", status_name(e.status), start_of(cycle).speed_mps);
-  if (e.status == Status::kOk) {
-    lines += "\n  chosen:    " + candidate_text(e.chosen, e.manoeuvre) + "; " + cost_text(e.chosen_cost);
-    if (e.decisions > 1)
-      lines += "\n  runner-up: " + candidate_text(e.runner_up, e.runner_up_manoeuvre) + "; " +
-               cost_text(e.runner_up_cost);
-  }
-  lines += format("\n  rejected of %d: %d infeasible, %d refused by the guard, %d left out (and %d not made)",
-                  e.candidate_count, rejected(e, trajectory::Rejection::kInfeasible),
-                  rejected(e, trajectory::Rejection::kRefused), rejected(e, trajectory::Rejection::kLeftOut),
-                  e.left_out);
-  lines += blocking_text(cycle, e.blocking, "in our lane") + blocking_text(cycle, e.beside, "beside");
-  if (e.tracks_left_out + e.lanes_left_out > 0)
-    lines += format("\n  not told of: %d vehicles, %d lanes", e.tracks_left_out, e.lanes_left_out);
-  if (e.dominating_track != kNobody)
-    lines += format("\n  risk:      track %d (%s) at +%.1f s", e.dominating_track,
-                    name_of(cycle, e.dominating_track).c_str(), 0.1 * (e.dominating_step + 1));
-  if (std::any_of(std::begin(e.risk.obstacle), std::end(e.risk.obstacle), [](float r) { return r > 0.0F; })) {
-    lines += "\n  R_obs every 0.5 s:";
-    for (int i = 4; i < kHorizonSteps; i += 5) lines += format(" %.0f", e.risk.obstacle[i]);
-  }
-  static constexpr const char* kStages[] = {"scene",      "candidates", "predict", "rank",
-                                            "exact risk", "optimize",   "check",   "explain"};
-  lines += "\n  work:     ";
-  for (int i = 0; i < planner::kStageCount; ++i) lines += format(" %s %d", kStages[i], e.work[i]);
-  return lines;
 }
 
 std::vector<ReasonSpan> reason_spans(const campaign::Trace& trace, double pre_roll_s) {
@@ -342,7 +185,8 @@ std::vector<ReasonSpan> reason_spans(const campaign::Trace& trace, double pre_ro
   }
   std::vector<Run> joined;
   for (const Run& run : runs) {
-    const bool brief = run.cycles < kBriefCycles && run.reason.doing != Doing::kStopping;
+    const bool brief =
+        run.cycles < kBriefCycles && run.reason.doing < Doing::kStopping;  // a stop to be safe never is
     if (!joined.empty() && (brief || joined.back().reason == run.reason)) {
       joined.back().cycles += run.cycles;
     } else {

@@ -204,7 +204,7 @@ TEST(Topics, ReachFastDdsWithTheRightValues) {
   EXPECT_NEAR(control.last().longitudinal().acceleration(), watch.control().sent.acceleration_mps2, 0.5F);
   EXPECT_NEAR(control.last().lateral().steering_tire_angle(), watch.control().sent.steering_rad, 0.05F);
   EXPECT_EQ(words.last().data().substr(0, words.last().data().find('\n')),
-            view::in_words(telemetry::trace_of(plan, &cycle)));
+            view::in_words(telemetry::trace_of(plan, &cycle, {})));
   int present = 0;
   for (const Lane& lane : cycle.map.lanes) present += lane.present ? 1 : 0;
   EXPECT_EQ(lanes.last().markers().size(), static_cast<std::size_t>(present) + 1U);

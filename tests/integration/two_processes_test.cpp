@@ -172,7 +172,7 @@ class Cable {
 
 // PROC-014 All four scenarios: the log of the two processes is the log of the in-process drive, to the last
 // byte.
-TEST(TwoProcesses, TcpGivesTheSameFrames) {
+TEST(RunCommand, TcpGivesTheSameFrames) {
   for (const std::string scenario : {"left_turn", "merge", "cruise", "overtake"}) {
     const fs::path log = scratch("tcp.log");
     Process run("s4tp_tool", {"run", "--bus", "slcan:tcp:127.0.0.1:" + test::free_port(), "--scenario",
@@ -181,6 +181,17 @@ TEST(TwoProcesses, TcpGivesTheSameFrames) {
     EXPECT_LE(run.wait(), 1) << scenario;
     EXPECT_EQ(content(log), content(in_process(scenario, 3))) << scenario;
   }
+}
+
+// TELE-005 A live drive that is told to stop takes its shared memory with it.
+TEST(RunCommand, LiveDriveLeavesNoMemoryBehind) {
+  const fs::path memory = "/dev/shm/s4tp_live_" + std::to_string(getpid());
+  Process run("s4tp_tool", {"run", "--live", "--telemetry", "/" + memory.filename().string(), "--out",
+                            scratch("live").string()});
+  for (int i = 0; i < 1200 && !fs::exists(memory); ++i) usleep(50'000);
+  ASSERT_TRUE(fs::exists(memory));
+  EXPECT_EQ(run.end(SIGTERM), 130);
+  EXPECT_FALSE(fs::exists(memory));
 }
 
 // PROC-014, PROC-010 The two programs on their own, over a cable between two terminals; one is told nothing
@@ -223,7 +234,7 @@ std::vector<std::string> plans_of(const fs::path& log) {
 
 // AUTH-040, AUTH-033, AUTH-034 Two processes that authenticate plan, to the bit and in the same ticks, what
 // is planned without; the key comes from a file or from the environment.
-TEST(TwoProcesses, AuthenticDriveHasTheSamePlans) {
+TEST(RunCommand, AuthenticDriveHasTheSamePlans) {
   const std::string file = new_key("key");
   ASSERT_EQ(setenv("S4TP_TEST_KEY", content(file).c_str(), 1), 0);
   const std::vector<std::string> expected = plans_of(in_process("left_turn", 3));
@@ -337,7 +348,7 @@ TEST(TwoProcesses, KilledEcuIsReported) {
 }
 
 // PROC-015, PROC-023, RT-022 Realtime, ended after a while: run.json says of both sides how late they were.
-TEST(TwoProcesses, RealtimeIsReported) {
+TEST(RunCommand, RealtimeIsReported) {
   const fs::path log = scratch("realtime.log");
   Process run("s4tp_tool", {"run", "--bus", "slcan:tcp:127.0.0.1:" + test::free_port(), "--realtime", "--log",
                             log, "--out", scratch("realtime")});

@@ -87,7 +87,7 @@ TEST(GuardProperty, AMergeTouchesNobody) {
 }
 
 // GUARD-010 Of random scenes of these three at most one in five hundred touches.
-TEST(GuardProperty, RareTouchesLong) {
+TEST(GuardPropertyLong, RareTouches) {
   constexpr unsigned kRandom = 5000;
   EXPECT_LE(touched_of_random(kRandom, nobody_with_priority_is_cut_off), 10);
   EXPECT_LE(touched_of_random(kRandom, nobody_is_cut_off_without_room), 10);

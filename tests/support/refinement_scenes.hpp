@@ -42,11 +42,14 @@ inline std::unique_ptr<RefinementScene> random_refinement(unsigned seed) {
     return low + (high - low) * static_cast<float>(random() % 10001U) * 1e-4F;
   };
   auto made = std::make_unique<RefinementScene>();
-  made->map = curved_road(draw(12.0F, 100.0F), draw(-1.5F, 1.5F));
+  // Each draw by itself: in what order arguments are made is the compiler's choice.
+  const float turn_rad = draw(-1.5F, 1.5F);
+  made->map = curved_road(draw(12.0F, 100.0F), turn_rad);
   const scene::LanePath path = path_of(made->map, {0, 1, 2});
   (void)add_way(made->scene, made->map, path);
   const float start_s_m = draw(5.0F, 80.0F);
-  TrajectoryPoint start = state_on(made->map, path, start_s_m, draw(0.0F, 14.0F), draw(-0.8F, 0.8F));
+  const float offset_m = draw(-0.8F, 0.8F);
+  TrajectoryPoint start = state_on(made->map, path, start_s_m, draw(0.0F, 14.0F), offset_m);
   if (random() % 5U == 0U) start.speed_mps = 0.0F;
   start.rear_axle.heading_rad = wrap_angle(start.rear_axle.heading_rad + draw(-0.1F, 0.1F));
   start.curvature_1pm = scene::path_point(made->map, path, start_s_m).curvature_1pm + draw(-0.02F, 0.02F);
@@ -75,9 +78,11 @@ inline std::unique_ptr<RefinementScene> random_refinement(unsigned seed) {
   const int vehicles = static_cast<int>(random() % 4U);
   for (int i = 0; i < vehicles; ++i) {
     const float ahead_m = draw(-8.0F, 30.0F);
-    const float left_m = draw(2.1F, 4.0F) * (random() % 2U == 0U ? 1.0F : -1.0F);
+    const float beside_m = draw(2.1F, 4.0F);
+    const float left_m = random() % 2U == 0U ? beside_m : -beside_m;
+    const bool in_lane = random() % 4U == 0U;
     const scene::Agent& agent = add_vehicle(made->scene, made->map, path, start_s_m + ahead_m,
-                                            draw(0.0F, 12.0F), random() % 4U == 0U ? 0.0F : left_m);
+                                            draw(0.0F, 12.0F), in_lane ? 0.0F : left_m);
     (void)made->constant_velocity.agents.push(steady_future(made->map, agent));
     satp::AgentPrediction predicted;
     predicted.agent = static_cast<std::uint8_t>(i);

@@ -78,6 +78,14 @@ class Includes(unittest.TestCase):
         self.assertEqual(len(findings("sim_host/world/traffic/x.cpp", '#include "sim_host/sumo/sumo_traffic.hpp"\n')), 1)
         self.assertEqual(len(findings("sim_host/sumo/x.cpp", '#include "algo/core/math.hpp"\n')), 1)
 
+    # What tells of an ECU knows no process that runs one; a table that let each include the other would have no order.
+    def test_folders_do_not_include_each_other(self):
+        self.assertEqual(findings("sim_host/processes/x.cpp", '#include "sim_host/telemetry/ecu_tap.hpp"\n'), [])
+        self.assertEqual(len(findings("sim_host/telemetry/x.cpp", '#include "sim_host/processes/bus_end.hpp"\n')), 1)
+        self.assertEqual(check_includes.circle(check_includes.ALLOWED), [])
+        both = {**check_includes.ALLOWED, "sim_host/telemetry/": ["sim_host/processes/"]}
+        self.assertEqual(len(check_includes.circle(both)), 1)
+
     # Planners and what compares them do not include each other: by the registry only, and one way.
     def test_campaign_knows_planners_by_the_registry_only(self):
         self.assertEqual(findings("sim_host/campaign/x.cpp", '#include "sim_host/baselines/planner_registry.hpp"\n'), [])

@@ -213,7 +213,6 @@ TEST_F(LaneMapTest, RevisionsMayWrapUnseen) {
     map.lanes[4] = sample_lane(4, 100 + revision);
     sender_.update(map);
     static_cast<void>(run(100, 10, [](const Frame& frame) {
-      LaneHeader header;
       const bool of_lane_4 = frame.id >= kLaneHeaderId && frame.id <= kLanePointId && frame.data[1] >> 4 == 4;
       return !(of_lane_4 && (frame.data[2] & 0x3) == 0);
     }));

@@ -75,8 +75,8 @@ const Keeper& left_turn() {
 TEST(LiveCycle, SaysWhoHoldsUsUp) {
   int waits = 0;
   for (const Keeper::Kept& one : left_turn().kept) {
-    const nlohmann::ordered_json json = cycle_json(one.plan, one.cycle, Parameters{}, nullptr);
-    const campaign::CycleTrace trace = trace_of(one.plan, &one.cycle);
+    const nlohmann::ordered_json json = cycle_json(one.plan, one.cycle, {}, Parameters{}, nullptr);
+    const campaign::CycleTrace trace = trace_of(one.plan, &one.cycle, {});
     const view::Reason reason = view::reason_of(trace);
     EXPECT_EQ(json.at("words"), view::in_words(trace));
     const auto& who = json.at("who");
@@ -112,7 +112,7 @@ TEST(LiveCycle, ClaimsHaveWords) {
 TEST(LiveCycle, TellsTheRecordsNumbers) {
   const Keeper::Kept& one = left_turn().kept.at(left_turn().kept.size() / 2);
   const auto map = std::make_unique<sadrf::HeatMap>(heat_map_of(one.plan, one.cycle, Parameters{}));
-  const nlohmann::ordered_json json = cycle_json(one.plan, one.cycle, Parameters{}, map.get());
+  const nlohmann::ordered_json json = cycle_json(one.plan, one.cycle, {}, Parameters{}, map.get());
   EXPECT_EQ(json.at("t"), one.plan.plan.start_ms);
   ASSERT_EQ(static_cast<int>(json.at("vehicles").size()), one.cycle.scene.agents.size());
   EXPECT_EQ(json.at("vehicles").at(0).at("id"), one.cycle.scene.agents[0].track.id);

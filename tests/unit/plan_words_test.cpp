@@ -7,6 +7,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "sim_host/view/plan_numbers.hpp"
+
 namespace s4tp::view {
 namespace {
 
@@ -186,6 +188,27 @@ TEST(PlanWords, LaneChangesAndStops) {
             "Stopping to be safe: no way on is safe enough; the car from the left can be there in 1.0 s, we "
             "would need "
             "3.0 s.");
+}
+
+// An ECU that stops, or has stopped, for a fault says so, whatever plans are still made; and which fault, also when it is
+// gone again.
+TEST(PlanWords, TheEcusFaultComesFirst) {
+  campaign::CycleTrace cycle = plan(0.0F, 3.0F);
+  const auto lost = static_cast<ecu::Faults>(ecu::FaultBit::kMapLost);
+  EXPECT_EQ(in_words(cycle), "Setting off.");
+  cycle.ecu.change(
+      {0, ecu::Mode::kDriving, ecu::Mode::kMinimumRisk, ecu::TransitionId::kDrivingMinimumRisk, lost});
+  EXPECT_EQ(in_words(cycle),
+            "Stopping to be safe: the ECU found a fault (no map) and no longer follows the planner.");
+  cycle.ecu.change(
+      {0, ecu::Mode::kMinimumRisk, ecu::Mode::kStopped, ecu::TransitionId::kMinimumRiskStopped, 0});
+  EXPECT_EQ(in_words(cycle),
+            "Stopped to be safe: the ECU found a fault (no map) and stands until the driver takes over.");
+  cycle.ecu.change({0, ecu::Mode::kStopped, ecu::Mode::kFault, ecu::TransitionId::kStoppedFault,
+                    static_cast<ecu::Faults>(ecu::FaultBit::kSelfTest)});
+  EXPECT_EQ(in_words(cycle), "Out of order: the ECU found a fault (self-test refused) and cannot drive.");
+  cycle.ecu.change({0, ecu::Mode::kStopped, ecu::Mode::kStandby, ecu::TransitionId::kStoppedStandby, 0});
+  EXPECT_EQ(in_words(cycle), "Setting off.");
 }
 
 // The numbers name what an engineer asks first: costs, rejections, whose risk and when, RSS, work.

@@ -82,7 +82,7 @@ class LeftTurnFromNorth : public testing::Test {
   const RouteGuide left_{network_, {"north_in", "east_out"}, kNoLane, 0.0};
   const RouteGuide straight_{network_, {"south_in", "north_out"}, kNoLane, 0.0};
   const RouteGuide ego_{network_, {"south_in", "west_out"}, kNoLane, 0.0};
-  const Driver driver_;
+  const Driver driver_{};
 };
 
 // A left turner waits for a car that comes straight from the opposite arm, 8 m before its line and 2 m/s

@@ -64,7 +64,7 @@ class LiveView {
             ? std::make_unique<sadrf::HeatMap>(telemetry::heat_map_of(watch_.plan(), cycle, parameters))
             : nullptr;
     nlohmann::ordered_json json{{"kind", "cycle"}, {"number", ++number_}, {"ecu_number", ecus_}};
-    json.update(telemetry::cycle_json(watch_.plan(), cycle, parameters, risk.get()));
+    json.update(telemetry::cycle_json(watch_.plan(), cycle, watch_.ecu(), parameters, risk.get()));
     json["ecu"] = telemetry::ecu_json(watch_.identity(), watch_.control(), watch_.status());
     json["at"] = read_ms;
     server_.publish(json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
