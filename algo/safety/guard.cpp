@@ -27,6 +27,7 @@ constexpr float kEasesOff = 0.25F;  // share of the fail-safe's braking that is 
 constexpr float kEndShare =
     0.5F;  // of that braking, at least, past the last place to stop before the road's end
 constexpr float kEndRoundingM = 0.01F;
+constexpr float kLateS = 0.3F;  // a plan is driven, and licences hold, with so much delay
 
 }  // namespace
 
@@ -75,10 +76,22 @@ bool Guard::is_latched(std::uint8_t track, LaneIndex lane) const {
   return false;
 }
 
+bool Guard::is_bound(int path) const {
+  if (path < 0 || path >= scene_->ego_paths.size()) return false;
+  const Sight& sight = sights_[path];
+  for (const ZoneGroup& group : sight.groups) {
+    if (sight.start_s_m + centre_m_ < group.exit_s_m) return sight.stop_s_m > group.entry_s_m;
+  }
+  return false;
+}
+
 void Guard::commit(int path, const Verdict& verdict) {
+  // Who is bound to go on keeps to the time its licences were taken for.
+  if (!(goes_through_ && verdict.clears && is_bound(path))) {
+    clear_by_ms_ = scene_->time_ms +
+                   static_cast<std::uint32_t>(to_int(1e3F * (lead_s_ + verdict.clear_s), 0, 1'000'000));
+  }
   goes_through_ = verdict.clears;
-  clear_by_ms_ =
-      scene_->time_ms + static_cast<std::uint32_t>(to_int(1e3F * (lead_s_ + verdict.clear_s), 0, 1'000'000));
   // A licence lost before it was used is not in here any more.
   latched_.clear();
   if (!verdict.clears || path < 0 || path >= scene_->ego_paths.size()) return;
@@ -187,7 +200,7 @@ bool Guard::leaves_in_time(const ZoneGroup& group, const Own& own) const {
   if (goes_through_) {
     const float left_s =
         1e-3F * static_cast<float>(static_cast<std::int32_t>(clear_by_ms_ - scene_->time_ms)) - lead_s_;
-    if (own.time_at_s(group.exit_s_m, group.cap_mps) <= left_s + 0.5F * kStepS) return true;
+    if (own.time_at_s(group.exit_s_m, group.cap_mps) <= left_s + kLateS) return true;
   }
   for (int i = 1; i < kTrajectoryPoints && own.s_m[i - 1] < group.exit_s_m; ++i) {
     if (own.speed_mps[i] < own.speed_mps[0]) return false;
@@ -221,6 +234,7 @@ bool Guard::passes_group(const scene::EgoPath& path, const Sight& sight, const Z
     if (threat.zone < group.first || threat.zone >= group.end) continue;
     const scene::ConflictZone& zone = path.zones[threat.zone];
     if (own.s_m[0] > zone.exit_s_m) continue;
+    if (threat.licensed && (own.blocked || leaves_in_time(group, own))) continue;
     Verdict refused = verdict;
     if (passes_threat(path, sight, threat, own, refused)) continue;
     // Who cannot stay out any more leaves it as soon as it was to.

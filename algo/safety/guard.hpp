@@ -6,7 +6,8 @@
 /// leave it to us. GUARD-003 Nobody stops in a group where it gives way, nor enters one without room beyond.
 /// GUARD-004 It can be stopped behind a leader who brakes as hard as can be; behind a cut-in it only must not
 /// get worse. GUARD-005 What is safe only by hard braking says so. GUARD-006 A licence used holds, for the
-/// ground it was given for; used it is once we cannot stop before that any more, and until we stand.
+/// ground it was given for, until we stand, for a plan that leaves that in time; used it is once we cannot stop
+/// before it any more.
 /// GUARD-007 Who cannot stay out of a zone any more leaves it no later than it was to. GUARD-008 Merging
 /// leaves room, in both orders. GUARD-009 A lane change leaves who is behind room to brake, and begins only
 /// when who is ahead is ahead of all of us by the time we are over the line, braking as hard as can be.
@@ -105,6 +106,7 @@ class Guard {
     std::uint8_t zone = 0;
     std::uint8_t agent = 0;  ///< or kUnseen: the one that comes first
     LaneIndex lane = kNoLaneIndex;
+    bool licensed = false;  ///< latched: only a plan that is out of the group in time counts on it
     ZoneOccupancy when;
   };
   /// Somebody in the lane of the path, ahead or behind.
@@ -150,6 +152,8 @@ class Guard {
                                const occupancy::LaneReach& straight_on,
                                const occupancy::LaneReach (&reach)[kMaxTracks], ZoneOccupancy& when) const;
   [[nodiscard]] bool is_behind(const ZoneOccupancy (&when)[kMaxTracks], int index) const;
+  /// Whether the next group on it cannot be stopped before any more.
+  [[nodiscard]] bool is_bound(int path) const;
   [[nodiscard]] bool is_latched(std::uint8_t track, LaneIndex lane) const;
   [[nodiscard]] bool passes_group(const scene::EgoPath& path, const Sight& sight, const ZoneGroup& group,
                                   const Own& own, Verdict& verdict) const;
@@ -172,7 +176,7 @@ class Guard {
   Sight sights_[kPaths];
   BoundedVector<Latch, 2 * kMaxTracks> latched_;
   bool goes_through_ = false;      ///< the plan in force, a group of zones
-  std::uint32_t clear_by_ms_ = 0;  ///< when it has left it
+  std::uint32_t clear_by_ms_ = 0;  ///< when it was to have left it, as we were bound to go on
 };
 
 }  // namespace s4tp::safety

@@ -134,6 +134,11 @@ void Guard::find_threats(const scene::EgoPath& path, const occupancy::LaneReach 
   const int count = scene_->agents.size();
   for (int z = 0; z < path.zones.size(); ++z) {
     ZoneOccupancy when[kMaxTracks];
+    const auto expect = [&](int i, bool licensed) {
+      const Threat threat{static_cast<std::uint8_t>(z), static_cast<std::uint8_t>(i), scene_->agents[i].lane,
+                          licensed, when[i]};
+      if (!sight.threats.push(threat)) sight.too_many = true;
+    };
     // Two who set off at once have both seen the other stand: who can still stop has not used its licence.
     const bool bound = sight.stop_s_m > path.zones[z].entry_s_m;
     for (int i = 0; i < count; ++i) {
@@ -145,15 +150,16 @@ void Guard::find_threats(const scene::EgoPath& path, const occupancy::LaneReach 
                                lead_s_, *parameters_);
       const bool latched =
           bound && when[i].to_entry_m > 0.0F && is_latched(agent.track.id, path.zones[z].other_lane);
-      if (when[i].claim == Claim::kMayCome && latched) when[i].claim = Claim::kStands;
+      if (when[i].claim == Claim::kMayCome && latched) {
+        expect(i, true);
+        when[i].claim = Claim::kStands;
+      }
       const bool stays_out = when[i].claim != Claim::kMayCome && when[i].claim != Claim::kNone;
       if (stays_out) sight.staying_out[z] |= static_cast<std::uint16_t>(1U << i);
     }
     for (int i = 0; i < count; ++i) {
       if (when[i].claim != Claim::kMayCome || is_behind(when, i)) continue;
-      const Threat threat{static_cast<std::uint8_t>(z), static_cast<std::uint8_t>(i), scene_->agents[i].lane,
-                          when[i]};
-      if (!sight.threats.push(threat)) sight.too_many = true;
+      expect(i, false);
     }
   }
 }

@@ -95,7 +95,7 @@ void Guard::expect_from(LaneIndex lane, float s_m, const LaneReach (&reach)[kMax
     Sight& sight = sights_[p];
     for (int z = 0; z < path.zones.size(); ++z) {
       const scene::ConflictZone& zone = path.zones[z];
-      Threat threat{static_cast<std::uint8_t>(z), kUnseen, lane,
+      Threat threat{static_cast<std::uint8_t>(z), kUnseen, lane, false,
                     zone_occupancy(*scene_, somebody, zone.merging ? straight_on : anyhow, zone, lead_s_,
                                    *parameters_)};
       if (threat.when.claim != Claim::kMayCome) continue;

@@ -251,8 +251,8 @@ TEST(Guard, ReliesOnHardBraking) {
 }
 
 // GUARD-006 A licence used is not withdrawn half way: 40 m off at 6 m/s it can stop gently (32 m), and we
-// commit ourselves. 25 m off it could not be asked any more; to us it still stays out. To one who has not
-// committed, or has given it up since, it does not.
+// commit ourselves. 8 m off it could not be asked any more; to us it still stays out. To one who has not committed, or
+// has given it up since, it does not; nor to one who was to be out after 2.4 s, and at a steady 3 m/s is after 2.9.
 TEST(Guard, ALicenceUsedHolds) {
   for (const bool committed : {true, false}) {
     SharedGround road(Priority::kFirstYields);
@@ -262,7 +262,8 @@ TEST(Guard, ALicenceUsedHolds) {
     if (committed) road.guard.commit(0, begun);
     road.scene.agents.clear();
     road.other(96.0F - 8.0F, 6.0F);
-    EXPECT_EQ(road.safe(95.2F, 3.0F, 0.0F), committed);
+    EXPECT_EQ(road.safe(95.2F, 3.0F, 1.0F), committed);
+    EXPECT_FALSE(road.safe(95.2F, 3.0F, 0.0F));
   }
   SharedGround road(Priority::kFirstYields);
   road.other(96.0F - 40.0F, 6.0F);
