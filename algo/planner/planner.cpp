@@ -241,32 +241,29 @@ float PlanningCycle::crash_cost(const satp::PredictionSet& prediction, Stage sta
 Status PlanningCycle::choose(Explanation& explanation) {
   int best = -1;
   int second = -1;
-  int held = -1;  // whose trajectory, prediction and risk the buffers hold
-  bool held_safe = false;
+  bool holds_best = false;  // its trajectory and prediction are in chosen_ and conditioned_
   for (int i = decisions_.size() - 1; i >= 0; --i) {  // the likely winner last: it is then held already
     const int index = decisions_[i].candidate;
     decisions_to_come_ = i + 1;
-    held = index;
-    held_safe = evaluate(index, explanation);
-    if (!held_safe) continue;
+    if (holds_best) arena_.predictor.put_aside(conditioned_.set);
+    holds_best = false;
+    if (!evaluate(index, explanation)) continue;
     ++explanation.decisions;
     if (best < 0 || costs_[index].total() <= costs_[best].total()) {
       second = best;
       best = index;
       best_risk_ = explanation.risk;
+      holds_best = true;
     } else if (second < 0 || costs_[index].total() <= costs_[second].total()) {
       second = index;
     }
   }
   if (best < 0) return Status::kNoSafePlan;
   decisions_to_come_ = 0;
-  // Whom there is no work left to predict again gives way to the one that is at hand, if that may be driven.
-  if (best != held && held_safe && work_.left() < decode_work()) {
-    second = best;
-    best = held;
-    best_risk_ = explanation.risk;
+  if (!holds_best) {
+    roll_out(best);
+    conditioned_.set = arena_.predictor.aside();
   }
-  if (best != held && !hold(best, explanation)) return Status::kNoSafePlan;
   explanation.risk = best_risk_;
   refine(candidates_[best], explanation);
   const safety::Verdict verdict = guard_.judge(candidates_[best].path, chosen_);
@@ -289,13 +286,14 @@ Status PlanningCycle::choose(Explanation& explanation) {
   return Status::kOk;
 }
 
-bool PlanningCycle::hold(int index, Explanation& explanation) {
+void PlanningCycle::roll_out(int index) {
+  const StageScope scope(probe, Stage::kCandidates);
   const trajectory::Candidate& candidate = candidates_[index];
-  {
-    const StageScope scope(probe, Stage::kCandidates);
-    trajectory::roll_out(lines_[candidate.path], candidate, start_, running_, start_ms_, parameters_,
-                         chosen_);
-  }
+  trajectory::roll_out(lines_[candidate.path], candidate, start_, running_, start_ms_, parameters_, chosen_);
+}
+
+bool PlanningCycle::hold(int index, Explanation& explanation) {
+  roll_out(index);
   if (allowance.decisions <= 0) return true;  // it has passed with the predictions without plan
   {
     const StageScope scope(probe, Stage::kPredict);
@@ -307,7 +305,7 @@ bool PlanningCycle::hold(int index, Explanation& explanation) {
   {
     const StageScope scope(probe, Stage::kCheck);
     count(explanation, Stage::kCheck, 1);
-    if (!verify(candidate.path, chosen_).safe()) {
+    if (!verify(candidates_[index].path, chosen_).safe()) {
       explanation.rejections[index] = trajectory::Rejection::kRefused;
       return false;
     }
