@@ -60,6 +60,14 @@ std::int32_t work_of(const satp::PredictionSet& prediction, int steps) {
   return work::kDecodeAgent * prediction.agents.size() + work::kDecodeStep * steps;
 }
 
+/// What the network reads, and what is predicted of all vehicles.
+std::int32_t encode_work(const scene::Scene& scene) {
+  int ways = 0;
+  for (int i = 0; i < scene.watched; ++i) ways += scene.agents[i].paths.size();
+  return work::kEncode + work::kEncodeWatched * scene.watched + work::kEncodePath * ways +
+         work::kGoesOn * scene.agents.size();
+}
+
 }  // namespace
 
 Status PlanningCycle::init(const Parameters& parameters) {
@@ -136,7 +144,8 @@ Status PlanningCycle::plan(const PlannerInput& input, Plan& plan, Explanation& e
       {
         const StageScope scope(probe, Stage::kCheck);
         guard_.look(scene_, start_, 0.001F * static_cast<float>(start_ms_ - scene_.time_ms), parameters_);
-        work_.spend(Stage::kCheck, work::kGuardAgent * scene_.agents.size());
+        work_.spend(Stage::kCheck,
+                    (work::kGuardAgent + work::kAgentPath * scene_.ego_paths.size()) * scene_.agents.size());
       }
       predict(explanation);
       rank(input.degraded != 0, explanation);
@@ -221,7 +230,7 @@ void PlanningCycle::predict(Explanation& explanation) {
   beliefs_.observe(scene_, hypotheses);
   arena_.predictor.decode(nullptr, allowance.prediction, marginal_);
   marginal_work_ = work_of(marginal_, arena_.predictor.work());
-  work_.spend(Stage::kPredict, work::kEncode + work::kEncodeAgent * scene_.agents.size() + decode_work());
+  work_.spend(Stage::kPredict, encode_work(scene_) + decode_work());
   if (weights_.present()) trust_.remember(scene_, marginal_, start_ms_);
   arena_.predictor.constant_velocity(constant_velocity_);
   count(explanation, Stage::kPredict, arena_.predictor.work());
