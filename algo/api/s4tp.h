@@ -277,7 +277,7 @@ typedef struct s4tp_explanation {
 
 /* ---- The planner -------------------------------------------------------------------------------------- */
 
-#define S4TP_BLOCK_BYTES 77824
+#define S4TP_BLOCK_BYTES 79872
 
 /// The planner's whole memory, owned by the caller and opaque. Zeroed (as static memory is) or initialised
 /// before any other call; not moved or copied afterwards; simply given up at the end.

@@ -60,6 +60,14 @@ std::int32_t work_of(const satp::PredictionSet& prediction, int steps) {
   return work::kDecodeAgent * prediction.agents.size() + work::kDecodeStep * steps;
 }
 
+/// What the network reads, and what is predicted of all vehicles.
+std::int32_t encode_work(const scene::Scene& scene) {
+  int ways = 0;
+  for (int i = 0; i < scene.watched; ++i) ways += scene.agents[i].paths.size();
+  return work::kEncode + work::kEncodeWatched * scene.watched + work::kEncodePath * ways +
+         work::kGoesOn * scene.agents.size();
+}
+
 }  // namespace
 
 Status PlanningCycle::init(const Parameters& parameters) {
@@ -136,7 +144,8 @@ Status PlanningCycle::plan(const PlannerInput& input, Plan& plan, Explanation& e
       {
         const StageScope scope(probe, Stage::kCheck);
         guard_.look(scene_, start_, 0.001F * static_cast<float>(start_ms_ - scene_.time_ms), parameters_);
-        work_.spend(Stage::kCheck, work::kGuardAgent * scene_.agents.size());
+        work_.spend(Stage::kCheck,
+                    (work::kGuardAgent + work::kAgentPath * scene_.ego_paths.size()) * scene_.agents.size());
       }
       predict(explanation);
       rank(input.degraded != 0, explanation);
@@ -221,7 +230,7 @@ void PlanningCycle::predict(Explanation& explanation) {
   beliefs_.observe(scene_, hypotheses);
   arena_.predictor.decode(nullptr, allowance.prediction, marginal_);
   marginal_work_ = work_of(marginal_, arena_.predictor.work());
-  work_.spend(Stage::kPredict, work::kEncode + work::kEncodeAgent * scene_.agents.size() + decode_work());
+  work_.spend(Stage::kPredict, encode_work(scene_) + decode_work());
   if (weights_.present()) trust_.remember(scene_, marginal_, start_ms_);
   arena_.predictor.constant_velocity(constant_velocity_);
   count(explanation, Stage::kPredict, arena_.predictor.work());
@@ -241,32 +250,29 @@ float PlanningCycle::crash_cost(const satp::PredictionSet& prediction, Stage sta
 Status PlanningCycle::choose(Explanation& explanation) {
   int best = -1;
   int second = -1;
-  int held = -1;  // whose trajectory, prediction and risk the buffers hold
-  bool held_safe = false;
+  bool holds_best = false;  // its trajectory and prediction are in chosen_ and conditioned_
   for (int i = decisions_.size() - 1; i >= 0; --i) {  // the likely winner last: it is then held already
     const int index = decisions_[i].candidate;
     decisions_to_come_ = i + 1;
-    held = index;
-    held_safe = evaluate(index, explanation);
-    if (!held_safe) continue;
+    if (holds_best) arena_.predictor.put_aside(conditioned_.set);
+    holds_best = false;
+    if (!evaluate(index, explanation)) continue;
     ++explanation.decisions;
     if (best < 0 || costs_[index].total() <= costs_[best].total()) {
       second = best;
       best = index;
       best_risk_ = explanation.risk;
+      holds_best = true;
     } else if (second < 0 || costs_[index].total() <= costs_[second].total()) {
       second = index;
     }
   }
   if (best < 0) return Status::kNoSafePlan;
   decisions_to_come_ = 0;
-  // Whom there is no work left to predict again gives way to the one that is at hand, if that may be driven.
-  if (best != held && held_safe && work_.left() < decode_work()) {
-    second = best;
-    best = held;
-    best_risk_ = explanation.risk;
+  if (!holds_best) {
+    roll_out(best);
+    conditioned_.set = arena_.predictor.aside();
   }
-  if (best != held && !hold(best, explanation)) return Status::kNoSafePlan;
   explanation.risk = best_risk_;
   refine(candidates_[best], explanation);
   const safety::Verdict verdict = guard_.judge(candidates_[best].path, chosen_);
@@ -289,13 +295,14 @@ Status PlanningCycle::choose(Explanation& explanation) {
   return Status::kOk;
 }
 
-bool PlanningCycle::hold(int index, Explanation& explanation) {
+void PlanningCycle::roll_out(int index) {
+  const StageScope scope(probe, Stage::kCandidates);
   const trajectory::Candidate& candidate = candidates_[index];
-  {
-    const StageScope scope(probe, Stage::kCandidates);
-    trajectory::roll_out(lines_[candidate.path], candidate, start_, running_, start_ms_, parameters_,
-                         chosen_);
-  }
+  trajectory::roll_out(lines_[candidate.path], candidate, start_, running_, start_ms_, parameters_, chosen_);
+}
+
+bool PlanningCycle::hold(int index, Explanation& explanation) {
+  roll_out(index);
   if (allowance.decisions <= 0) return true;  // it has passed with the predictions without plan
   {
     const StageScope scope(probe, Stage::kPredict);
@@ -307,7 +314,7 @@ bool PlanningCycle::hold(int index, Explanation& explanation) {
   {
     const StageScope scope(probe, Stage::kCheck);
     count(explanation, Stage::kCheck, 1);
-    if (!verify(candidate.path, chosen_).safe()) {
+    if (!verify(candidates_[index].path, chosen_).safe()) {
       explanation.rejections[index] = trajectory::Rejection::kRefused;
       return false;
     }

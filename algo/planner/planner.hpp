@@ -116,7 +116,8 @@ class PlanningCycle {
   void rank(bool careful, Explanation& explanation);
   /// Evaluates the shortlisted decisions with the predictions they bring about; leaves the best in chosen_.
   [[nodiscard]] Status choose(Explanation& explanation);
-  /// Rolls candidate `index` out into chosen_, predicts for it and checks it.
+  void roll_out(int index);  ///< of the candidates, into chosen_
+  /// The same, predicts for it and checks it.
   [[nodiscard]] bool hold(int index, Explanation& explanation);
   /// The same, and computes its exact risk.
   [[nodiscard]] bool evaluate(int index, Explanation& explanation);

@@ -15,18 +15,17 @@ constexpr float kWorthSlope = 20.0F;  // for a second, a hundredth of a metre of
 constexpr std::int32_t kUnbounded = 1'000'000'000;  // evaluations of the field are counted (WorkAllowance)
 constexpr std::int32_t kStepWork = 10;              // our field and box
 constexpr std::int32_t kFutureWork = 2;             // to see that it is out of reach on both sides
-constexpr std::int32_t kLinesWork = 10;             // a field over a box by lines
-constexpr std::int32_t kTheirFieldWork = 8;         // to make another's field
-constexpr std::int32_t kSlicesWork = 14;            // a field over a box by slices, and for each ...
-constexpr std::int32_t kSliceWork = 4;              // ... of them
-constexpr std::int32_t kMostSlicesWork = kSlicesWork + kSliceWork * kMaxSlices;
+constexpr std::int32_t kLinesWork = 6;              // a field over a box by lines
+constexpr std::int32_t kTheirFieldWork = 4;         // to make another's field
+constexpr std::int32_t kSliceWork = 6;              // a field over a slice of a box
+constexpr std::int32_t kMostSlicesWork = kSliceWork * kMaxSlices;
 /// For a box among so many, by its centre.
 constexpr std::int32_t centre_work(int boxes) {
-  return 1 + boxes / 3;
+  return 1 + boxes;
 }
-constexpr std::int32_t kPairWork = 2;         // whether two boxes share ground
-constexpr std::int32_t kSamplesWork = 50;     // our field at the samples of a box
-constexpr std::int32_t kPairSamplesWork = 5;  // whether another box covers them
+constexpr std::int32_t kPairWork = 1;          // whether two boxes share ground
+constexpr std::int32_t kSamplesWork = 40;      // our field at the samples of a box
+constexpr std::int32_t kPairSamplesWork = 13;  // whether another box covers them
 
 float radius(float length_m, float width_m) {
   return 0.5F * (length_m + width_m);
@@ -40,7 +39,7 @@ float risk_of_box(const Field& field, const Box& box, Point ahead, float cost, P
   if (precision == Precision::kLines || risk < kWorthSlices || !work.allows(kMostSlicesWork)) return risk;
   int lines = 0;
   const float precise = cost * field_over_slices(field, box, lines);
-  work.spend(kSlicesWork + kSliceWork * lines);
+  work.spend(kSliceWork * lines);
   return precise;
 }
 

@@ -43,12 +43,16 @@ void SatpPredictor::encode(const satp::Weights& weights, const scene::Scene& sce
   beliefs_ = beliefs;
   trust_ = trust;
   work_ = 0;
-  if (!weights_.present()) return;
+  if (!weights_.present()) {
+    new (&room_.decoded) Decoded;
+    return;
+  }
   const auto lead_ms = static_cast<std::int32_t>(start_ms - scene.time_ms);
   lead_s_ = clamp(1e-3F * static_cast<float>(lead_ms), 0.0F, 1.0F);
   new (&room_.input) satp::NetworkInput;
   build_network_input(scene, parameters, lead_s_, kinematic_.hypotheses(), room_.input);
   satp::encode(weights_, room_.input, scratch, encoded_);
+  new (&room_.decoded) Decoded;
 }
 
 // The classes' masses are the belief's, what they look like the network's (method.md 4.3).
@@ -71,9 +75,9 @@ void SatpPredictor::believe(int index, AgentPrediction& result) const {
 }
 
 void SatpPredictor::decode_one(const satp::PlanInput* plan, int index, AgentPrediction& result) const {
-  satp::Futures& futures = room_.decoding.futures;
+  satp::Futures& futures = room_.decoded.decoding.futures;
   satp::decode(weights_, encoded_, index, plan == nullptr ? nullptr : plan->step[index],
-               room_.decoding.scratch, futures);
+               room_.decoded.decoding.scratch, futures);
   work_ += kNetworkAgentWork;
   result.agent = static_cast<std::uint8_t>(index);
   result.modes.clear();
@@ -105,9 +109,8 @@ void SatpPredictor::decode(const Trajectory* plan, int allowance, PredictionSet&
   }
   prediction.conditioned = plan != nullptr;
   prediction.agents.clear();
-  new (&room_.decoding) Decoding;
-  satp::PlanInput& plan_input = room_.decoding.plan;
-  AgentPrediction& result = room_.decoding.result;
+  satp::PlanInput& plan_input = room_.decoded.decoding.plan;
+  AgentPrediction& result = room_.decoded.decoding.result;
   if (plan != nullptr)
     build_plan_input(*plan, *parameters_, encoded_.hdvs, encoded_.anchor, encoded_.pair, plan_input);
   const EgoMotion ego(*scene_, *parameters_, lead_s_, plan);
@@ -119,7 +122,7 @@ void SatpPredictor::decode(const Trajectory* plan, int allowance, PredictionSet&
       kinematic_.decode_one(ego, i, result);
     } else {
       decode_one(plan == nullptr ? nullptr : &plan_input, i, result);
-      if (trust < kFullTrust) blend(ego, i, trust, room_.decoding.kinematic, result);
+      if (trust < kFullTrust) blend(ego, i, trust, room_.decoded.decoding.kinematic, result);
       likeliest_first(result);
     }
     (void)prediction.agents.push(result);

@@ -28,6 +28,11 @@ class SatpPredictor {
   /// its futures stand alone.
   void decode(const Trajectory* plan, int allowance, PredictionSet& prediction) const;
 
+  /// Room for one prediction until the next encode(): who may be chosen need not be predicted again.
+  void put_aside(const PredictionSet& prediction) { room_.decoded.aside = prediction; }
+  /// The last one put aside.
+  [[nodiscard]] const PredictionSet& aside() const { return room_.decoded.aside; }
+
   void constant_velocity(KinematicSet& prediction) const { kinematic_.constant_velocity(prediction); }
 
   [[nodiscard]] int work() const { return work_ + kinematic_.work(); }
@@ -57,11 +62,15 @@ class SatpPredictor {
     AgentPrediction result;
     AgentPrediction kinematic;
   };
+  struct Decoded {
+    Decoding decoding;
+    PredictionSet aside;
+  };
   /// What is read is needed until it is encoded, the rest from then on.
   union Room {
     Room() : input() {}
     satp::NetworkInput input;
-    Decoding decoding;
+    Decoded decoded;
   };
   mutable Room room_;
 };
