@@ -20,7 +20,7 @@ inline constexpr std::int32_t kPassWork = 1'400;        ///< for a pass of the o
 namespace work {
 inline constexpr std::int32_t kScene = 1'000;
 inline constexpr std::int32_t kSceneAgent = 350;
-inline constexpr std::int32_t kOffsetTried = 4;  ///< a place of our box tried (lateral_offset.hpp)
+inline constexpr std::int32_t kOffsetTried = 4;        ///< a place of our box tried (lateral_offset.hpp)
 inline constexpr std::int32_t kEncode = 2'100;         ///< by the network, ...
 inline constexpr std::int32_t kEncodeWatched = 1'900;  ///< ... of each vehicle it watches, and ...
 inline constexpr std::int32_t kEncodePath = 1'100;     ///< ... of each way that one may take
