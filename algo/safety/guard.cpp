@@ -27,7 +27,8 @@ constexpr float kEasesOff = 0.25F;  // share of the fail-safe's braking that is 
 constexpr float kEndShare =
     0.5F;  // of that braking, at least, past the last place to stop before the road's end
 constexpr float kEndRoundingM = 0.01F;
-constexpr float kLateS = 0.3F;  // a plan is driven, and licences hold, with so much delay
+constexpr float kRoundingS = 0.5F * kStepS;  // plans are looked at in steps
+constexpr float kLateS = 0.3F;               // so much later, who has let us go still waits
 
 }  // namespace
 
@@ -196,11 +197,11 @@ bool Guard::passes_threat(const scene::EgoPath& path, const Sight& sight, const 
   return false;
 }
 
-bool Guard::leaves_in_time(const ZoneGroup& group, const Own& own) const {
+bool Guard::leaves_in_time(const ZoneGroup& group, const Own& own, float late_s) const {
   if (goes_through_) {
     const float left_s =
         1e-3F * static_cast<float>(static_cast<std::int32_t>(clear_by_ms_ - scene_->time_ms)) - lead_s_;
-    if (own.time_at_s(group.exit_s_m, group.cap_mps) <= left_s + kLateS) return true;
+    if (own.time_at_s(group.exit_s_m, group.cap_mps) <= left_s + late_s) return true;
   }
   for (int i = 1; i < kTrajectoryPoints && own.s_m[i - 1] < group.exit_s_m; ++i) {
     if (own.speed_mps[i] < own.speed_mps[0]) return false;
@@ -234,13 +235,13 @@ bool Guard::passes_group(const scene::EgoPath& path, const Sight& sight, const Z
     if (threat.zone < group.first || threat.zone >= group.end) continue;
     const scene::ConflictZone& zone = path.zones[threat.zone];
     if (own.s_m[0] > zone.exit_s_m) continue;
-    if (threat.licensed && (own.blocked || leaves_in_time(group, own))) continue;
+    if (threat.licensed && (own.blocked || leaves_in_time(group, own, kLateS))) continue;
     Verdict refused = verdict;
     if (passes_threat(path, sight, threat, own, refused)) continue;
     // Who cannot stay out any more leaves it as soon as it was to.
     const bool bound = bound_s_m > zone.entry_s_m;
     const bool behind_it = zone.merging && threat.when.to_entry_m <= 0.0F;
-    if (bound && (behind_it || own.blocked || leaves_in_time(group, own))) continue;
+    if (bound && (behind_it || own.blocked || leaves_in_time(group, own, kRoundingS))) continue;
     // Who entered by right stops short of one that comes after all.
     verdict.stops_short = entered && stops_short(path, sight, group, own);
     if (!verdict.stops_short) verdict = refused;

@@ -162,8 +162,8 @@ class Guard {
   /// Whether the fail-safe stands where nobody comes who cannot stop for it.
   [[nodiscard]] bool stops_short(const scene::EgoPath& path, const Sight& sight, const ZoneGroup& group,
                                  const Own& own) const;
-  /// Whether a plan that cannot stay out of the group any more is out of it no later than it was to be.
-  [[nodiscard]] bool leaves_in_time(const ZoneGroup& group, const Own& own) const;
+  /// Whether a plan that cannot stay out of the group any more is out of it at most `late_s` later than it was to be.
+  [[nodiscard]] bool leaves_in_time(const ZoneGroup& group, const Own& own, float late_s) const;
   [[nodiscard]] bool followers_can_brake(const Sight& sight, const Own& own, float brakes_from_s,
                                          float braking_mps2, Verdict& verdict) const;
 
