@@ -35,7 +35,9 @@ int write_roads(const RoadsOptions& options) {
     std::cout << std::endl;
   }
   if (stop) return kInterrupted;
-  std::cout << '\n' << options.count << " roads, " << draws << " draws thrown away\n";
+  std::cout << '\n'
+            << options.count << " roads in " << std::filesystem::absolute(options.common.out).string() << ", "
+            << draws << " draws thrown away\n";
   for (const auto& [reason, times] : refused) std::cout << "  " << times << "  " << reason << '\n';
   for (const auto& [family, times] : families) std::cout << times << " of " << family << '\n';
   return kDone;

@@ -16,6 +16,7 @@ namespace s4tp::processes {
 namespace {
 
 constexpr const char* kCaller = "slcan:tcp:";
+constexpr int kStopped = 130;  // as every command that a signal ends
 constexpr const char* kListener = "slcan:listen:";
 
 /// What both processes say of their timing; an ECU we did not start keeps it to itself.
@@ -82,6 +83,7 @@ int drive_on_bus(const world::Scenario& scenario, const DriveOptions& options, s
     campaign::write_json(options.out / "run.json", document);
   }
   if (world.log) out << "bus log: " << world.log->string() << '\n';
+  if (stop) return kStopped;
   return result.recording.ending == world::Ending::kGoal ? 0 : 1;
 }
 

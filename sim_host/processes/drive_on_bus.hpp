@@ -23,7 +23,8 @@ struct DriveOptions {
 /// Whether two processes of one machine can meet on it: not on a line whose other end is a device.
 [[nodiscard]] bool has_two_ends(const std::string& bus);
 
-/// Prints the result as `s4tp run` does and writes run.json. \return exit code: 0 goal, 1 none, 2 no ECU came
+/// Prints the result as `s4tp run` does and writes run.json. \return exit code: 0 goal, 1 none, 2 no ECU came, 130 told
+/// to stop by SIGINT or SIGTERM
 /// \throws std::runtime_error for a bus that cannot be opened, a log that cannot be written
 [[nodiscard]] int drive_on_bus(const world::Scenario& scenario, const DriveOptions& options,
                                std::ostream& out);

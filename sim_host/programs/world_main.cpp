@@ -1,5 +1,6 @@
 // The world as a process: s4tp_world_process --bus vcan0 --scenario left_turn --seed 3
-// Exit codes: 0 goal reached, 1 not, 2 wrong use, a bus that cannot be opened, or no ECU on it.
+// Exit codes: 0 goal reached, 1 not, 2 wrong use, a bus that cannot be opened, or no ECU on it,
+// 130 told to stop.
 
 #include <CLI/CLI.hpp>
 #include <iostream>

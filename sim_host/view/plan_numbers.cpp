@@ -50,9 +50,10 @@ const char* name_of(scene::Manoeuvre manoeuvre) {
 
 std::string in_numbers(const campaign::CycleTrace& cycle) {
   const planner::Explanation& e = cycle.record.explanation;
-  std::string lines =
-      format("  %s, %.1f m/s", status_name(e.status), cycle.record.plan.trajectory.points[0].speed_mps);
-  if (e.status == Status::kOk) {
+  std::string lines = format("  %.1f m/s", cycle.record.plan.trajectory.points[0].speed_mps);
+  if (e.status != Status::kOk) {
+    lines += format(", no plan: %s", status_name(e.status));
+  } else {
     lines += "\n  chosen:    " + candidate_text(e.chosen, e.manoeuvre) + "; " + cost_text(e.chosen_cost);
     if (e.decisions > 1)
       lines += "\n  runner-up: " + candidate_text(e.runner_up, e.runner_up_manoeuvre) + "; " +

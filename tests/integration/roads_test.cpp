@@ -104,21 +104,23 @@ Seen all_of(const Coverage& coverage, const std::string& what) {
   return all;
 }
 
-// ROAD-001, ROAD-002 Numbers 0 to 279, twenty of each family: each loads in both flavours, has a way, and
-// traffic of 5 to 20 vehicles a minute and lane. Together they come near the ends of the ranges: arms
-// from 25 m (netconvert may round half a metre off), 1 to 4 lanes, turns of many angles, every rule of way,
-// acceleration lanes of 40 to 200 m (their outer eighths: twenty roads miss one of them in 2 * 0.875^20 = 14
-// % of all blocks of numbers) into 1 to 5 lanes.
+// ROAD-001, ROAD-002 Numbers 0 to 139, ten of each family, and to 279 of the two whose ends are rare: each loads
+// in both flavours, has a way, and traffic of 5 to 20 vehicles a minute and lane. Together they come near the
+// ends of the ranges: arms from 25 m (netconvert may round half a metre off), 1 to 4 lanes, turns of many
+// angles, every rule of way, acceleration lanes of 40 to 200 m (their outer eighths: twenty roads miss one of
+// them in 2 * 0.875^20 = 14 % of all blocks of numbers) into 1 to 5 lanes.
 TEST(Roads, CoverWhatTheyShould) {
   const world::test::Folder out;
   Coverage coverage;
   std::set<std::string> rules;
   int thrown_away = 0;
   for (std::uint64_t number = 0; number < 280; ++number) {
+    const std::string family = families()[number % families().size()].name;
+    if (number >= 140 && family != "crossing_straight" && family != "ramp_lane") continue;
     const WrittenRoad written = write_road(number, kMix, out.path());
     SCOPED_TRACE(written.folder.filename().string());
     for (const auto& [reason, times] : written.refused) thrown_away += times;
-    EXPECT_EQ(written.family, families()[number % families().size()].name);
+    EXPECT_EQ(written.family, family);
     EXPECT_EQ(family_of(written.folder.filename().string()), written.family);
     for (const std::string flavour : {"smarts", "social"}) {
       const Scenario road = world::load_scenario(written.folder, flavour);
@@ -141,7 +143,7 @@ TEST(Roads, CoverWhatTheyShould) {
     }
   }
   print(coverage);
-  std::printf("280 roads, %d draws thrown away\n", thrown_away);
+  std::printf("160 roads, %d draws thrown away\n", thrown_away);
   EXPECT_EQ(rules.size(), 5U);
   EXPECT_TRUE(all_of(coverage, "start lane, m").covers(27.0, 140.0));
   EXPECT_TRUE(all_of(coverage, "goal lane, m").covers(27.0, 140.0));

@@ -347,13 +347,13 @@ TEST(TwoProcesses, KilledEcuIsReported) {
   EXPECT_NE(content(scratch("out") / "run.json").find("\"ending\": \"dead ECU\""), std::string::npos);
 }
 
-// PROC-015, PROC-023, RT-022 Realtime, ended after a while: run.json says of both sides how late they were.
+// PROC-015, PROC-023, RT-022 Realtime, told to stop after a while: the exit code says so, and run.json of both sides how late they were.
 TEST(RunCommand, RealtimeIsReported) {
   const fs::path log = scratch("realtime.log");
   Process run("s4tp_tool", {"run", "--bus", "slcan:tcp:127.0.0.1:" + test::free_port(), "--realtime", "--log",
                             log, "--out", scratch("realtime")});
   for (int i = 0; i < 1200 && (!fs::exists(log) || fs::file_size(log) < 10'000); ++i) usleep(50'000);
-  EXPECT_EQ(run.end(SIGTERM), 1);
+  EXPECT_EQ(run.end(SIGTERM), 130);
   const auto json = nlohmann::json::parse(content(scratch("realtime") / "run.json"));
   for (const char* const side : {"world", "ecu"})
     EXPECT_GT(json.at("realtime").at(side).at("wake_up_latency").at("count"), 10) << side;

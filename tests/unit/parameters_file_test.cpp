@@ -3,6 +3,7 @@
 #include "sim_host/campaign/parameters_file.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <fstream>
 #include <string>
@@ -14,15 +15,19 @@ namespace {
 
 /// Loads `text` as a file; the message of the refusal goes to `error`.
 Parameters load(const std::string& text, std::string* error = nullptr) {
-  const std::filesystem::path file =
-      std::filesystem::temp_directory_path() / "s4tp_parameters_file_test.toml";
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / ("s4tp_parameters_" + std::to_string(getpid()));
+  std::filesystem::create_directories(folder);
+  const std::filesystem::path file = folder / "s4tp_parameters_file_test.toml";
   std::ofstream(file) << text;
+  Parameters parameters;
   try {
-    return load_parameters(file);
+    parameters = load_parameters(file);
   } catch (const std::runtime_error& refused) {
     if (error != nullptr) *error = refused.what();
   }
-  return {};
+  std::filesystem::remove_all(folder);
+  return parameters;
 }
 
 // Named fields are taken, integers too; the others keep their defaults.

@@ -221,6 +221,7 @@ TEST(ScenarioPath, NamesTheShippedOnes) {
   const std::filesystem::path root = std::filesystem::path(S4TP_SOURCE_DIR) / "sim_host/scenarios";
   EXPECT_EQ(scenario_path(root, "merge"), root / "merge");
   EXPECT_EQ(scenario_path(root, "mine/lefturn"), "mine/lefturn");
+  EXPECT_EQ(scenario_path(root, "./merge"), "./merge");  // the user's own, whatever is shipped
   try {
     (void)scenario_path(root, "lefturn");
     FAIL();

@@ -331,8 +331,8 @@ std::filesystem::path scenario_path(const std::filesystem::path& shipped, const 
   const auto is_scenario = [](const fs::path& folder) {
     return fs::is_regular_file(folder / "scenario.toml");
   };
-  if (is_scenario(shipped / name)) return shipped / name;
   const fs::path given = name;
+  if (!given.has_parent_path() && is_scenario(shipped / name)) return shipped / name;
   if (given.has_parent_path() || fs::exists(given) || !fs::is_directory(shipped)) return given;
   std::set<std::string> names;
   for (const fs::directory_entry& entry : fs::directory_iterator(shipped)) {
