@@ -258,8 +258,9 @@ bool Guard::stops_short(const scene::EgoPath& path, const Sight& sight, const Zo
     if (threat.zone < group.first || threat.zone >= group.end) continue;
     const scene::ConflictZone& zone = path.zones[threat.zone];
     const bool stands_there = own.s_m[0] <= zone.exit_s_m && stop_s_m > zone.entry_s_m;
-    // D2 binds the others to ground we are on, or cannot stay out of; to no more.
-    const bool ours = bound_s_m > zone.entry_s_m;
+    // D2 binds the others to ground we are on, or cannot stay out of; to no more. Who has let us go is not
+    // stopped for.
+    const bool ours = bound_s_m > zone.entry_s_m && (own.blocked || !threat.licensed);
     if (stands_there && !(ours && threat.when.can_stop)) return false;
   }
   return true;

@@ -13,10 +13,10 @@
 /// when who is ahead is ahead of all of us by the time we are over the line, braking as hard as can be.
 /// GUARD-010 Whoever drives only what passes, and else the last fail-safe, touches nobody who keeps to the
 /// law. GUARD-011 Who entered a group by right may stand in it, short of one that comes after all, where
-/// nobody comes who cannot stop for it. GUARD-012 Beyond the known ground (scene.hpp) there may be anybody:
-/// on each lane that leads in from there somebody comes at the limit's speed, in a lane we change into as
-/// well; on our way out of it somebody stands. Whoever is nearer in that lane and stays out of a zone, leads
-/// us, or follows us, is in its way.
+/// nobody comes who cannot stop for it and nobody has let us go.
+/// GUARD-012 Beyond the known ground (scene.hpp) there may be anybody: on each lane that leads in from there
+/// somebody comes at the limit's speed, in a lane we change into as well; on our way out of it somebody
+/// stands. Whoever is nearer in that lane and stays out of a zone, leads us, or follows us, is in its way.
 ///
 /// \code
 ///   plan    ----+------------------------>

@@ -9,7 +9,6 @@ namespace {
 constexpr float kZoneMarginS = 0.5F;
 constexpr float kZoneMarginM = 1.0F;
 constexpr float kCertain = 0.95F;
-constexpr float kStandingMps = 0.3F;
 constexpr float kGoesOnStanding = 0.05F;  // prior chance, where its way is open
 constexpr float kNeverS = 1e3F;
 

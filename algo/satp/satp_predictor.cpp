@@ -11,6 +11,7 @@ namespace {
 constexpr float kFullTrust = 0.95F;  // above it nothing is blended in
 constexpr float kNoTrust = 0.2F;     // below it the network is not asked
 static_assert(kNetworkAgentWork == satp::kMcuShape.modes * satp::kDecoderSteps);
+constexpr float kStaysM = 0.5F;     // driven no further in 3 s, a vehicle goes on standing
 constexpr float kCertain = 0.999F;  // what is so likely is not told apart
 
 float way_of(const Mode& mode, const Pose& from) {
@@ -58,11 +59,14 @@ void SatpPredictor::encode(const satp::Weights& weights, const scene::Scene& sce
 // The classes' masses are the belief's, what they look like the network's (method.md 4.3).
 void SatpPredictor::believe(int index, AgentPrediction& result) const {
   const float(&pair)[satp::kPairFeatures] = encoded_.pair[index];
-  const float entry_m = pair[static_cast<int>(satp::PairFeature::kEntryM)];
-  if (pair[static_cast<int>(satp::PairFeature::kZone)] == 0.0F || entry_m <= 0.0F) return;
+  // Whoever stands may go on standing, in the junction, too.
+  float stays_m = scene_->agents[index].track.speed_mps < kStandingMps ? kStaysM : 0.0F;
+  if (pair[static_cast<int>(satp::PairFeature::kZone)] != 0.0F)
+    stays_m = max(stays_m, pair[static_cast<int>(satp::PairFeature::kEntryM)]);
+  if (stays_m <= 0.0F) return;
   float prior = 0.0F;
   for (Mode& mode : result.modes) {
-    mode.yields = way_of(mode, encoded_.anchor[index]) < entry_m;
+    mode.yields = way_of(mode, encoded_.anchor[index]) < stays_m;
     if (mode.yields) prior += mode.probability;
   }
   if (prior < 1.0F - kCertain || prior > kCertain) return;

@@ -23,8 +23,8 @@ class SatpPredictor {
   void hypotheses(YieldHypotheses (&result)[kMaxAgents]) const { kinematic_.hypotheses(result); }
 
   /// As Predictor::decode. SATP-052 Without weights the bits are Predictor's. SATP-053 Of a vehicle whose
-  /// futures speak for both, letting us pass and going first, the belief sets how likely either is, the
-  /// network what it looks like. SATP-054 What trust is missing goes to the kinematic future; without any,
+  /// futures speak for both, letting us pass (whoever stands: going on standing) and going first, the belief
+  /// sets how likely either is, the network what it looks like. SATP-054 What trust is missing goes to the kinematic future; without any,
   /// its futures stand alone.
   void decode(const Trajectory* plan, int allowance, PredictionSet& prediction) const;
 

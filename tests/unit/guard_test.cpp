@@ -306,6 +306,23 @@ TEST(Guard, ALicenceIsNotUsedBeforeWeAreBound) {
   }
 }
 
+// GUARD-006 It lets us go (L1: 40 m away, 6 m/s), we do, and it gains speed. At 95.5 and 5 m/s 8 m/s^2 end at
+// 97.1, in the zone: going on is what was licensed, and out in 1.7 s. It could still stop for us, 14 m after a
+// second where 4.5 would do, but nobody brakes for it who was let go. Whoever has no licence does (GUARD-011).
+TEST(Guard, WhoWasLetGoDoesNotBreakOff) {
+  for (const bool licensed : {true, false}) {
+    SharedGround road(Priority::kFirstYields);
+    if (licensed) road.other(96.0F - 40.0F, 6.0F);
+    const Verdict begun = road.judge(94.0F, 4.5F, 1.0F);
+    ASSERT_TRUE(begun.safe() && begun.clears);
+    road.guard.commit(0, begun);
+    road.scene.agents.clear();
+    road.other(96.0F - 20.0F, 6.0F).track.acceleration_mps2 = 2.0F;
+    EXPECT_TRUE(road.safe(95.5F, 5.0F, 1.0F));
+    EXPECT_EQ(road.safe(95.5F, 5.0F, -6.0F), !licensed) << licensed;
+  }
+}
+
 // GUARD-006 A licence holds for the ground it was given for. At 10 m/s, 26 m before the first zone, the other
 // owes us the way; 40 m before the second, where it goes first, it comes after 3.1 s, and we are gone
 // after 2.5 s. It breaks its duty, and is 5 m before the second zone, which we enter after 1.2 s: nobody said

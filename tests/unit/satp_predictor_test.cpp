@@ -44,7 +44,7 @@ struct Junction {
   const PredictionSet& predict(const satp::Weights& with, const Trajectory* plan,
                                const YieldBeliefs* beliefs = nullptr,
                                const PredictionTrust* trust = nullptr) {
-    predictor.encode(with, scene, kParameters, 1100, beliefs, trust, scratch);
+    predictor.encode(with, scene, kParameters, scene.time_ms + 100, beliefs, trust, scratch);
     predictor.decode(plan, kMaxPredictionWork, set);
     return set;
   }
@@ -117,6 +117,36 @@ TEST(SatpPredictor, GivesFuturesAndBeliefsTheirMass) {
     }
   }
   EXPECT_GT(told_apart, 0);
+}
+
+// SATP-053 The same of one that has stood before us in the junction for 30 s, another behind it, by the weights a build
+// carries: evidence makes the futures likelier in which it goes on standing.
+TEST(SatpPredictor, BelievesThatWhoStandsInTheJunctionStays) {
+  const satp::ShippedWeights shipped = satp::shipped_weights();
+  Junction junction;
+  ASSERT_EQ(satp::Weights::check(shipped.image, shipped.size_bytes, junction.weights),
+            satp::WeightStatus::kOk);
+  junction.ego = test::ego_at(1.6F, -1.5F, 1.5707963F, 0.0F);
+  junction.tracks = {test::car(2, -1.0F, -1.6F, 0.0F, 0.0F), test::car(3, -8.0F, -1.6F, 0.0F, 0.0F)};
+  scene::SceneBuilder builder;
+  for (std::uint32_t now_ms = 1000; now_ms <= 31000; now_ms += 100) {
+    (void)builder.build(now_ms, junction.ego, test::track_list(junction.tracks), now_ms, &junction.cross.map,
+                        kParameters, junction.scene);
+  }
+  YieldBeliefs beliefs;
+  YieldHypotheses hypotheses[kMaxAgents];
+  for (YieldHypotheses& hypothesis : hypotheses) hypothesis = {true, 3.0F, 0.0F};
+  for (int i = 0; i < 20; ++i) beliefs.observe(junction.scene, hypotheses);
+  const auto stays = [&](const YieldBeliefs* believed) {
+    float sum = 0.0F;
+    for (const Mode& mode : junction.predict(junction.weights, nullptr, believed).agents[0].modes)
+      sum += mode.yields ? mode.probability : 0.0F;
+    return sum;
+  };
+  const float prior = stays(nullptr);
+  EXPECT_GT(prior, 0.01F);
+  EXPECT_LT(prior, 0.95F);
+  EXPECT_GT(stays(&beliefs), 0.97F);
 }
 
 // SATP-050 SATP-051 A prediction that comes true keeps full trust; one that is off by more than three times
