@@ -44,7 +44,7 @@ DRIVING = {
     "campaign": [*REGISTRY, "metrics/", "roads/", "sumo/"],
     "clips": [],
     "faults": [*REGISTRY, "metrics/"],
-    "train": ["campaign/"],
+    "train": ["campaign/", "clips/"],
     "view": ["campaign/", "metrics/"],
     "recording": ["campaign/", "metrics/", "view/"],
     "telemetry": ["campaign/", "view/"],

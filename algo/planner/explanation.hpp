@@ -7,6 +7,7 @@
 #include "algo/core/status.hpp"
 #include "algo/sadrf/risk.hpp"
 #include "algo/safety/guard.hpp"
+#include "algo/satp/prediction.hpp"
 #include "algo/trajectory/candidates.hpp"
 
 namespace s4tp::planner {
@@ -46,6 +47,16 @@ enum class Stage : std::uint8_t {
 };
 inline constexpr int kStageCount = static_cast<int>(Stage::kCount);
 
+/// What the vehicle whose risk is largest is expected to do, our plan known to it.
+struct ExpectedFuture {
+  bool yields = false;       ///< the likeliest future brakes for us
+  float probability = 0.0F;  ///< of all that do the same; 0: nothing was predicted of it
+  float trust = 1.0F;        ///< in the network about it (PredictionTrust); the rest is the kinematic model's
+};
+
+/// \param agent  index into Scene::agents; 255: nobody
+[[nodiscard]] ExpectedFuture expected_future(const satp::PredictionSet& prediction, int agent);
+
 struct Explanation {
   Status status = Status::kOk;
   std::uint8_t candidate_count = 0;
@@ -64,6 +75,7 @@ struct Explanation {
   sadrf::RiskProfile risk{};
   std::uint8_t dominating_track = 255;  ///< track id of the vehicle whose risk is largest; 255: nobody
   std::uint8_t dominating_step = 0;
+  ExpectedFuture rests_on;           ///< CORE-077 of the vehicle of dominating_track: what the plan rests on
   BlockingReason blocking;           ///< in our lane
   BlockingReason beside;             ///< in the lanes beside
   std::uint8_t leader_track = 255;   ///< track id of who drives ahead on the way chosen; 255: nobody

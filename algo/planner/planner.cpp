@@ -199,6 +199,8 @@ void PlanningCycle::explain_risk(Status status, Explanation& explanation) {
   explanation.dominating_track = track_id(explanation.risk.dominating_agent);
   explanation.dominating_step =
       explanation.dominating_track == kNobody ? std::uint8_t{0} : explanation.risk.dominating_step;
+  explanation.rests_on = expected_future(prediction, explanation.risk.dominating_agent);
+  explanation.rests_on.trust = trust_.of(explanation.dominating_track);
 }
 
 void PlanningCycle::forget_scene() {

@@ -22,6 +22,7 @@
 #include <cstdint>
 
 #include "firmware/ecu/ecu_core.hpp"
+#include "firmware/ecu/planner_weights.hpp"
 
 namespace s4tp::ecu {
 
@@ -30,13 +31,16 @@ class Ecu {
  public:
   /// Once, before either context runs. \return what the planner's init() says; kInvalidInput without can,
   /// cycles or watchdog. ECU-078 After a refusal control runs on: it says kFault and drives nothing.
+  /// ECU-102 A planner that predicts with a network takes its weights from ports.weights, where something is
+  /// written there. Are they refused, it drives with the kinematic model, and the bus is told why (ECU-103).
   [[nodiscard]] Status init(const Parameters& parameters, const Ports& ports) {
     if (ports.can == nullptr || ports.cycles == nullptr || ports.watchdog == nullptr) {
       return Status::kInvalidInput;
     }
+    if (ports.weights != nullptr) take_weights(planner_, *ports.weights);
     planner_ready_ = planner_.init(parameters);
     planner_crc_ = parameters_crc(parameters);
-    core_.init(parameters, ports, planner_ready_ != Status::kOk);
+    core_.init(parameters, ports, planner_ready_ != Status::kOk, weight_status(planner_));
     return planner_ready_;
   }
 

@@ -27,9 +27,11 @@ bool refuses(Status status) {
 
 }  // namespace
 
-void EcuCore::init(const Parameters& parameters, const Ports& ports, bool refused) {
+void EcuCore::init(const Parameters& parameters, const Ports& ports, bool refused,
+                   satp::WeightStatus weights) {
   ports_ = ports;
   refused_ = refused;
+  weights_ = weights;
   int first_bad = 0;
   if (validate(parameters, first_bad) == Status::kOk) take_parameters(parameters, parameters_crc(parameters));
 }
@@ -251,7 +253,7 @@ void EcuCore::report(const gate::Command& command) {
     reporter_.status(can, status);
   }
   if (ticks_ % kSlowTicks == kStatisticsPhase) reporter_.statistics(can, statistics_);
-  if (ticks_ % kSlowTicks == kVersionPhase) reporter_.version(can);
+  if (ticks_ % kSlowTicks == kVersionPhase) reporter_.version(can, weights_);
   // Last, as the tick's is: whoever sees it has seen all of this tick's frames.
   reporter_.command(can, command, mode_, inputs_.tick_number(), inputs_.accepted_frames());
 }

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "algo/satp/weight_image.hpp"
 #include "firmware/ecu/cycle.hpp"
 #include "firmware/ecu/event_ring.hpp"
 #include "firmware/ecu/inputs.hpp"
@@ -17,6 +18,7 @@
 #include "hal/can.hpp"
 #include "hal/clock.hpp"
 #include "hal/cycle_counter.hpp"
+#include "hal/flash_bank.hpp"
 #include "hal/telemetry.hpp"
 #include "hal/watchdog.hpp"
 
@@ -30,6 +32,7 @@ struct Ports {
   hal::CycleCounter* cycles = nullptr;
   hal::Watchdog* watchdog = nullptr;
   hal::Telemetry* telemetry = nullptr;
+  const hal::FlashBank* weights = nullptr;  ///< read in place; null: the weights the build carries
 };
 
 enum class UpdateResult : std::uint8_t {
@@ -43,7 +46,7 @@ inline constexpr int kMaxFramesPerTick = 256;  ///< the rest of a burst is taken
 
 class EcuCore {
  public:
-  void init(const Parameters& parameters, const Ports& ports, bool refused);
+  void init(const Parameters& parameters, const Ports& ports, bool refused, satp::WeightStatus weights);
   [[nodiscard]] UpdateResult update_parameters(const Parameters& parameters, std::uint32_t crc);
 
   void control_tick();
@@ -60,6 +63,8 @@ class EcuCore {
   [[nodiscard]] const Inputs& inputs() const { return inputs_; }
   [[nodiscard]] const PlausibilityMonitor& plausibility() const { return plausibility_; }
   [[nodiscard]] const Plan& plan() const { return plan_; }
+  /// Of the planner's weights at start; kAbsent: it takes none.
+  [[nodiscard]] satp::WeightStatus weights() const { return weights_; }
   [[nodiscard]] const CycleStatistics& statistics() const { return statistics_; }
 
  private:
@@ -108,6 +113,7 @@ class EcuCore {
   bool miss_injected_ = false;
   bool plan_late_ = false;
   bool refused_ = false;
+  satp::WeightStatus weights_ = satp::WeightStatus::kAbsent;
   bool gate_denied_ = false;
   bool engage_armed_ = true;
 };

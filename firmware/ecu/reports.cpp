@@ -57,11 +57,12 @@ void Reporter::statistics(hal::Can& can, const CycleStatistics& cycles) {
   send(can, message, statistics_);
 }
 
-void Reporter::version(hal::Can& can) {
+void Reporter::version(hal::Can& can, satp::WeightStatus weights) {
   wire::VersionEcu message;
   message.wire_version = wire::wire_version();
   message.layout_hash = wire::layout_hash();
   message.api_version = kApiVersion;
+  message.weights = static_cast<std::uint8_t>(weights);
   send(can, message, version_);
 }
 
@@ -88,6 +89,7 @@ void Reporter::plan(hal::Can& can, std::uint32_t sequence, std::uint32_t digest,
   reason.id_clashes = at_most<std::uint8_t>(explanation.id_clashes, 31);
   reason.tracks_left_out = at_most<std::uint8_t>(explanation.tracks_left_out, 31);
   reason.lanes_left_out = at_most<std::uint8_t>(explanation.lanes_left_out, 31);
+  reason.learned = explanation.learned ? 1 : 0;
   reason.unseen = explanation.blocking.unseen() ? 1 : 0;
   send(can, reason, reason_);
 }

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "algo/planner/explanation.hpp"
+#include "algo/satp/weight_image.hpp"
 #include "firmware/ecu/cycle.hpp"
 #include "firmware/ecu/modes.hpp"
 #include "firmware/gate/command_gate.hpp"
@@ -31,9 +32,11 @@ class Reporter {
                std::uint32_t accepted);
   void status(hal::Can& can, const StatusReport& report);         ///< ECU-066 every 100 ms
   void statistics(hal::Can& can, const CycleStatistics& cycles);  ///< ECU-067 every 1000 ms
-  void version(hal::Can& can);                                    ///< ECU-068 every 1000 ms
+  /// ECU-068 Every 1000 ms. ECU-103 With whether the network's weights were taken, and why not.
+  void version(hal::Can& can, satp::WeightStatus weights);
   /// ECU-069 When a plan takes effect: its digest, and why it was chosen. ECU-101 How many vehicles and lanes
-  /// it was not told of (31: or more), and whether one of those is what keeps it from going further.
+  /// it was not told of (31: or more), and whether one of those is what keeps it from going further. ECU-104 And
+  /// whether the network predicted, or the kinematic model in its place.
   void plan(hal::Can& can, std::uint32_t sequence, std::uint32_t digest,
             const planner::Explanation& explanation);
 

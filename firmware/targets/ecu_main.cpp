@@ -10,6 +10,7 @@
 #include "firmware/targets/interrupt_meter.hpp"
 #include "firmware/targets/text.hpp"
 #include "hal/mps/interrupts.hpp"
+#include "hal/mps/memory_bank.hpp"
 #include "hal/mps/slcan_can.hpp"
 #include "hal/mps/startup.hpp"
 #include "hal/mps/timer.hpp"
@@ -22,6 +23,9 @@
 #include "firmware/targets/stage_counter.hpp"
 #endif
 
+extern "C" const std::uint8_t weights_bank_begin[];  // toolchain/linker
+extern "C" const std::uint8_t weights_bank_end[];
+
 namespace s4tp::targets {
 namespace {
 
@@ -32,6 +36,7 @@ hal::mps::Timer timer;
 hal::mps::Uart console;
 hal::mps::SlcanCan can;
 hal::mps::CmsdkWatchdog watchdog;
+const hal::mps::MemoryBank weights(weights_bank_begin, weights_bank_end);
 ecu::Ecu<planner::Planner> the_ecu;
 InterruptMeter meter(timer);
 volatile std::uint32_t ticks = 0;
@@ -157,6 +162,7 @@ void image_main() {
   ports.clock = &timer;
   ports.cycles = &timer;
   ports.watchdog = &watchdog;
+  ports.weights = &weights;
   const s4tp::Status status = the_ecu.init(s4tp::Parameters{}, ports);
 #ifdef S4TP_LOCKSTEP
   the_ecu.planner().probe = &probe;

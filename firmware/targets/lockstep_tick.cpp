@@ -53,7 +53,7 @@ void LockstepTick::say_hello() {
   const std::uint64_t now_us = ports_.clock.now_us();
   if (now_us - hello_us_ < kHelloEveryUs) return;
   hello_us_ = now_us;
-  hello_.version(ports_.bus);
+  hello_.version(ports_.bus, ports_.ecu.core().weights());
 }
 
 }  // namespace s4tp::targets

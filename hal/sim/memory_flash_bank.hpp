@@ -13,6 +13,7 @@ class MemoryFlashBank final : public FlashBank {
 
   MemoryFlashBank();
   [[nodiscard]] std::uint32_t size() const override { return kSize; }
+  [[nodiscard]] const void* mapped() const override { return bytes_; }
   /// HAL-020 Reading and writing beyond the end change nothing and answer false.
   [[nodiscard]] bool read(std::uint32_t offset, void* destination, std::uint32_t size) const override;
   [[nodiscard]] bool erase() override;
@@ -20,7 +21,7 @@ class MemoryFlashBank final : public FlashBank {
   [[nodiscard]] bool write(std::uint32_t offset, const void* source, std::uint32_t size) override;
 
  private:
-  std::uint8_t bytes_[kSize];
+  alignas(4) std::uint8_t bytes_[kSize];
 };
 
 }  // namespace s4tp::hal::sim

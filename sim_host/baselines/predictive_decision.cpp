@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "algo/core/check.hpp"
 #include "algo/core/math.hpp"
 #include "algo/sadrf/futures.hpp"
 #include "algo/sadrf/overlap.hpp"
 #include "algo/safety/fail_safe.hpp"
+#include "algo/satp/shipped_weights.hpp"
 #include "algo/trajectory/along_path.hpp"
 #include "algo/trajectory/bicycle.hpp"
 #include "algo/trajectory/candidates.hpp"
@@ -16,9 +18,16 @@
 namespace s4tp::baselines {
 namespace {
 
+template <bool kLearned>
+PlannerEntry entry(const char* name, const char* meaning) {
+  return {name, meaning, ecu_with<PredictiveDecisionPlanner<false, kLearned>>,
+          ecu_with<Guarded<PredictiveDecisionPlanner<true, kLearned>>>};
+}
+
 const RegisterPlanner kRegistered{
-    {"predictive_decision", "the same predictor, no risk field: a sum of seven features decides",
-     ecu_with<PredictiveDecisionPlanner<false>>, ecu_with<Guarded<PredictiveDecisionPlanner<true>>>}};
+    entry<true>("predictive_decision", "the same predictor, no risk field: a sum of seven features decides")};
+const RegisterPlanner kKinematic{
+    entry<false>("predictive_decision_kinematic", "the same, predicting with the kinematic model")};
 
 constexpr float kHorizonS = kHorizonSteps * kStepS;
 constexpr float kLaneChangeM = 20.0F;
@@ -139,6 +148,11 @@ Status PredictiveDecision::init(const Parameters& parameters) {
   parameters_ = parameters;
   scene_builder_.reset();
   guard_.reset();
+  trust_.reset();
+  if (const satp::ShippedWeights shipped = satp::shipped_weights(); learned_ && shipped.image != nullptr) {
+    const satp::WeightStatus taken = satp::Weights::check(shipped.image, shipped.size_bytes, weights_);
+    S4TP_ASSERT(taken == satp::WeightStatus::kOk);  // the build's own
+  }
   return validate(parameters, first_bad);
 }
 
@@ -154,8 +168,11 @@ Status PredictiveDecision::plan(const planner::PlannerInput& input, Plan& plan,
   plan.kind = PlanKind::kDrive;
   satp::PredictionSet chosen;
   if (status == Status::kOk) {
-    predictor_.encode(scene_, parameters_, input.start_ms);
+    explanation.learned = weights_.present();
+    if (weights_.present()) trust_.observe(scene_, weights_.header().usual_residual_m);
+    predictor_.encode(weights_, scene_, parameters_, input.start_ms, nullptr, &trust_, scratch_);
     predictor_.decode(nullptr, satp::kMaxPredictionWork, marginal_);
+    if (weights_.present()) trust_.remember(scene_, marginal_, input.start_ms);
     predictor_.constant_velocity(constant_velocity_);
     guard_.look(scene_, start, 1e-3F * static_cast<float>(input.start_ms - scene_.time_ms), parameters_);
     int left_out = 0;

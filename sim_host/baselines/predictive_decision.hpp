@@ -1,6 +1,7 @@
 #pragma once
 /// Predictive-Decision (arXiv 2302.03939; method.md 5): the same candidates and the same predictor
-/// as S4TP, asked about every candidate, and a weighted sum of seven features. No risk field.
+/// as S4TP, asked about every candidate, and a weighted sum of seven features. No risk field. The network and its
+/// weights are those of S4TP; predictive_decision_kinematic has the kinematic model in their place.
 ///
 /// \code
 ///   feature    0 .. 1, so that the weights say what matters            weight
@@ -44,7 +45,7 @@ inline constexpr PdCost kPdWeights{1.0F, 0.5F, 0.1F, 0.1F, 1.0F, 5.0F, 10.0F};
 /// guard behind it could only stop the one it prefers.
 class PredictiveDecision {
  public:
-  explicit PredictiveDecision(bool guarded) : guarded_(guarded) {}
+  PredictiveDecision(bool guarded, bool learned) : guarded_(guarded), learned_(learned) {}
   [[nodiscard]] Status init(const Parameters& parameters);
   [[nodiscard]] Status plan(const planner::PlannerInput& input, Plan& plan,
                             planner::Explanation& explanation);
@@ -53,21 +54,25 @@ class PredictiveDecision {
 
  private:
   bool guarded_;
+  bool learned_;
   safety::Guard guard_;
   Parameters parameters_;
   scene::SceneBuilder scene_builder_;
   scene::Scene scene_;
-  satp::Predictor predictor_;
+  satp::Weights weights_;
+  satp::PredictionTrust trust_;
+  satp::EncoderScratch scratch_;
+  satp::SatpPredictor predictor_;
   satp::PredictionSet marginal_;
   satp::KinematicSet constant_velocity_;
   trajectory::ReferenceLines lines_;
   trajectory::CandidateList candidates_;
 };
 
-template <bool kGuarded>
+template <bool kGuarded, bool kLearned>
 class PredictiveDecisionPlanner : public PredictiveDecision {
  public:
-  PredictiveDecisionPlanner() : PredictiveDecision(kGuarded) {}
+  PredictiveDecisionPlanner() : PredictiveDecision(kGuarded, kLearned) {}
 };
 
 }  // namespace s4tp::baselines

@@ -21,6 +21,7 @@ class StaticDrfPlanner final : public planner::PlanningCycle {
   StaticDrfPlanner() { (void)use_weights(nullptr, 0); }
 
  private:
+  using planner::PlanningCycle::use_weights;  // no ECU's flash bank is for it either
   void believe(scene::Scene& scene) const override {
     // A vehicle that goes no way is predicted to stay, and to arrive nowhere.
     for (scene::Agent& agent : scene.agents) {

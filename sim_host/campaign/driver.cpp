@@ -13,9 +13,9 @@ namespace {
 class EcuOnBus final : public Driver {
  public:
   EcuOnBus(const std::string& planner, bool guarded, const Parameters& parameters, hal::Telemetry* telemetry,
-           planner::Probe* probe)
+           planner::Probe* probe, const hal::FlashBank* weights)
       : ecu_(baselines::make_ecu(planner, guarded, parameters,
-                                 {ecu_port_, &clock_, &cycles_, &watchdog_, telemetry}, probe)) {}
+                                 {ecu_port_, &clock_, &cycles_, &watchdog_, telemetry, weights}, probe)) {}
 
   void tick(const std::vector<wire::Frame>& from_world, std::vector<wire::Frame>& to_world) override {
     for (const wire::Frame& frame : from_world) {
@@ -48,8 +48,9 @@ class EcuOnBus final : public Driver {
 }  // namespace
 
 std::unique_ptr<Driver> make_driver(const std::string& planner, bool guarded, const Parameters& parameters,
-                                    hal::Telemetry* telemetry, planner::Probe* probe) {
-  return std::make_unique<EcuOnBus>(planner, guarded, parameters, telemetry, probe);
+                                    hal::Telemetry* telemetry, planner::Probe* probe,
+                                    const hal::FlashBank* weights) {
+  return std::make_unique<EcuOnBus>(planner, guarded, parameters, telemetry, probe, weights);
 }
 
 }  // namespace s4tp::campaign

@@ -9,6 +9,7 @@
 #include "algo/planner/probe.hpp"
 #include "firmware/wire/frame.hpp"
 #include "hal/can.hpp"
+#include "hal/flash_bank.hpp"
 #include "hal/telemetry.hpp"
 #include "sim_host/baselines/any_ecu.hpp"
 
@@ -28,9 +29,10 @@ class Driver {
   [[nodiscard]] virtual const hal::Can& bus() const = 0;
 };
 
-/// \param telemetry  may be null  \throws as make_ecu()
+/// \param telemetry  may be null \param weights  ecu::Ports::weights \throws as make_ecu()
 [[nodiscard]] std::unique_ptr<Driver> make_driver(const std::string& planner, bool guarded,
                                                   const Parameters& parameters, hal::Telemetry* telemetry,
-                                                  planner::Probe* probe);
+                                                  planner::Probe* probe,
+                                                  const hal::FlashBank* weights = nullptr);
 
 }  // namespace s4tp::campaign

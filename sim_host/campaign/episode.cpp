@@ -28,8 +28,10 @@ EpisodeResult run_episode(const world::Scenario& scenario, const EpisodeOptions&
   hal::Telemetry* const telemetry = options.onlooker != nullptr ? options.onlooker->telemetry() : trace;
   planner::Probe* const probe = options.onlooker != nullptr ? options.onlooker->probe() : trace;
   const bool by_sumo = baselines::find_planner(options.planner).drives_in_sumo;
-  const auto driver =
-      by_sumo ? nullptr : make_driver(options.planner, options.guarded, options.parameters, telemetry, probe);
+  const auto driver = by_sumo ? nullptr
+                              : make_driver(options.planner, options.guarded, options.parameters, telemetry,
+                                            probe, options.weights);
+  if (driver) result.weights = driver->core().weights();
   world::WorldOptions world_options;
   world_options.seed = options.seed;
   world_options.engine = options.engine;

@@ -39,6 +39,7 @@ struct EpisodeOptions {
   world::PerceptionOptions perception;
   world::Engine engine = world::Engine::kBuiltin;
   Parameters parameters;
+  const hal::FlashBank* weights = nullptr;   ///< ecu::Ports::weights
   std::optional<std::filesystem::path> log;  ///< candump log of every frame on the bus
   bool trace = false;                        ///< keep what the planner thought
   Onlooker* onlooker = nullptr;
@@ -55,6 +56,7 @@ struct EpisodeResult {
   world::Vec2 origin;            ///< of the odometry frame, network coordinates
   std::unique_ptr<Trace> trace;  ///< when asked for
   double cpu_s = 0.0;
+  satp::WeightStatus weights = satp::WeightStatus::kAbsent;  ///< EcuCore::weights()
 };
 
 /// \throws std::runtime_error when the log cannot be written

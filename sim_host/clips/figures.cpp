@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -12,8 +11,6 @@
 namespace s4tp::clips {
 namespace {
 
-constexpr int kBetweenWindows = 5;
-constexpr double kMoves_m = 1.0;
 constexpr double kMiss_m = 2.0;
 constexpr double kManoeuvre_mps = 2.0;
 constexpr double kManoeuvre_rad = 15.0 / 180.0 * std::numbers::pi;
@@ -48,17 +45,6 @@ double nll_of(const std::vector<ClipFuture>& futures, const ClipFuture& truth) {
   return sum / static_cast<double>(truth.places.size());
 }
 
-/// The traffic of a window, whichever clip shows it: frames differ, ids and speeds do not.
-std::string key_of(const std::string& family, const ClipVehicle& vehicle, int step) {
-  std::string key = family + '/' + vehicle.id;
-  for (int k = step - kPastSteps; k <= step + kHorizonSteps; ++k) {
-    char speed[16];
-    std::snprintf(speed, sizeof speed, ",%.3f", vehicle.states.at(k).speed_mps);
-    key += speed;
-  }
-  return key;
-}
-
 }  // namespace
 
 void WindowSums::add(const std::vector<ClipFuture>& futures, const ClipFuture& truth) {
@@ -84,33 +70,22 @@ nlohmann::json WindowSums::figures() const {
 
 void ClipFigures::add(const Clip& clip) {
   const std::string family = family_of(clip.id);
-  std::set<std::string> here;  // within a clip nothing is shown twice
-  for (std::size_t i = 0; i < clip.vehicles.size(); ++i) {
-    const ClipVehicle& vehicle = clip.vehicles[i];
-    if (!vehicle.motor || vehicle.states.empty()) continue;
-    const int last = vehicle.states.rbegin()->first - kHorizonSteps;
-    for (int step = vehicle.states.begin()->first + kPastSteps; step <= last; ++step) {
-      const bool due = (step - vehicle.states.begin()->first) % kBetweenWindows == 0;
-      if (!due || !vehicle.seen(step - kPastSteps, step + kHorizonSteps)) continue;
-      const ClipState& now = vehicle.states.at(step);
-      const ClipState& end = vehicle.states.at(step + kHorizonSteps);
-      if (apart_m(vehicle.states.at(step - kPastSteps).centre, end.centre) < kMoves_m) continue;
-      const std::string key = key_of(family, vehicle, step);
-      if (seen_.count(key) != 0) continue;
-      here.insert(key);
-      ClipFuture truth;
-      for (int k = 0; k < kHorizonSteps; ++k) {
-        truth.places[static_cast<std::size_t>(k)] = vehicle.states.at(step + k + 1).centre;
-      }
-      const std::vector<ClipFuture> futures = forecaster_.forecast(clip, i, step);
-      families_[family].all.add(futures, truth);
-      const bool turns = std::abs(world::wrap_angle(end.heading_rad - now.heading_rad)) > kManoeuvre_rad;
-      if (turns || std::abs(end.speed_mps - now.speed_mps) > kManoeuvre_mps) {
-        families_[family].manoeuvre.add(futures, truth);
-      }
+  for (const Window& window : windows_.of(clip)) {
+    const ClipVehicle& vehicle = clip.vehicles[window.vehicle];
+    if (kept_only_ && !kept_for_judging(family, vehicle.id)) continue;
+    const ClipState& now = vehicle.states.at(window.step);
+    const ClipState& end = vehicle.states.at(window.step + kHorizonSteps);
+    ClipFuture truth;
+    for (int k = 0; k < kHorizonSteps; ++k) {
+      truth.places[static_cast<std::size_t>(k)] = vehicle.states.at(window.step + k + 1).centre;
+    }
+    const std::vector<ClipFuture> futures = forecaster_.forecast(clip, window.vehicle, window.step);
+    families_[family].all.add(futures, truth);
+    const bool turns = std::abs(world::wrap_angle(end.heading_rad - now.heading_rad)) > kManoeuvre_rad;
+    if (turns || std::abs(end.speed_mps - now.speed_mps) > kManoeuvre_mps) {
+      families_[family].manoeuvre.add(futures, truth);
     }
   }
-  seen_.merge(here);
 }
 
 }  // namespace s4tp::clips

@@ -3,10 +3,10 @@
 
 #include <map>
 #include <nlohmann/json_fwd.hpp>
-#include <set>
 #include <string>
 
 #include "sim_host/clips/forecaster.hpp"
+#include "sim_host/clips/windows.hpp"
 
 namespace s4tp::clips {
 
@@ -28,18 +28,20 @@ struct FamilySums {
   WindowSums manoeuvre;  ///< speed changes by over 2 m/s, or heading by over 15 degrees, within the 3 s
 };
 
-/// CLIP-003 A window is 1 s of history and 3 s of future of a motor vehicle that moves a metre or more in
-/// them, every 0.5 s. The same window of the same traffic, seen in several clips, counts once.
+/// Over all windows (windows.hpp).
 class ClipFigures {
  public:
-  explicit ClipFigures(const Forecaster& forecaster) : forecaster_(forecaster) {}
+  /// \param kept_only  of vehicles only that no training takes (kept_for_judging)
+  explicit ClipFigures(const Forecaster& forecaster, bool kept_only = false)
+      : forecaster_(forecaster), kept_only_(kept_only) {}
   void add(const Clip& clip);
   [[nodiscard]] const std::map<std::string, FamilySums>& families() const { return families_; }
 
  private:
   const Forecaster& forecaster_;
   std::map<std::string, FamilySums> families_;
-  std::set<std::string> seen_;
+  bool kept_only_;
+  Windows windows_;
 };
 
 }  // namespace s4tp::clips

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "algo/core/config.hpp"
+#include "hal/sim/memory_flash_bank.hpp"
 #include "sim_host/clips/clip.hpp"
 
 namespace s4tp::clips {
@@ -43,5 +44,8 @@ class Forecaster {
 /// The firmware's predictors (firmware_forecaster.cpp).
 [[nodiscard]] std::unique_ptr<Forecaster> make_kinematic_forecaster();
 [[nodiscard]] std::unique_ptr<Forecaster> make_satp_forecaster();
+/// With another image than the build's. \throws std::invalid_argument saying why it is refused
+[[nodiscard]] std::unique_ptr<Forecaster> make_satp_forecaster(
+    std::unique_ptr<hal::sim::MemoryFlashBank> bank);
 
 }  // namespace s4tp::clips

@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "sim_host/campaign/results.hpp"
+#include "sim_host/campaign/weights_file.hpp"
 #include "sim_host/clips/figures.hpp"
 #include "sim_host/commands/command.hpp"
 
@@ -11,6 +12,8 @@ namespace {
 struct PredictOptions {
   std::filesystem::path clips;
   std::vector<std::string> predictors{clips::forecaster_names()};
+  std::filesystem::path weights;
+  bool kept = false;
   std::filesystem::path json;
 };
 
@@ -30,10 +33,14 @@ int run(const PredictOptions& options) {
   std::printf("%-22s %-12s %7s  ADE / FDE 3 s  minADE  miss 2 m    NLL   of them manoeuvres, ADE / FDE\n",
               "predictor", "family", "windows");
   std::vector<std::unique_ptr<clips::Forecaster>> forecasters;  // all, before the first takes its time
-  for (const std::string& name : options.predictors) forecasters.push_back(clips::make_forecaster(name));
+  for (const std::string& name : options.predictors) {
+    const bool other = name == "satp" && !options.weights.empty();
+    forecasters.push_back(other ? clips::make_satp_forecaster(campaign::bank_with(options.weights))
+                                : clips::make_forecaster(name));
+  }
   for (std::size_t k = 0; k < forecasters.size(); ++k) {
     const std::string& name = options.predictors[k];
-    clips::ClipFigures figures(*forecasters[k]);
+    clips::ClipFigures figures(*forecasters[k], options.kept);
     for (std::size_t i = 0; i < files.size(); ++i) {
       std::cerr << '\r' << name << ": clip " << i + 1 << " of " << files.size() << ' ' << std::flush;
       figures.add(clips::load_clip(files[i]));
@@ -60,6 +67,9 @@ Command add_predict(CLI::App& tool) {
   predict->add_option("--clips", options->clips, "folder of clips (docs/recorded_clips.md)")->required();
   predict->add_option("--predictor,--predictors", options->predictors, "which (default: all)")
       ->delimiter(',');
+  predict->add_option("--weights", options->weights, "weight image of satp (default: the build's own)")
+      ->check(CLI::ExistingFile);
+  predict->add_flag("--kept", options->kept, "only vehicles that ./s4tp train data --clips leaves out");
   predict->add_option("--json", options->json, "write the figures here");
   return {predict, [options] { return run(*options); }};
 }

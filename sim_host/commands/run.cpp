@@ -12,6 +12,7 @@
 #include "sim_host/baselines/planner_registry.hpp"
 #include "sim_host/campaign/bus_log.hpp"
 #include "sim_host/campaign/results.hpp"
+#include "sim_host/campaign/weights_file.hpp"
 #include "sim_host/commands/command.hpp"
 #include "sim_host/commands/vcan_machine.hpp"
 #include "sim_host/processes/drive_on_bus.hpp"
@@ -64,6 +65,7 @@ struct RunOptions {
   int patience_s = 1;
   std::string key;
   bool machine = false;
+  fs::path weights;
   fs::path log;
   bool explain = false;
   bool live = false;
@@ -122,6 +124,9 @@ int run_one(RunOptions run) try {
   options.perception = world::perception_preset(run.perception);
   options.parameters = run.common.parameters();
   options.trace = true;
+  std::unique_ptr<hal::sim::MemoryFlashBank> bank;
+  if (!run.weights.empty()) bank = campaign::bank_with(run.weights);
+  options.weights = bank.get();
   if (!run.log.empty()) options.log = run.log;
   std::optional<telemetry::LiveDrive> live;  // a signal must not leave its memory behind
   if (run.live)
@@ -134,6 +139,8 @@ int run_one(RunOptions run) try {
   if (recorder) options.record = recording::sink(*recorder);
   const campaign::EpisodeResult result = campaign::run_episode(scenario, options);
 
+  if (const std::string words = campaign::refused_weights_words(result.weights); !words.empty())
+    std::cout << words << '\n';
   fs::create_directories(run.common.out);
   const fs::path picture =
       run.common.out / view::picture_name(scenario.name, run.planner, result.recording.seed);
@@ -196,6 +203,7 @@ int run_on_bus(RunOptions run) {
     if (!run.common.parameters_file.empty()) {
       ecu.insert(ecu.end(), {"--parameters", run.common.parameters_file});
     }
+    if (!run.weights.empty()) ecu.insert(ecu.end(), {"--weights", fs::absolute(run.weights).string()});
     if (run.realtime) ecu.push_back("--realtime");
     if (!run.input.empty()) ecu.insert(ecu.end(), {"--input", run.input});
     if (!run.key.empty()) ecu.insert(ecu.end(), {"--authentic", run.key});
@@ -219,6 +227,7 @@ int run_on_target(RunOptions run) {
   options.target = run.target;
   options.image = run.image;
   options.telemetry = run.telemetry;
+  options.weights = run.weights;
   options.world.seed = run.common.seed;
   options.world.engine = world::engine_of(run.common.traffic);
   options.world.perception = world::perception_preset(run.perception);
@@ -284,6 +293,11 @@ Command add_run(CLI::App& tool) {
                   "keep so many files, the newest (default 0: all); without the first one no exact replay")
       ->check(CLI::Range(0, 1'000'000))
       ->needs(record);
+  run->add_option(
+         "--weights", options->weights,
+         "weight image in the ECU's flash bank (default: the build's own); a refused one, and why, is told")
+      ->check(CLI::ExistingFile)
+      ->excludes(record);  // a recording is played again with the build's own
   CLI::Option* const bus =
       run->add_option("--bus", options->bus,
                       "ECU and world as two processes on can0, vcan0, slcan:tcp:HOST:PORT, "

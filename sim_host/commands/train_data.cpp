@@ -11,6 +11,7 @@
 #include "sim_host/commands/command.hpp"
 #include "sim_host/processes/stop_signals.hpp"
 #include "sim_host/roads/generator.hpp"
+#include "sim_host/train/clip_samples.hpp"
 #include "sim_host/train/data_drive.hpp"
 #include "sim_host/train/sample_file.hpp"
 #include "sim_host/world/traffic/random.hpp"
@@ -33,6 +34,7 @@ struct DataOptions {
   int rounds = 100;
   double minutes = 0.0;
   double noisy_share = 0.3;
+  std::filesystem::path clips;
   std::filesystem::path json;
 };
 
@@ -45,7 +47,7 @@ struct Share {
 constexpr Share kWhoDrives[] = {{"s4tp", true, 0.5},
                                 {"s4tp", false, 0.25},
                                 {"idm_lane", true, 0.1},
-                                {"predictive_decision", true, 0.05},
+                                {"predictive_decision_kinematic", true, 0.05},
                                 {"constant_speed", false, 0.05},
                                 {"blind", false, 0.05}};
 
@@ -81,6 +83,19 @@ class DataSet {
     tell(false);
   }
 
+  /// Windows of recorded drivers (docs/recorded_clips.md).
+  void join(const std::filesystem::path& folder) {
+    clips::Windows windows;
+    for (const std::filesystem::path& file : clips::clip_files(folder)) {
+      if (done()) return;
+      train::make_clip_samples(clips::load_clip(file), windows, Parameters{},
+                               [&](const train::Sample& sample) {
+                                 add(sample);
+                                 ++clip_samples_;
+                               });
+    }
+  }
+
   void close() {
     if (writer_) writer_->close();
     tell(true);
@@ -93,6 +108,7 @@ class DataSet {
             {"collided", counts_.collided},
             {"samples", counts_.samples},
             {"forked_samples", counts_.forked},
+            {"clip_samples", clip_samples_},
             {"simulated_s", counts_.driven_s},
             {"wall_s", seconds()},
             {"bytes", bytes_},
@@ -102,7 +118,8 @@ class DataSet {
     std::ostringstream text;
     text << drives_ << " drives, " << counts_.forks << " forks, " << counts_.samples << " samples ("
          << counts_.forked << " of forks), " << counts_.collided << " of " << counts_.branches
-         << " branches collided; " << static_cast<int>(counts_.samples / seconds()) << " samples/s";
+         << " branches collided; " << clip_samples_ << " samples of clips; "
+         << static_cast<int>(counts_.samples / seconds()) << " samples/s";
     return text.str();
   }
 
@@ -141,6 +158,7 @@ class DataSet {
   int files_ = 0;
   std::uint64_t bytes_ = 0;
   int drives_ = 0;
+  int clip_samples_ = 0;
   train::DriveCounts counts_;
 };
 
@@ -178,6 +196,7 @@ int run(DataOptions& options) {
       }
     }
   }
+  if (!options.clips.empty()) set.join(options.clips);
   set.close();
   std::cout << set.words() << '\n';
   if (!options.json.empty()) campaign::write_json(options.json, set.figures());
@@ -205,6 +224,8 @@ Command add_train(CLI::App& tool) {
   data->add_option("--minutes", options->minutes, "stop after so long; the set is then not reproducible");
   data->add_option("--noisy-share", options->noisy_share, "drives with perception as it is (default 0.3)")
       ->check(CLI::Range(0.0, 1.0));
+  data->add_option("--clips", options->clips,
+                   "folder of recorded clips: the windows of four of five vehicles join the samples");
   data->add_option("--json", options->json, "write what was made here");
   data->add_option("--scenarios-folder", options->common.scenario_root, "where shipped scenarios lie");
   return {train, [options] { return run(*options); }};

@@ -15,7 +15,7 @@ BoardTwin::BoardTwin(const std::string& memory, const TwinOf& of, std::ostream& 
     out_ << "no telemetry: " << reason.text << std::endl;
     return;
   }
-  driver_ = campaign::make_driver(of.planner, of.guarded, of.parameters, &tap_, &tap_);
+  driver_ = campaign::make_driver(of.planner, of.guarded, of.parameters, &tap_, &tap_, of.weights);
 }
 
 void BoardTwin::hear(const std::vector<wire::Frame>& frames) {

@@ -20,6 +20,7 @@ struct TwinOf {
   std::string planner = "s4tp";
   bool guarded = true;
   Parameters parameters{};
+  const hal::FlashBank* weights = nullptr;  ///< as the board's; must outlive the twin
 };
 
 class BoardTwin {

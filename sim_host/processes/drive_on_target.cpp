@@ -5,6 +5,7 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "sim_host/campaign/weights_file.hpp"
 #include "sim_host/processes/board_console.hpp"
 #include "sim_host/processes/board_twin.hpp"
 #include "sim_host/processes/drive_on_bus.hpp"
@@ -57,14 +58,17 @@ int drive_on_target(const world::Scenario& scenario, const TargetOptions& option
   drive.world.bus = "slcan:listen:127.0.0.1:" + std::to_string(port);
   drive.world.answer_within_ms = kAnswerWithin_ms;
   drive.world.dead_after_ms = kDeadAfter_ms;
-  BoardTwin twin(options.telemetry, {options.target}, out);
+  const auto bank = options.weights.empty() ? nullptr : campaign::bank_with(options.weights);
+  TwinOf twin_of{options.target};
+  twin_of.weights = bank.get();
+  BoardTwin twin(options.telemetry, twin_of, out);
   drive.world.record = [&](std::uint64_t time_us, const std::vector<wire::Frame>& frames) {
     if (options.world.record) options.world.record(time_us, frames);
     twin.hear(frames);
   };
   drive.planner = "s4tp on " + options.target;
   drive.out = options.out;
-  drive.ecu_command = board_command(board, image, port, console_file);
+  drive.ecu_command = board_command(board, image, port, console_file, options.weights);
   const int code = drive_on_bus(scenario, drive, out);
 
   std::ifstream text(console_file);

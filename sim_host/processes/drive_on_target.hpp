@@ -10,11 +10,12 @@
 namespace s4tp::processes {
 
 struct TargetOptions {
-  std::string target = "m7";    ///< board_targets()
-  std::filesystem::path image;  ///< empty: ecu_lockstep of the target's build
-  WorldProcessOptions world;    ///< without its bus
-  std::string telemetry;        ///< shared memory a BoardTwin writes records to; empty: none
-  std::filesystem::path out;    ///< folder of run.json, cost_TARGET.json and the console's text
+  std::string target = "m7";      ///< board_targets()
+  std::filesystem::path image;    ///< empty: ecu_lockstep of the target's build
+  WorldProcessOptions world;      ///< without its bus
+  std::filesystem::path weights;  ///< image in the board's flash bank; empty: it carries its own
+  std::string telemetry;          ///< shared memory a BoardTwin writes records to; empty: none
+  std::filesystem::path out;      ///< folder of run.json, cost_TARGET.json and the console's text
 };
 
 /// PROC-044 As drive_on_bus(), then the table of what planning cost. A board that stops says why: its last

@@ -37,7 +37,8 @@ struct Devices {
     if (told && !tap.open(options.telemetry, options.planner, options.bus, options.parameters, reason))
       out << "no telemetry: " << reason.text << std::endl;
     return baselines::make_ecu(options.planner, options.guarded, options.parameters,
-                               {&bus, &clock, &cycles, &watchdog, &tap}, tap.is_open() ? &tap : nullptr);
+                               {&bus, &clock, &cycles, &watchdog, &tap, options.weights.get()},
+                               tap.is_open() ? &tap : nullptr);
   }
 };
 
@@ -99,7 +100,7 @@ EcuEnd run_in_lock_step(hal::linux_host::LinuxCan& can, const EcuProcessOptions&
   auto heard = steady_clock::now();
   while (!stop) {
     if (ticks == 0) {
-      hello.version(can);
+      hello.version(can, ecu->core().weights());
       authentic.announce();
     }
     const bool opened = wait_tick(bus, can, kHelloEvery_ms);

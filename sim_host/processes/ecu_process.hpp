@@ -4,12 +4,14 @@
 #include <atomic>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <ostream>
 #include <string>
 
 #include "algo/core/parameters.hpp"
 #include "hal/linux/linux_can.hpp"
 #include "hal/linux/realtime.hpp"
+#include "hal/sim/memory_flash_bank.hpp"
 #include "sim_host/processes/authentic_link.hpp"
 
 namespace s4tp::processes {
@@ -25,8 +27,9 @@ struct EcuProcessOptions {
       false;  ///< control and planning on threads of their own, ticks from a timer: as on a real ECU
   std::string telemetry;         ///< shared memory to write records to (sim_host/telemetry); empty: none
   std::filesystem::path report;  ///< realtime: whether it was on time, as JSON
-  hal::linux_host::RealtimeKernel* kernel = nullptr;  ///< realtime: null is the one we run on
-  Keys keys;                                          ///< with authentication
+  hal::linux_host::RealtimeKernel* kernel = nullptr;         ///< realtime: null is the one we run on
+  Keys keys;                                                 ///< with authentication
+  std::shared_ptr<const hal::sim::MemoryFlashBank> weights;  ///< null: those the build carries
 };
 
 enum class EcuEnd {

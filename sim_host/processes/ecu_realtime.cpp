@@ -94,7 +94,7 @@ class Drive {
     while (!stop_) {
       const std::uint64_t now_us = clock_.now_us();
       if (now_us >= hello_us) {
-        hello.version(can_);
+        hello.version(can_, ecu_.core().weights());
         announce_();
         hello_us = now_us + kHelloEvery_ms * 1000U;
       }

@@ -13,7 +13,8 @@
 namespace s4tp::processes {
 namespace {
 
-constexpr EmulatedBoard kBoards[] = {{"m7", "mps2-an500", 1.6}, {"m55", "mps3-an547", 2.048}};
+constexpr EmulatedBoard kBoards[] = {{"m7", "mps2-an500", 1.6, "0x64000"},
+                                     {"m55", "mps3-an547", 2.048, "0x1024000"}};
 
 /// A path inside one of QEMU's options, where a comma ends a value.
 std::string quoted(const std::filesystem::path& path) {
@@ -53,27 +54,33 @@ std::uint16_t free_loopback_port() {
 }
 
 std::vector<std::string> board_command(const EmulatedBoard& board, const std::filesystem::path& image,
-                                       std::uint16_t port, const std::filesystem::path& console) {
-  return {"qemu-system-arm",
-          "-M",
-          board.machine,
-          "-display",
-          "none",
-          "-monitor",
-          "none",
-          "-no-reboot",
-          "-icount",
-          "shift=6",
-          "-chardev",
-          "file,id=console,path=" + quoted(console),
-          "-serial",
-          "chardev:console",
-          "-chardev",
-          "socket,id=can,host=127.0.0.1,nodelay=on,port=" + std::to_string(port),
-          "-serial",
-          "chardev:can",
-          "-kernel",
-          image.string()};
+                                       std::uint16_t port, const std::filesystem::path& console,
+                                       const std::filesystem::path& weights) {
+  std::vector<std::string> command{"qemu-system-arm",
+                                   "-M",
+                                   board.machine,
+                                   "-display",
+                                   "none",
+                                   "-monitor",
+                                   "none",
+                                   "-no-reboot",
+                                   "-icount",
+                                   "shift=6",
+                                   "-chardev",
+                                   "file,id=console,path=" + quoted(console),
+                                   "-serial",
+                                   "chardev:console",
+                                   "-chardev",
+                                   "socket,id=can,host=127.0.0.1,nodelay=on,port=" + std::to_string(port),
+                                   "-serial",
+                                   "chardev:can",
+                                   "-kernel",
+                                   image.string()};
+  if (!weights.empty()) {
+    command.insert(command.end(), {"-device", "loader,force-raw=on,addr=" + std::string(board.weights_bank) +
+                                                  ",file=" + quoted(std::filesystem::absolute(weights))});
+  }
+  return command;
 }
 
 }  // namespace s4tp::processes

@@ -13,6 +13,7 @@ struct EmulatedBoard {
   const char* target;
   const char* machine;            ///< QEMU's name
   double counts_per_instruction;  ///< SysTick's, at 64 ns an instruction: 25 MHz and 32 MHz
+  const char* weights_bank;       ///< where the second half of WEIGHTS begins (toolchain/linker)
 };
 
 /// \throws std::invalid_argument naming the targets there are
@@ -23,9 +24,10 @@ struct EmulatedBoard {
 [[nodiscard]] std::uint16_t free_loopback_port();
 
 /// QEMU with the CAN line as a TCP connection to `port` and the console in a file. A board that is reset ends
-/// instead of starting again: the watchdog has bitten.
+/// instead of starting again: the watchdog has bitten. \param weights  image in the bank for weights, or empty
 [[nodiscard]] std::vector<std::string> board_command(const EmulatedBoard& board,
                                                      const std::filesystem::path& image, std::uint16_t port,
-                                                     const std::filesystem::path& console);
+                                                     const std::filesystem::path& console,
+                                                     const std::filesystem::path& weights = {});
 
 }  // namespace s4tp::processes

@@ -12,6 +12,7 @@
 #include "hal/linux/host_clock.hpp"
 #include "hal/linux/timer_tick.hpp"
 #include "sim_host/campaign/bus_log.hpp"
+#include "sim_host/campaign/weights_file.hpp"
 #include "sim_host/processes/bus_end.hpp"
 #include "sim_host/world/nodes/tick_echo.hpp"
 #include "sim_host/world/world.hpp"
@@ -81,7 +82,9 @@ class Session {
     while (options_.wait_s > 0) {
       hal::CanFrame frame;
       while (can_.receive(frame)) {
-        if (frame.id == wire::kVersionEcuId && wire::e2e_crc_fits(to_wire(frame))) there = true;
+        if (frame.id != wire::kVersionEcuId || !wire::e2e_crc_fits(to_wire(frame))) continue;
+        if (!there) tell_weights(to_wire(frame));
+        there = true;
       }
       if (authentic_ != nullptr) authentic_->announce();
       if (there && (authentic_ == nullptr || authentic_->session().has_key())) return true;
@@ -93,6 +96,15 @@ class Session {
       (void)can_.wait(to_ms(kLook));
     }
     return true;
+  }
+
+  /// Why the ECU drives without the network it was given.
+  void tell_weights(const wire::Frame& frame) {
+    wire::VersionEcu version;
+    if (!wire::decode(frame, version)) return;
+    const std::string words =
+        campaign::refused_weights_words(static_cast<satp::WeightStatus>(version.weights));
+    if (!words.empty()) out_ << words << std::endl;
   }
 
   void drive_in_lock_step() {

@@ -8,6 +8,7 @@
 
 #include "sim_host/baselines/any_ecu.hpp"
 #include "sim_host/campaign/parameters_file.hpp"
+#include "sim_host/campaign/weights_file.hpp"
 #include "sim_host/processes/bus_end.hpp"
 #include "sim_host/processes/ecu_process.hpp"
 #include "sim_host/processes/input_link.hpp"
@@ -52,6 +53,8 @@ int main(int argc, char** argv) {
   app.add_option("--guard", guard, "check, RSS and minimum-risk manoeuvre behind the planner (default on)")
       ->check(CLI::IsMember({"on", "off"}));
   app.add_option("--parameters", parameters_file, "TOML file of planner parameters (docs/parameters.md)");
+  std::string weights;
+  app.add_option("--weights", weights, "weight image in the ECU's flash bank (default: the build's own)");
   app.add_option("--wait", options.wait_s, "seconds for the first tick (default 60)");
   app.add_option("--silence", options.silence_s, "seconds without a tick that end the drive (default 5)");
   CLI::Option* realtime = app.add_flag("--realtime", options.realtime,
@@ -67,6 +70,7 @@ int main(int argc, char** argv) {
   try {
     options.guarded = guard == "on";
     if (!parameters_file.empty()) options.parameters = campaign::load_parameters(parameters_file);
+    if (!weights.empty()) options.weights = campaign::bank_with(weights);
     if (!key.empty()) options.keys = processes::open_keys(key);
     const auto bus = std::make_unique<hal::linux_host::NamedBus>();
     processes::open_bus(*bus, options.bus, processes::Side::kEcu);

@@ -105,6 +105,15 @@ Batch make_batch(const std::vector<const Sample*>& samples) {
   return batch;
 }
 
+torch::Tensor plan_known(const std::vector<const Sample*>& samples) {
+  std::vector<float> known;
+  for (const Sample* const sample : samples) {
+    known.insert(known.end(), static_cast<std::size_t>(sample->input.hdvs),
+                 (sample->flags & kNoPlan) != 0 ? 0.0F : 1.0F);
+  }
+  return torch::tensor(known);
+}
+
 Batch random_batch(const satp::NetworkShape& shape, std::int64_t scenes) {
   const std::int64_t vehicles = scenes * kMaxAgents;
   const std::int64_t lanes = vehicles * kPathsPerAgent;

@@ -42,6 +42,9 @@ struct Batch {
 /// \param samples  at least one with a vehicle
 [[nodiscard]] Batch make_batch(const std::vector<const Sample*>& samples);
 
+/// [V] 1, or 0 where nobody knows our plan (kNoPlan).
+[[nodiscard]] torch::Tensor plan_known(const std::vector<const Sample*>& samples);
+
 /// Random scenes of any shape, for tests of a size that no sample file has.
 [[nodiscard]] Batch random_batch(const satp::NetworkShape& shape, std::int64_t scenes);
 

@@ -107,10 +107,10 @@ Forecasts image_forecasts(const std::vector<std::uint32_t>& image, const SampleS
   satp::Futures futures;
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const Sample& sample = set[samples[i]];
+    const bool shown = with_plan && (sample.flags & kNoPlan) == 0;
     satp::encode(weights, sample.input, *scratch, *encoded);
     for (int vehicle = 0; vehicle < sample.input.hdvs; ++vehicle) {
-      satp::decode(weights, *encoded, vehicle, with_plan ? sample.plan.step[vehicle] : nullptr, *work,
-                   futures);
+      satp::decode(weights, *encoded, vehicle, shown ? sample.plan.step[vehicle] : nullptr, *work, futures);
       Forecast& forecast = result[i][static_cast<std::size_t>(vehicle)];
       for (int mode = 0; mode < kMaxModes; ++mode) {
         forecast.probability[mode] = futures.probability[mode];

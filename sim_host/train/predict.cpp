@@ -27,7 +27,7 @@ void decode_all(Network& network, const SampleSet& set, const std::vector<std::s
     }
     if (vehicles == 0) continue;
     const Batch batch = make_batch(scenes).to(device);
-    const Tensor has_plan = torch::full_like(batch.speed_mps, with_plan ? 1.0F : 0.0F);
+    const Tensor has_plan = with_plan ? plan_known(scenes).to(device) : torch::zeros_like(batch.speed_mps);
     use(batch, network.decode(batch, network.encode(batch), has_plan), from);
   }
 }

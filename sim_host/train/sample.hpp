@@ -29,6 +29,7 @@ enum SampleFlag : std::uint8_t {
   kCollided = 2,   ///< the ego collided in this branch
   kUnsettled = 4,  ///< who went first was not settled when the branch ended
   kEgoGoes = 8,    ///< the plan passes the first shared zone without waiting
+  kNoPlan = 16,    ///< nobody knows what the ego planned: never shown to the network
 };
 
 /// Right of way, seen from the other vehicle.

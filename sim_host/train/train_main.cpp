@@ -113,6 +113,10 @@ void add_run(CLI::App& tool, RunOptions& options) {
       .add_option("--rough", training.rough, "share of scenes whose tracks are seen as roughly as real ones")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
+  command.add_flag(
+      "!--no-forks", training.forks,
+      "learn only from what the ego did by itself, not from the branches of forks: what such a model "
+      "promises beside one that saw both");
   command.add_option("--passes", training.passes, "times a scene is seen at most")->capture_default_str();
   command.add_option("--validate-every", training.validate_every, "steps between points of the curve")
       ->check(CLI::Range(1, 1000000))

@@ -22,7 +22,7 @@ namespace {
 using torch::Tensor;
 
 // What a random number is for, on top of the seed.
-enum Purpose : std::uint64_t { kOrder = 1000, kNoPlan = 2000, kRough = 3000, kHowRough = 4000 };
+enum Purpose : std::uint64_t { kOrder = 1000, kHidePlan = 2000, kRough = 3000, kHowRough = 4000 };
 
 constexpr int kCurveColumns = 9;
 constexpr double kWarmUpShare = 0.02;                 // of the steps
@@ -85,6 +85,8 @@ Trainer::Trainer(const satp::NetworkShape& shape, const TrainingOptions& options
   const auto alone = [&](std::size_t i) { return set_[i].input.hdvs == 0; };
   std::erase_if(training_, alone);
   std::erase_if(validation_, alone);
+  // Observations instead of interventions; judged by the same validation.
+  if (!options.forks) std::erase_if(training_, [&](std::size_t i) { return set_[i].branch != 0; });
   steps_ = steps_of(options, training_.size());
   if (steps_ == 0) throw std::runtime_error("fewer training samples with traffic than one batch");
   if (validation_.empty()) throw std::runtime_error("no validation samples with traffic");
@@ -111,7 +113,8 @@ Batch Trainer::next_batch(std::vector<float>& has_plan) {
       roughen_tracks(random_share(options_.seed + kHowRough, draw),
                      random_number(options_.seed + kHowRough, draw), sample.input);
     }
-    const bool hidden = random_share(options_.seed + kNoPlan, draw) < options_.no_plan;
+    const bool hidden =
+        (sample.flags & kNoPlan) != 0 || random_share(options_.seed + kHidePlan, draw) < options_.no_plan;
     has_plan.insert(has_plan.end(), static_cast<std::size_t>(sample.input.hdvs), hidden ? 0.0F : 1.0F);
   }
   return make_batch(samples).to(device_);
@@ -150,7 +153,7 @@ void Trainer::validate(CurvePoint& point) {
     }
     const Batch batch = make_batch(samples).to(device_);
     const Encoded encoded = network_->encode(batch);
-    const Decoded decoded = network_->decode(batch, encoded, torch::ones_like(batch.speed_mps));
+    const Decoded decoded = network_->decode(batch, encoded, plan_known(samples).to(device_));
     const Tensor distance = mean_distance_m(batch, decoded);
     const Tensor seen = (batch.target_mask.sum(1) > 0).to(torch::kFloat32);
     const double weight = seen.sum().item<double>();

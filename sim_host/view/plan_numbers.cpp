@@ -66,6 +66,13 @@ std::string in_numbers(const campaign::CycleTrace& cycle) {
   lines += blocking_text(cycle, e.blocking, "in our lane") + blocking_text(cycle, e.beside, "beside");
   if (e.tracks_left_out + e.lanes_left_out > 0)
     lines += format("\n  not told of: %d vehicles, %d lanes", e.tracks_left_out, e.lanes_left_out);
+  if (e.rests_on.probability > 0.0F)
+    lines +=
+        format("\n  rests on:  track %d (%s) %s, %.0f %%; predicted by the %s", e.dominating_track,
+               vehicle_name(cycle, e.dominating_track).c_str(),
+               e.rests_on.yields ? "letting us pass" : "not braking for us", 100.0 * e.rests_on.probability,
+               e.learned ? format("network, trusted to %.0f %%", 100.0 * e.rests_on.trust).c_str()
+                         : "kinematic model");
   if (e.dominating_track != kNobody)
     lines += format("\n  risk:      track %d (%s) at +%.1f s", e.dominating_track,
                     vehicle_name(cycle, e.dominating_track).c_str(), 0.1 * (e.dominating_step + 1));

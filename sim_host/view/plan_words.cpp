@@ -80,6 +80,10 @@ const char* doing_words(Doing doing) {
   return "?";
 }
 
+bool moves_on(Doing doing) {
+  return doing != Doing::kWaiting && doing != Doing::kHalting && doing < Doing::kStopping;
+}
+
 std::string fault_words(const campaign::EcuState& ecu) {
   std::string names;
   for (int bit = 0; bit < ecu::kFaultCount; ++bit) {
@@ -157,6 +161,11 @@ std::string in_words(const campaign::CycleTrace& cycle) {
     words += "; " + because_words(cycle, wanted, e.blocking.verdict);
   }
   words += ".";
+  // A plan that goes because somebody is expected to brake.
+  if (e.status == Status::kOk && e.rests_on.yields && moves_on(reason.doing)) {
+    words += format(" It counts on %s letting us pass (%.0f %%).", name_of(cycle, e.dominating_track).c_str(),
+                    100.0 * e.rests_on.probability);
+  }
   // Behind somebody slower a passenger wonders why he is not passed.
   const bool follows = reason.because == Because::kLeader && reason.doing == Doing::kDriving;
   if (follows && (e.beside.track != kNobody || e.beside.unseen()) && wanted_further(cycle, e.beside)) {

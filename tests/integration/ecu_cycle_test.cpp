@@ -6,10 +6,14 @@
 #include <chrono>
 #include <map>
 #include <thread>
+#include <vector>
 
+#include "algo/satp/shipped_weights.hpp"
 #include "firmware/ecu/gate_limits.hpp"
 #include "firmware/ecu/plan_digest.hpp"
+#include "hal/sim/memory_flash_bank.hpp"
 #include "tests/support/ecu_rig.hpp"
+#include "tests/support/random_network.hpp"
 
 namespace s4tp::ecu {
 namespace {
@@ -422,6 +426,80 @@ TEST(EcuCycle, TwoThreads) {
   planning.join();
   EXPECT_GT(rig.records.plans.size(), 20U);
   for (const PlanRecord& record : rig.records.plans) EXPECT_EQ(record.plan.start_ms % 100, 0U);
+}
+
+/// What the ECU tells about its weights while it drives.
+struct Told {
+  int weights = -1;
+  int learned = 0;
+  int reasons = 0;
+};
+
+Told drive_with(const hal::FlashBank* bank) {
+  auto rig = std::make_unique<BasicRig<planner::Planner>>();
+  EXPECT_EQ(rig->start({}, bank), Status::kOk);
+  rig->plant.speed_mps = 5.0;
+  EXPECT_TRUE(rig->drive());
+  Told told;
+  for (int i = 0; i < 200; ++i) {
+    rig->tick();
+    for (const wire::Frame& frame : rig->from_ecu) {
+      wire::VersionEcu version;
+      if (wire::decode(frame, version)) told.weights = version.weights;
+      wire::PlanReason reason;
+      if (!wire::decode(frame, reason)) continue;
+      ++told.reasons;
+      told.learned += reason.learned;
+    }
+  }
+  EXPECT_EQ(rig->ecu.mode(), Mode::kDriving);
+  EXPECT_EQ(told.reasons, 20);
+  return told;
+}
+
+// ECU-102 ECU-103 ECU-104 Weights from a flash bank: a sound image predicts; one that is cut off, damaged, of another
+// format or size of network, or none at all is refused, the bus is told why, and the ECU drives on without it.
+TEST(EcuWeights, WhatIsRefusedIsToldAndDrivenWithout) {
+  std::vector<std::int32_t> image(satp::kImageBytes / 4);
+  test::make_random_image(8, image.data());
+  const auto told_of = [](const std::vector<std::int32_t>& words, std::size_t count) {
+    const auto bank = std::make_unique<hal::sim::MemoryFlashBank>();
+    EXPECT_TRUE(bank->write(0, words.data(), static_cast<std::uint32_t>(4 * count)));
+    return drive_with(bank.get());
+  };
+  using satp::WeightStatus;
+  const auto refused = [&](std::size_t word, std::int32_t flip, std::size_t count, WeightStatus expected) {
+    std::vector<std::int32_t> other = image;
+    other[word] ^= flip;
+    const Told told = told_of(other, count);
+    EXPECT_EQ(told.weights, static_cast<int>(expected)) << word;
+    EXPECT_EQ(told.learned, 0) << word;
+  };
+  const Told sound = told_of(image, image.size());
+  EXPECT_EQ(sound.weights, static_cast<int>(WeightStatus::kOk));
+  EXPECT_EQ(sound.learned, sound.reasons);
+  refused(0, 1, image.size(), WeightStatus::kNotWeights);
+  refused(1, 2, image.size(), WeightStatus::kFormat);
+  refused(3, 4, image.size(), WeightStatus::kChecksum);
+  refused(5000, 1 << 30, image.size(), WeightStatus::kChecksum);
+  refused(0, 0, image.size() / 2, WeightStatus::kChecksum);
+  std::vector<std::int32_t> other_network = image;
+  other_network[2] += 1;  // shape_id
+  satp::seal(other_network.data());
+  EXPECT_EQ(told_of(other_network, image.size()).weights, static_cast<int>(WeightStatus::kShape));
+}
+
+// ECU-102 Without a bank, and with a blank one, the weights are those the build carries.
+TEST(EcuWeights, ABlankBankLeavesTheBuildsOwn) {
+  const bool carried = satp::shipped_weights().image != nullptr;
+  const auto blank = std::make_unique<hal::sim::MemoryFlashBank>();
+  for (const hal::FlashBank* const bank :
+       {static_cast<const hal::FlashBank*>(nullptr), static_cast<const hal::FlashBank*>(blank.get())}) {
+    const Told told = drive_with(bank);
+    EXPECT_EQ(told.weights,
+              static_cast<int>(carried ? satp::WeightStatus::kOk : satp::WeightStatus::kAbsent));
+    EXPECT_EQ(told.learned, carried ? told.reasons : 0);
+  }
 }
 
 }  // namespace

@@ -11,15 +11,18 @@
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "firmware/wire/codec.hpp"
 #include "sim_host/baselines/any_ecu.hpp"
 #include "sim_host/campaign/bus_log.hpp"
 #include "sim_host/campaign/episode.hpp"
+#include "sim_host/campaign/weights_file.hpp"
 #include "sim_host/processes/board_console.hpp"
 #include "sim_host/processes/child_process.hpp"
 #include "sim_host/processes/drive_on_target.hpp"
 #include "sim_host/processes/emulated_board.hpp"
+#include "tests/support/random_network.hpp"
 
 namespace s4tp::processes {
 namespace {
@@ -112,6 +115,32 @@ TEST(TargetLoop, ShortCruiseOnM55) {
   world::Scenario scenario = load("cruise");
   scenario.mission.time_limit_s = 3.0;
   expect_the_hosts_commands("m55", scenario, 4);
+}
+
+// ECU-102 ECU-103 An image in the board's flash bank that is damaged: the bus says why it is refused, in words of the
+// launcher, and the board's commands are those of the host's ECU with the same bank.
+TEST(TargetLoop, RefusesDamagedWeightsAsTheHostDoes) {
+  std::vector<std::int32_t> words(satp::kImageBytes / 4);
+  test::make_random_image(8, words.data());
+  words[4000] ^= 1;
+  const fs::path file = scratch("damaged.satp");
+  std::ofstream(file, std::ios::binary).write(reinterpret_cast<const char*>(words.data()), satp::kImageBytes);
+  world::Scenario scenario = load("cut_in");
+  scenario.mission.time_limit_s = 2.0;
+  const auto bank = campaign::bank_with(file);
+  campaign::EpisodeOptions host;
+  host.seed = 4;
+  host.weights = bank.get();
+  host.log = scratch("host.log");
+  EXPECT_EQ(campaign::run_episode(scenario, host).weights, satp::WeightStatus::kChecksum);
+  for (const std::string target : {"m7", "m55"}) {
+    TargetOptions options = options_for(target, 4);
+    options.weights = file;
+    std::ostringstream out;
+    (void)drive_on_target(scenario, options, out);
+    EXPECT_NE(out.str().find("refuses its weights (checksum)"), std::string::npos) << out.str();
+    EXPECT_TRUE(frames_of(scratch(target + ".log")) == frames_of(scratch("host.log"))) << out.str();
+  }
 }
 
 // TARGET-010 All four scenarios on both.

@@ -129,8 +129,8 @@ class BasicRig {
  public:
   BasicRig() { map_sender.update(straight_map()); }
 
-  Status start(const Parameters& parameters = {}) {
-    return ecu.init(parameters, {ecu_port, nullptr, &cycles, &watchdog, &records});
+  Status start(const Parameters& parameters = {}, const hal::FlashBank* weights = nullptr) {
+    return ecu.init(parameters, {ecu_port, nullptr, &cycles, &watchdog, &records, weights});
   }
 
   /// One tick: the world's frames, TICK last, the control tick, a planning cycle if due.

@@ -109,6 +109,45 @@ TEST_F(Training, RefusesTheCheckpointOfAnotherTraining) {
   EXPECT_THROW((void)load_network(satp::kTeacherShape, file), std::runtime_error);
 }
 
+// Without forks every second sample of this traffic goes, the branch in which the ego did otherwise: half the steps of a
+// pass, another network, and no checkpoint of the training with them is gone on with.
+TEST_F(Training, WithoutForksLearnsFromWhatTheEgoDidByItself) {
+  const SampleSet set = traffic(1, 40, 2);
+  TrainingOptions options = short_training();
+  options.passes = 1;
+  options.steps = 1000;
+  TrainingOptions observing = options;
+  observing.forks = false;
+  Trainer with(satp::kMcuShape, options, set);
+  Trainer without(satp::kMcuShape, observing, set);
+  EXPECT_EQ(without.steps(), with.steps() / 2);
+  with.save(folder / "with.pt");
+  EXPECT_THROW(without.load(folder / "with.pt"), std::runtime_error);
+  EXPECT_NE(trained(options, set), trained(observing, set));
+}
+
+// A plan that nobody knows (kNoPlan, recorded drivers) is never shown: whatever stands in its place, the network is the
+// same to the bit, and is another one where the plan is known.
+TEST_F(Training, NeverShowsAPlanThatNobodyKnows) {
+  const SampleSet set = traffic(1, 40, 2);
+  const auto trained_on = [&](const char* name, std::uint8_t flag, float plan) {
+    SampleWriter writer(folder / name);
+    for (std::size_t i = 0; i < set.size(); ++i) {
+      Sample sample = set[i];
+      sample.flags |= flag;
+      for (auto& vehicle : sample.plan.step) {
+        for (auto& step : vehicle) step[0] += plan;
+      }
+      writer.add(sample);
+    }
+    writer.close();
+    return trained(short_training(), SampleSet(folder / name));
+  };
+  const auto unknown = trained_on("unknown", kNoPlan, 0.0F);
+  EXPECT_EQ(unknown, trained_on("other", kNoPlan, 3.0F));
+  EXPECT_NE(unknown, trained_on("known", 0, 0.0F));
+}
+
 // No scene is seen more often than allowed: 15 passes over 100 samples in batches of 8 are 15 x 12 steps.
 TEST_F(Training, SeesNoSceneTooOften) {
   TrainingOptions options;

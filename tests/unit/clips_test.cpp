@@ -7,6 +7,7 @@
 
 #include "algo/satp/shipped_weights.hpp"
 #include "sim_host/clips/figures.hpp"
+#include "sim_host/train/clip_samples.hpp"
 #include "tests/support/networks.hpp"
 
 namespace s4tp::clips {
@@ -116,6 +117,44 @@ TEST_F(Clips, RefusesWhatItDoesNotKnow) {
       EXPECT_NE(std::string(error.what()).find("bad.json"), std::string::npos) << error.what();
     }
   }
+}
+
+// CLIP-004 CLIP-005 A car that speeds up at 1 m/s^2 from 10 m/s, and one of its number: of the windows at 1.0, 1.5 and
+// 2.0 s each sample has that one target, 4.5 m further at 3 s than constant speed, and shows no plan; a vehicle is kept
+// for judging or trained with, in every clip.
+TEST_F(Clips, WindowsBecomeSamplesWithoutAPlan) {
+  int vehicles = 0;
+  for (int id = 1; id <= 40; ++id) {
+    const std::string name = std::to_string(100 + id);
+    const auto file = folder_.write(
+        "made.json", world::test::replaced(made_up(1.0), R"("id": "1")", R"("id": ")" + name + '"'));
+    Windows windows;
+    int samples = 0;
+    train::make_clip_samples(load_clip(file), windows, Parameters{}, [&](const train::Sample& sample) {
+      ++samples;
+      EXPECT_EQ(sample.flags & train::kNoPlan, train::kNoPlan);
+      EXPECT_EQ(sample.road, vehicle_number("XYZ_Made-", name));
+      int targets = 0;
+      for (int i = 0; i < kMaxAgents; ++i) {
+        if (sample.target.valid[i] == 0) continue;
+        ++targets;
+        const float(&end)[3] = sample.target.pose[i][kHorizonSteps - 1];
+        EXPECT_NEAR(end[0] - 3.0F * sample.input.speed_mps[i], 4.5F, 0.05F);
+        EXPECT_NEAR(end[1], 0.0F, 0.01F);
+        EXPECT_GT(sample.kinematic[i].probability[0], 0.0F);
+      }
+      EXPECT_EQ(targets, 1);
+    });
+    const bool kept = kept_for_judging("XYZ_Made-", name);
+    EXPECT_EQ(samples, kept ? 0 : 3) << name;
+    const auto forecaster = make_forecaster("constant_velocity");
+    ClipFigures judged(*forecaster, true);
+    judged.add(load_clip(file));
+    EXPECT_EQ(judged.families().size(), kept ? 1U : 0U) << name;
+    vehicles += kept ? 1 : 0;
+  }
+  EXPECT_GE(vehicles, 3);
+  EXPECT_LE(vehicles, 15);
 }
 
 }  // namespace

@@ -141,6 +141,7 @@ TEST(MemoryFlashBank, BehavesLikeFlash) {
   ASSERT_TRUE(bank->write(10, data, 2));
   ASSERT_TRUE(bank->read(10, back, 2));
   EXPECT_EQ(std::memcmp(data, back, 2), 0);
+  EXPECT_EQ(std::memcmp(data, static_cast<const std::uint8_t*>(bank->mapped()) + 10, 2), 0);
   const std::uint8_t more_bits[2] = {0x1F, 0xF0};
   EXPECT_FALSE(bank->write(10, more_bits, 2));
   ASSERT_TRUE(bank->erase());

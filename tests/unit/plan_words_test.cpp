@@ -235,6 +235,30 @@ TEST(PlanWords, NumbersForAnEngineer) {
   }
 }
 
+// What the plan rests on: whoever is expected to let us pass is named with how likely that is, when we go; the numbers
+// name the other future, too, and who predicted it.
+TEST(PlanWords, SaysWhichFutureThePlanRestsOn) {
+  campaign::CycleTrace cycle = plan(5.0F, 8.0F);
+  add_track(cycle, 7, {15.0F, 20.0F, kFromLeft});
+  planner::Explanation& e = cycle.record.explanation;
+  e.dominating_track = 7;
+  e.learned = true;
+  e.rests_on = {true, 0.83F, 0.5F};
+  EXPECT_EQ(in_words(cycle), "Speeding up. It counts on the car from the left letting us pass (83 %).");
+  EXPECT_NE(in_numbers(cycle).find(
+                "rests on:  track 7 (the car from the left) letting us pass, 83 %; predicted by the "
+                "network, trusted to 50 %"),
+            std::string::npos)
+      << in_numbers(cycle);
+  e.learned = false;
+  e.rests_on.yields = false;
+  EXPECT_EQ(in_words(cycle), "Speeding up.");
+  EXPECT_NE(in_numbers(cycle).find("not braking for us, 83 %; predicted by the kinematic model"),
+            std::string::npos);
+  e.rests_on = {};
+  EXPECT_EQ(in_numbers(cycle).find("rests on"), std::string::npos);
+}
+
 // Ten plans: before the episode's start nothing, then 0.5 s of driving with one plan of waiting in between,
 // which is too brief, then 0.4 s of waiting.
 TEST(PlanWords, PassagesJoinPlansWithTheSameReason) {

@@ -84,8 +84,9 @@ TEST(PlannerRegistry, EveryPlannerIsThere) {
   const std::vector<std::string> names = baselines::planner_names();
   ASSERT_FALSE(names.empty());
   EXPECT_EQ(names.front(), "s4tp");
-  for (const char* const name : {"blind", "constant_speed", "drf_controller", "idm_lane",
-                                 "predictive_decision", "static_drf", "sumo_driver"}) {
+  for (const char* const name :
+       {"blind", "constant_speed", "drf_controller", "idm_lane", "predictive_decision",
+        "predictive_decision_kinematic", "s4tp_kinematic", "static_drf", "sumo_driver"}) {
     EXPECT_NE(std::find(names.begin(), names.end(), name), names.end()) << name;
   }
 }

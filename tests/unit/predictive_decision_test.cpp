@@ -96,7 +96,7 @@ TEST(PredictiveDecision, ALaneChangeStillDueCostsWay) {
 // Behind a standing car the planner itself brakes, bare as well: the cost says so, no rule.
 TEST(PredictiveDecision, StopsForAStandingCar) {
   const LaneMap map = test::straight_road(1, 300.0F);
-  auto planner = std::make_unique<PredictiveDecisionPlanner<false>>();
+  auto planner = std::make_unique<PredictiveDecisionPlanner<false, true>>();
   ASSERT_EQ(planner->init(Parameters{}), Status::kOk);
   planner::PlannerInput input;
   input.map = &map;
