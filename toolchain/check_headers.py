@@ -24,9 +24,11 @@ USES = {
     "EventRing": "s4tp::ecu::EventRing<float, 4>",
     "TripleBuffer": "s4tp::ecu::TripleBuffer<float>",
     "Ecu": "s4tp::ecu::Ecu<s4tp::planner::Planner>",
+    "PlannerWeights": "s4tp::ecu::PlannerWeights<s4tp::planner::Planner>",
     "Rows": "s4tp::satp::Rows<float>",
 }
-EXTRA_INCLUDES = {"Ecu": '#include "algo/planner/planner.hpp"\n'}
+PLANNER = '#include "algo/planner/planner.hpp"\n'
+EXTRA_INCLUDES = {"Ecu": PLANNER, "PlannerWeights": PLANNER}
 # Run-time calls of the Arm ABI that compute with float or double, and the C mathematics library.
 FLOAT_CALL = re.compile(r"__aeabi_(c?[fd](add|r?sub|mul|div|neg|cmp\w*|2\w+)|u?[il]2[fd])"
                         r"|(sqrt|sin|cos|tan|asin|acos|atan|atan2|exp|log|pow|tanh|erf|fmod|floor|ceil|round|fma)f?")

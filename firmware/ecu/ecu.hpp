@@ -37,10 +37,10 @@ class Ecu {
     if (ports.can == nullptr || ports.cycles == nullptr || ports.watchdog == nullptr) {
       return Status::kInvalidInput;
     }
-    if (ports.weights != nullptr) take_weights(planner_, *ports.weights);
+    if (ports.weights != nullptr) PlannerWeights<PlannerT>::take(planner_, *ports.weights);
     planner_ready_ = planner_.init(parameters);
     planner_crc_ = parameters_crc(parameters);
-    core_.init(parameters, ports, planner_ready_ != Status::kOk, weight_status(planner_));
+    core_.init(parameters, ports, planner_ready_ != Status::kOk, PlannerWeights<PlannerT>::status(planner_));
     return planner_ready_;
   }
 

@@ -24,21 +24,23 @@ inline constexpr bool
   return readable && (first == 0U || first == 0xFFFFFFFFU);
 }
 
-/// A blank bank gives nothing: then the weights the build carries are taken.
+/// A planner and its weights.
 template <class PlannerT>
-void take_weights(PlannerT& planner, const hal::FlashBank& bank) {
-  if constexpr (kTakesWeights<PlannerT>) {
-    if (!is_blank(bank)) static_cast<void>(planner.use_weights(bank.mapped(), bank.size()));
+struct PlannerWeights {
+  /// A blank bank gives nothing: then the weights the build carries are taken.
+  static void take(PlannerT& planner, const hal::FlashBank& bank) {
+    if constexpr (kTakesWeights<PlannerT>) {
+      if (!is_blank(bank)) static_cast<void>(planner.use_weights(bank.mapped(), bank.size()));
+    }
   }
-}
 
-template <class PlannerT>
-[[nodiscard]] satp::WeightStatus weight_status(const PlannerT& planner) {
-  if constexpr (kTakesWeights<PlannerT>) {
-    return planner.weight_status();
-  } else {
-    return satp::WeightStatus::kAbsent;
+  [[nodiscard]] static satp::WeightStatus status(const PlannerT& planner) {
+    if constexpr (kTakesWeights<PlannerT>) {
+      return planner.weight_status();
+    } else {
+      return satp::WeightStatus::kAbsent;
+    }
   }
-}
+};
 
 }  // namespace s4tp::ecu
