@@ -96,7 +96,7 @@ TEST(MotionProperty, CandidatesAreMotions) {
 }
 
 // CAND-009 From an ordinary state (0.3 m beside, 0.05 rad askew, comfortable speed) there is always a way to
-// brake: to rest, or at rest to 0.5 m/s at most, where a stop just ahead has replaced standing as its twin.
+// brake: to rest, or (hardly) at rest to 0.5 m/s at most, where a stop just ahead has replaced standing as its twin.
 TEST(MotionProperty, OrdinaryStatesHaveCandidates) {
   EXPECT_TRUE(rc::check([] {
     World world;
@@ -120,7 +120,7 @@ TEST(MotionProperty, OrdinaryStatesHaveCandidates) {
       Trajectory trajectory;
       trajectory::roll_out(lines[candidate.path], candidate, world.start, Plan{}, kNow, Parameters{},
                            trajectory);
-      const float slowest_mps = world.start.speed_mps == 0.0F ? 0.5F : 0.0F;
+      const float slowest_mps = world.start.speed_mps < 0.1F ? 0.5F : 0.0F;
       brakes = brakes || trajectory.points[kHorizonSteps].speed_mps <= slowest_mps;
     }
     RC_ASSERT(brakes);
@@ -157,7 +157,7 @@ TEST(MotionProperty, StopsRestBeforeTheirPlace) {
       trajectory::roll_out(lines[stop->path], *stop, state, Plan{}, kNow, Parameters{}, trajectory);
       const bool rests = i > 5 && state.speed_mps == 0.0F && trajectory.points[1].speed_mps == 0.0F;
       state = trajectory.points[1];
-      RC_ASSERT(state.rear_axle.x_m <= 20.0F + room_m + 0.01F);
+      RC_ASSERT(state.rear_axle.x_m <= 20.0F + room_m + 0.02F);
       if (rests) break;
     }
     RC_ASSERT(state.rear_axle.x_m > 20.0F + room_m - 1.5F);
