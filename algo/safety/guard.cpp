@@ -93,6 +93,7 @@ void Guard::commit(int path, const Verdict& verdict) {
                    static_cast<std::uint32_t>(to_int(1e3F * (lead_s_ + verdict.clear_s), 0, 1'000'000));
   }
   goes_through_ = verdict.clears;
+  stops_short_ = verdict.stops_short;
   // A licence lost before it was used is not in here any more.
   latched_.clear();
   if (!verdict.clears || path < 0 || path >= scene_->ego_paths.size()) return;
@@ -197,12 +198,12 @@ bool Guard::passes_threat(const scene::EgoPath& path, const Sight& sight, const 
   return false;
 }
 
+float Guard::time_left_s() const {
+  return 1e-3F * static_cast<float>(static_cast<std::int32_t>(clear_by_ms_ - scene_->time_ms)) - lead_s_;
+}
+
 bool Guard::leaves_in_time(const ZoneGroup& group, const Own& own, float late_s) const {
-  if (goes_through_) {
-    const float left_s =
-        1e-3F * static_cast<float>(static_cast<std::int32_t>(clear_by_ms_ - scene_->time_ms)) - lead_s_;
-    if (own.time_at_s(group.exit_s_m, group.cap_mps) <= left_s + late_s) return true;
-  }
+  if (goes_through_ && own.time_at_s(group.exit_s_m, group.cap_mps) <= time_left_s() + late_s) return true;
   for (int i = 1; i < kTrajectoryPoints && own.s_m[i - 1] < group.exit_s_m; ++i) {
     if (own.speed_mps[i] < own.speed_mps[0]) return false;
   }
@@ -242,8 +243,11 @@ bool Guard::passes_group(const scene::EgoPath& path, const Sight& sight, const Z
     const bool bound = bound_s_m > zone.entry_s_m;
     const bool behind_it = zone.merging && threat.when.to_entry_m <= 0.0F;
     if (bound && (behind_it || own.blocked || leaves_in_time(group, own, kRoundingS))) continue;
-    // Who entered by right stops short of one that comes after all.
-    verdict.stops_short = entered && stops_short(path, sight, group, own);
+    // Who entered by right stops short of one that comes after all: before we were to be gone.
+    const float left_s = time_left_s();
+    const bool no_reason = goes_through_ && !stops_short_ && !own.blocked && !zone.merging && left_s > 0.0F &&
+                           threat.when.from_s > left_s;
+    verdict.stops_short = entered && !no_reason && stops_short(path, sight, group, own);
     if (!verdict.stops_short) verdict = refused;
     return verdict.stops_short;
   }

@@ -12,8 +12,8 @@
 /// leaves room, in both orders. GUARD-009 A lane change leaves who is behind room to brake, and begins only
 /// when who is ahead is ahead of all of us by the time we are over the line, braking as hard as can be.
 /// GUARD-010 Whoever drives only what passes, and else the last fail-safe, touches nobody who keeps to the
-/// law. GUARD-011 Who entered a group by right may stand in it, short of one that comes after all, where
-/// nobody comes who cannot stop for it and nobody has let us go.
+/// law. GUARD-011 Who entered a group by right may stand in it, short of one that comes after all and
+/// before we were to be gone, where nobody comes who cannot stop for it and nobody has let us go.
 /// GUARD-012 Beyond the known ground (scene.hpp) there may be anybody: on each lane that leads in from there
 /// somebody comes at the limit's speed, in a lane we change into as well; on our way out of it somebody
 /// stands. Whoever is nearer in that lane and stays out of a zone, leads us, or follows us, is in its way.
@@ -94,7 +94,7 @@ class Guard {
   /// Forgets what is in force.
   void reset() {
     latched_.clear();
-    goes_through_ = false;
+    goes_through_ = stops_short_ = false;
   }
 
  private:
@@ -162,6 +162,8 @@ class Guard {
   /// Whether the fail-safe stands where nobody comes who cannot stop for it.
   [[nodiscard]] bool stops_short(const scene::EgoPath& path, const Sight& sight, const ZoneGroup& group,
                                  const Own& own) const;
+  /// Until the plan in force is to be out of its group, from plan start on.
+  [[nodiscard]] float time_left_s() const;
   /// Whether a plan that cannot stay out of the group any more is out of it at most `late_s` later than it was to be.
   [[nodiscard]] bool leaves_in_time(const ZoneGroup& group, const Own& own, float late_s) const;
   [[nodiscard]] bool followers_can_brake(const Sight& sight, const Own& own, float brakes_from_s,
@@ -176,6 +178,7 @@ class Guard {
   Sight sights_[kPaths];
   BoundedVector<Latch, 2 * kMaxTracks> latched_;
   bool goes_through_ = false;      ///< the plan in force, a group of zones
+  bool stops_short_ = false;       ///< ... but stops in it, short of somebody
   std::uint32_t clear_by_ms_ = 0;  ///< when it was to have left it, as we were bound to go on
 };
 

@@ -30,7 +30,7 @@ unsigned any_seed() {
   return seed;
 }
 
-/// Three of the properties below still have scenes that touch, about one in three thousand (docs/safety.md): they are
+/// Three of the properties below still have scenes that touch, about one in four thousand (docs/safety.md): they are
 /// asked of the same scenes each time, and of random ones in the long tests.
 constexpr unsigned kScenes = 300;
 template <typename Scene>

@@ -308,18 +308,30 @@ TEST(Guard, ALicenceIsNotUsedBeforeWeAreBound) {
 
 // GUARD-006 It lets us go (L1: 40 m away, 6 m/s), we do, and it gains speed. At 95.5 and 5 m/s 8 m/s^2 end at
 // 97.1, in the zone: going on is what was licensed, and out in 1.7 s. It could still stop for us, 14 m after a
-// second where 4.5 would do, but nobody brakes for it who was let go. Whoever has no licence does (GUARD-011).
+// second where 4.5 would do, but nobody brakes for it who was let go.
 TEST(Guard, WhoWasLetGoDoesNotBreakOff) {
-  for (const bool licensed : {true, false}) {
+  SharedGround road(Priority::kFirstYields);
+  road.other(96.0F - 40.0F, 6.0F);
+  const Verdict begun = road.judge(94.0F, 4.5F, 1.0F);
+  ASSERT_TRUE(begun.safe() && begun.clears);
+  road.guard.commit(0, begun);
+  road.scene.agents.clear();
+  road.other(96.0F - 20.0F, 6.0F).track.acceleration_mps2 = 2.0F;
+  EXPECT_TRUE(road.safe(95.5F, 5.0F, 1.0F));
+  EXPECT_FALSE(road.safe(95.5F, 5.0F, -6.0F));
+}
+
+// GUARD-011 Gone in as nobody was near, to be out in 1.8 s. Who can be there after 2.4 s (20 m at 6 m/s, 2 m/s^2) is no
+// reason to stop; who is there after 1.4 s (6 m at 3 m/s), and can still stop for us, is.
+TEST(Guard, NobodyStopsShortOfWhoComesWhenWeAreGone) {
+  for (const bool late : {true, false}) {
     SharedGround road(Priority::kFirstYields);
-    if (licensed) road.other(96.0F - 40.0F, 6.0F);
     const Verdict begun = road.judge(94.0F, 4.5F, 1.0F);
     ASSERT_TRUE(begun.safe() && begun.clears);
     road.guard.commit(0, begun);
-    road.scene.agents.clear();
-    road.other(96.0F - 20.0F, 6.0F).track.acceleration_mps2 = 2.0F;
+    road.other(late ? 96.0F - 20.0F : 96.0F - 6.0F, late ? 6.0F : 3.0F).track.acceleration_mps2 = 2.0F;
     EXPECT_TRUE(road.safe(95.5F, 5.0F, 1.0F));
-    EXPECT_EQ(road.safe(95.5F, 5.0F, -6.0F), !licensed) << licensed;
+    EXPECT_EQ(road.safe(95.5F, 5.0F, -6.0F), !late) << late;
   }
 }
 
