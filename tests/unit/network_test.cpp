@@ -268,6 +268,7 @@ TEST(Network, ErrorsSayWhatWasExpected) {
       {replaced(kCross, "-50,0 -10,0", "-50,0"), {"lane \"west_in_0\"", "two different points"}},
       {replaced(kCross, "-50,0 -10,0", "-50;0 -10,0"), {"\"-50;0\"", "expected x,y"}},
       {replaced(kCross, "-50,0 -10,0", "-50,0 -50,0"), {"west_in_0", "two different points"}},
+      {replaced(kCross, "-10,0 10,0", "-10,0 1e8,0"), {":c_0_0", "inside a junction", "at most 1000 m"}},
       {replaced(kCross, R"(speed="10" length="40" shape="-50)", R"(speed="fast" shape="-50)"),
        {"west_in_0", "speed=\"fast\"", "a number"}},
       {replaced(kCross, R"(via=":c_0_0")", R"(via=":c_7_0")"),
