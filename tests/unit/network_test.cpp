@@ -245,14 +245,16 @@ TEST(Network, JunctionLanesOfNoLengthArePassedOver) {
   EXPECT_EQ(lane(network, "west_in_0").successors, std::vector<LaneId>{network.find("east_out_0")});
 }
 
+const std::string kBridged = R"(<net>
+    <edge id="a"><lane id="a_0" index="0" shape="0,0 50,0"/></edge>
+    <edge id="b"><lane id="b_0" index="0" shape="60,0 9000,0"/></edge>
+    <junction id="c" type="priority" incLanes="a_0" intLanes=""><request index="0" response="0" foes="0"/></junction>
+    <connection from="a" to="b" fromLane="0" toLane="0"/></net>)";
+
 // A network built without junction lanes gets arcs from lane to lane: here straight on, the 10 m between
 // them.
 TEST(Network, LoadsWithoutJunctionLanes) {
-  const Network network = network_of(R"(<net>
-    <edge id="a"><lane id="a_0" index="0" shape="0,0 50,0"/></edge>
-    <edge id="b"><lane id="b_0" index="0" shape="60,0 90,0"/></edge>
-    <junction id="c" type="priority" incLanes="a_0" intLanes=""><request index="0" response="0" foes="0"/></junction>
-    <connection from="a" to="b" fromLane="0" toLane="0"/></net>)");
+  const Network network = network_of(kBridged);
   EXPECT_EQ(lane(network, "a_0").successors, std::vector<LaneId>{network.find(":c_0_0")});
   EXPECT_EQ(lane(network, ":c_0_0").successors, std::vector<LaneId>{network.find("b_0")});
   EXPECT_NEAR(lane(network, ":c_0_0").centre.length_m(), 10.0, 1e-9);
@@ -268,7 +270,9 @@ TEST(Network, ErrorsSayWhatWasExpected) {
       {replaced(kCross, "-50,0 -10,0", "-50,0"), {"lane \"west_in_0\"", "two different points"}},
       {replaced(kCross, "-50,0 -10,0", "-50;0 -10,0"), {"\"-50;0\"", "expected x,y"}},
       {replaced(kCross, "-50,0 -10,0", "-50,0 -50,0"), {"west_in_0", "two different points"}},
-      {replaced(kCross, "-10,0 10,0", "-10,0 1e8,0"), {":c_0_0", "inside a junction", "at most 1000 m"}},
+      {replaced(kCross, "-10,0 10,0", "-10,0 1e8,0"),
+       {"\":c_0_0\"", "through the junction", "at most 1000 m"}},
+      {replaced(kBridged, "\"60,0", "\"1060,0"), {"\":c_0_0\"", "1010 m long", "at most 1000 m"}},
       {replaced(kCross, R"(speed="10" length="40" shape="-50)", R"(speed="fast" shape="-50)"),
        {"west_in_0", "speed=\"fast\"", "a number"}},
       {replaced(kCross, R"(via=":c_0_0")", R"(via=":c_7_0")"),

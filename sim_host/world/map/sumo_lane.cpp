@@ -13,7 +13,6 @@ namespace {
 constexpr double kDefaultWidth_m = 3.2;      // SUMO's own
 constexpr double kDefaultSpeed_mps = 13.89;  // SUMO's own
 constexpr double kFurthest_m = 1e8;
-constexpr double kLongestInJunction_m = 1000.0;  // conflicts are looked for along it, step by step
 constexpr double kSamePoint_m = 0.005;
 
 /// Whether a list of vehicle classes means our cars.
@@ -86,10 +85,6 @@ std::optional<NetworkLane> read_lane(const pugi::xml_node& node, const std::stri
     fail_at(where, "shape: expected at least two different points x,y");
   }
   lane.centre = Polyline(shape);
-  if (lane.in_junction && lane.centre.length_m() > kLongestInJunction_m) {
-    fail_at(where, "a lane inside a junction is " + std::to_string(std::lround(lane.centre.length_m())) +
-                       " m long: expected at most 1000 m");
-  }
   lane.sumo_length_m = lane_number(node, "length", lane.centre.length_m(), where);
   return lane;
 }

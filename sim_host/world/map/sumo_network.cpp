@@ -15,6 +15,8 @@
 namespace s4tp::world {
 namespace {
 
+constexpr double kLongestThroughJunction_m = 1000.0;  // conflicts are looked for along it, step by step
+
 class Reader {
  public:
   Network read(const pugi::xml_node& net) {
@@ -285,6 +287,15 @@ class Reader {
     link.from = lane(link.inside.front()).predecessors.front();
     link.to = lane(link.inside.back()).successors.front();
     link.priority = priority_.at(lane(link.from).edge);
+    double length_m = 0.0;
+    for (const LaneId each : link.inside) {
+      length_m += lane(each).centre.length_m();
+    }
+    if (length_m > kLongestThroughJunction_m) {
+      fail_at("lane \"" + lane(inside).name + "\"", "its way through the junction is " +
+                                                        std::to_string(std::lround(length_m)) +
+                                                        " m long: expected at most 1000 m");
+    }
     return link;
   }
 
