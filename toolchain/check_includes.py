@@ -33,6 +33,7 @@ WORLD = {
     "traffic": ["map/", "scenario/"],
     "nodes": ["map/", "scenario/", "traffic/"],
     "judge": ["map/", "traffic/"],
+    "adversary": ["map/", "scenario/", "traffic/", "judge/"],
 }
 # What only looks at the world.
 MEASURING = {"metrics": ["world/"], "roads": ["world/"]}

@@ -77,7 +77,10 @@ void CommonOptions::add_to(CLI::App& command) {
 }
 
 void CommonOptions::add_traffic_to(CLI::App& command) {
-  command.add_option("--traffic", traffic, "who simulates it: builtin (default) or sumo (Debian's sumo)")
+  command
+      .add_option("--traffic", traffic,
+                  "who simulates it: builtin (default), sumo (Debian's sumo), or adversary: the worst that "
+                  "the law allows")
       ->check(CLI::IsMember(world::engine_names()));
 }
 

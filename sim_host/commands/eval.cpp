@@ -244,7 +244,8 @@ Command add_eval(CLI::App& tool) {
                    "a folder of scenarios, or N:K, K roads from number N on (s4tp roads); results by family");
   eval->add_option("--flavour,--flavours", plan.flavours, "smarts (default), social, or others they have")
       ->delimiter(',');
-  eval->add_option("--traffic", plan.traffic, "who simulates it: builtin (default), sumo")
+  eval->add_option("--traffic", plan.traffic,
+                   "who simulates it: builtin (default), sumo, adversary (the worst that the law allows)")
       ->delimiter(',')
       ->check(CLI::IsMember(world::engine_names()));
   eval->add_option("--guard", options->guards, "check, RSS and minimum-risk manoeuvre: on (default), off")

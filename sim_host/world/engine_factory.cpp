@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "sim_host/sumo/sumo_traffic.hpp"
+#include "sim_host/world/adversary/adversary.hpp"
 #include "sim_host/world/traffic/traffic.hpp"
 
 namespace s4tp::world {
@@ -13,6 +14,9 @@ std::unique_ptr<TrafficEngine> make_engine(const Scenario& scenario, const Engin
   }
   if (options.ego == DrivenBy::kEngine) {
     throw std::invalid_argument("the built-in traffic drives no ego; SUMO does (--traffic sumo)");
+  }
+  if (options.engine == Engine::kAdversary) {
+    return std::make_unique<AdversaryTraffic>(scenario, options.episode, options.seed);
   }
   return std::make_unique<Traffic>(scenario, options.episode, options.seed);
 }

@@ -6,9 +6,10 @@
 
 namespace s4tp::world {
 
-enum class Engine { kBuiltin, kSumo };
+/// kAdversary: the built-in traffic, whose drivers do to the ego the worst that the law leaves them.
+enum class Engine { kBuiltin, kSumo, kAdversary };
 
-/// "builtin", "sumo"
+/// "builtin", "sumo", "adversary"
 [[nodiscard]] const std::vector<std::string>& engine_names();
 /// \throws std::invalid_argument naming those there are
 [[nodiscard]] Engine engine_of(const std::string& name);

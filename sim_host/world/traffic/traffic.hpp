@@ -56,7 +56,7 @@ struct TrafficCar {
   [[nodiscard]] double offset_m() const;
 };
 
-class Traffic final : public TrafficEngine {
+class Traffic : public TrafficEngine {
  public:
   /// WORLD-021 The same network, groups and seed give the same traffic to the bit. WORLD-022 Whoever enters
   /// late shifts nobody else's id, order or draws: who does not meet him drives on to the bit.
@@ -74,15 +74,30 @@ class Traffic final : public TrafficEngine {
 
   [[nodiscard]] const std::vector<TrafficCar>& details() const { return cars_; }
 
- private:
-  void decide(const Actor* ego);
+ protected:
+  /// What everybody does in the next 0.1 s. \param ego  null: not there
+  virtual void decide(const Actor* ego);
+  /// Whether a driver who wants to change into a lane does. \param beside  the lane, from the car's place on
+  [[nodiscard]] virtual bool may_change(const TrafficCar& /*car*/, const WayPart& /*beside*/) const {
+    return true;
+  }
   [[nodiscard]] std::vector<Actor> actors(const Actor* ego) const;
+  /// As the driver would like it, everybody in `view` considered.
+  [[nodiscard]] double acceleration(TrafficCar& car, const Actor& self, const TrafficView& view);
+  void consider_lane_change(TrafficCar& car, const Actor& self, const TrafficView& view);
+  void insert_waiting(const Actor* ego);
+  [[nodiscard]] const NetworkLane& lane(LaneId id) const { return road_->lane(id); }
+
+  std::shared_ptr<const RoadIndex> road_;  ///< what never changes is shared with the copies
+  std::shared_ptr<const FlowPlan> plan_;
+  std::uint64_t seed_;
+  std::vector<TrafficCar> cars_;  ///< by id
+
+ private:
   [[nodiscard]] Actor actor_of(const TrafficCar& car) const;
   [[nodiscard]] double wanted_speed_mps(const TrafficCar& car, const std::vector<WayPart>& way) const;
   [[nodiscard]] double follow(TrafficCar& car, const Actor& self, const TrafficView& view,
                               const Leader& leader, double wanted_mps);
-  [[nodiscard]] double acceleration(TrafficCar& car, const Actor& self, const TrafficView& view);
-  void consider_lane_change(TrafficCar& car, const Actor& self, const TrafficView& view);
   [[nodiscard]] double towards_merging(const TrafficCar& car, const Actor& self, const TrafficView& view,
                                        const Leader& leader, double wanted_mps, double result) const;
   [[nodiscard]] double lane_change_gain(const TrafficCar& car, const TrafficView& view,
@@ -92,14 +107,8 @@ class Traffic final : public TrafficEngine {
   void watch_ego(const Actor& ego, const TrafficView& view);
   [[nodiscard]] const Driver& driver_of(int id) const;
   [[nodiscard]] bool somebody_comes(const TrafficView& view, const TrafficCar& car) const;
-  void insert_waiting(const Actor* ego);
   void move(TrafficCar& car);
-  [[nodiscard]] const NetworkLane& lane(LaneId id) const { return road_->lane(id); }
 
-  std::shared_ptr<const RoadIndex> road_;  ///< what never changes is shared with the copies
-  std::shared_ptr<const FlowPlan> plan_;
-  std::uint64_t seed_;
-  std::vector<TrafficCar> cars_;                  ///< by id
   std::vector<std::deque<std::size_t>> waiting_;  ///< departures, by lane
   std::size_t next_departure_ = 0;
   int finished_ = 0;

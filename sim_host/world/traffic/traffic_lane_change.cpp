@@ -125,7 +125,7 @@ void Traffic::consider_lane_change(TrafficCar& car, const Actor& self, const Tra
       }
     }
   }
-  if (target == kNoLane) {
+  if (target == kNoLane || !may_change(car, {target, -car.s_m})) {
     return;
   }
   const Vec2 place = here.centre.at(self.s_m).point;

@@ -1,0 +1,321 @@
+#include "sim_host/world/adversary/adversary.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <utility>
+
+namespace s4tp::world {
+namespace {
+
+constexpr double kDecision_s = 0.1;
+constexpr double kGain_mps2 = 2.0;   // law.gain_mps2 of the firmware's defaults
+constexpr double kOverLimit = 1.1;   // law.over_limit
+constexpr double kStands_s = 3.0;    // without a reason, no longer ...
+constexpr double kDrives_s = 5.0;    // ... then it drives so long
+constexpr double kSeesEgo_m = 80.0;  // nobody looks for nearness from further away
+constexpr double kHorizon_s = 3.0;
+constexpr double kToLine_s = 1.5;         // of a lane change until the car's centre is on the line
+constexpr double kEgoMayGain_mps2 = 2.0;  // meanwhile, either way
+constexpr double kRoom_m = 0.1;           // a line is kept off by
+constexpr double kAtLine_m = 0.3;         // who waits for a licence of those who stand is so near
+
+enum Action { kFull, kRolls, kBrakes, kBrakesHard, kActions };
+
+std::vector<Stretch> stretches_of(const RoadIndex& road, const std::vector<WayPart>& way) {
+  std::vector<Stretch> stretches;
+  for (const WayPart& part : way) {
+    const double end_m = part.start_m + road.lane(part.lane).centre.length_m();
+    stretches.push_back({part.lane, part.start_m, part.start_m, end_m});
+  }
+  return stretches;
+}
+
+/// Where a zone's ground lies ahead of a car's centre.
+struct Ground {
+  double entry_m = 0.0;
+  double exit_m = 0.0;
+};
+
+std::optional<Ground> ground_of_other(const ZoneOnWay& zone, const Actor& other) {
+  const double grown_m = longer_by_m(other.length_m);
+  for (const WayPart& part : other.way) {
+    if (part.lane == zone.meeting.other) {
+      const Ground ground{part.start_m + zone.meeting.other_entry_m - grown_m,
+                          part.start_m + zone.meeting.other_exit_m + grown_m};
+      if (ground.exit_m > 0.0) return ground;
+    }
+  }
+  return std::nullopt;
+}
+
+Vec2 place_on(const RoadIndex& road, const std::vector<WayPart>& way, double ahead_m) {
+  const WayPart* part = &way.front();
+  for (const WayPart& next : way) {
+    if (next.start_m <= ahead_m) part = &next;
+  }
+  return road.lane(part->lane).centre.at(ahead_m - part->start_m).point;
+}
+
+}  // namespace
+
+Law promised_law() {
+  Law law;
+  law.acceleration_mps2 = kGain_mps2;
+  law.over_limit = kOverLimit;
+  return law;
+}
+
+AdversaryTraffic::AdversaryTraffic(const Scenario& scenario, std::uint64_t episode, std::uint64_t seed,
+                                   const Law& law)
+    : Traffic(scenario, episode, seed), law_(law) {
+  const auto plan = std::make_shared<FlowPlan>(*plan_);
+  for (Departure& departure : plan->departures) {
+    Driver& driver = departure.driver;
+    driver.acceleration_mps2 = law.acceleration_mps2;
+    driver.emergency_mps2 = law.rss.front_braking_mps2;
+    driver.speed_factor = law.over_limit;
+    driver.imperfection = 0.0;
+    driver.courtesy = 0.0;
+  }
+  plan_ = plan;
+}
+
+std::unique_ptr<TrafficEngine> AdversaryTraffic::clone() const {
+  return std::make_unique<AdversaryTraffic>(*this);
+}
+
+void AdversaryTraffic::decide(const Actor* ego) {
+  const TrafficView others(*road_, actors(nullptr));
+  if (ego == nullptr || ego->lane == kNoLane) {
+    ego_.reset();
+  } else {
+    watch(*ego, others);
+  }
+  std::erase_if(minds_, [&](const auto& mind) {
+    return std::none_of(cars_.begin(), cars_.end(),
+                        [&](const TrafficCar& car) { return car.id == mind.first; });
+  });
+  for (std::size_t i = 0; i < cars_.size(); ++i) {
+    TrafficCar& car = cars_[i];
+    const Actor& self = others.actors()[i];
+    const auto [found, fresh] = minds_.try_emplace(car.id);
+    Mind& mind = found->second;
+    if (fresh && ego_ && ego_->inside >= 0) {  // finds the ego there
+      mind.owes_zone = true;
+      mind.owes_since_s = time_s();
+    }
+    mind.stood_s = car.speed_mps < law_.standing_mps ? mind.stood_s + kDecision_s : 0.0;
+    car.acceleration_mps2 = acceleration(car, self, others);
+    if (ego_) {
+      const double most = hardest_mps2(law_, obstacles_of(car, self, mind), car.speed_mps,
+                                       car.acceleration_mps2, kDecision_s);
+      car.acceleration_mps2 = choose(car, self, mind, most);
+    }
+    consider_lane_change(car, self, others);
+  }
+  insert_waiting(ego);
+}
+
+void AdversaryTraffic::watch(const Actor& ego, const TrafficView& others) {
+  const bool was_inside = ego_ && ego_->inside >= 0;
+  Watched now;
+  now.actor = ego;
+  now.actor.way = others.way_from(ego.lane, ego.s_m, ego.guide);
+  now.groups = zone_groups(*road_, stretches_of(*road_, now.actor.way), ego.length_m);
+  ego_ = std::move(now);
+  ego_stood_s_ = ego.speed_mps < law_.standing_mps ? ego_stood_s_ + kDecision_s : 0.0;
+  bool near = false;
+  for (std::size_t i = 0; i < ego_->groups.size(); ++i) {
+    const ZoneGroup& group = ego_->groups[i];
+    if (group.entry_m <= 0.0 && group.exit_m > 0.0) ego_->inside = static_cast<int>(i);
+    near = near || (group.entry_m > 0.0 && group.entry_m < law_.shown_within_m);
+  }
+  if (ego_->inside >= 0) {
+    if (!was_inside) bind(ego_->groups[static_cast<std::size_t>(ego_->inside)], others);
+  } else {
+    for (auto& [id, mind] : minds_) mind.owes_zone = false;
+  }
+  ego_shown_s_ = near ? ego_shown_s_ + kDecision_s : 0.0;
+}
+
+void AdversaryTraffic::bind(const ZoneGroup& group, const TrafficView& others) {
+  for (const Actor& other : others.actors()) {
+    Mind& mind = minds_[other.id];
+    mind.owes_zone = true;
+    mind.owes_since_s = time_s();
+    for (const ZoneOnWay& zone : group.zones) {
+      if (zone.meeting.rule == Rule::kFirstYields && !ego_is_licensed(zone, other, mind))
+        mind.owes_zone = false;
+    }
+  }
+}
+
+bool AdversaryTraffic::ego_is_licensed(const ZoneOnWay& zone, const Actor& other, const Mind& mind) const {
+  const std::optional<Ground> ground = ground_of_other(zone, other);
+  if (!ground) return true;
+  const double limit = limit_mps(zone.lane);
+  Entry entry;
+  entry.merging = zone.meeting.merging;
+  entry.gone_after_s = time_to_cover_s(zone.exit_m, ego_->actor.speed_mps, kGain_mps2, limit);
+  entry.gone_mps = std::min(limit, ego_->actor.speed_mps + kGain_mps2 * entry.gone_after_s);
+  entry.other_to_zone_m = ground->entry_m;
+  entry.other_to_end_m = ground->exit_m;
+  entry.other_mps = other.speed_mps;
+  entry.other_limit_mps = std::max(limit_mps(other.lane), limit_mps(zone.meeting.other));
+  entry.bumpers_m = 0.5 * (ego_->actor.length_m + other.length_m);
+  entry.shown_s = ego_shown_s_;
+  entry.other_stood_s = mind.stood_s;
+  entry.both_stood_s = std::min(mind.stood_s, ego_stood_s_);
+  return licence_of(law_, entry) != Licence::kNone;
+}
+
+std::vector<Obstacle> AdversaryTraffic::obstacles_of(const TrafficCar& car, const Actor& self,
+                                                     Mind& mind) const {
+  std::vector<Obstacle> all;
+  ego_ahead(car, self, mind, all);
+  if (!lane(car.lane).in_junction) zones_ahead(car, self, mind, all);
+  return all;
+}
+
+void AdversaryTraffic::ego_ahead(const TrafficCar& car, const Actor& self, Mind& mind,
+                                 std::vector<Obstacle>& all) const {
+  const TrafficView two(*road_, {ego_->actor, self});
+  const Leader leader = two.leader(self.way, car.id, car.length_m);
+  if (leader.actor == nullptr || leader.merging) {
+    mind.ego_ahead_s = -1.0;
+    return;
+  }
+  Obstacle obstacle{leader.gap_m, leader.actor->speed_mps, true, 0.0};
+  const bool at_distance = leader.gap_m >= rss_gap_m(law_.rss, car.speed_mps, obstacle.speed_mps);
+  if (mind.ego_ahead_s < 0.0) {
+    mind.ego_ahead_s = at_distance ? time_s() - law_.settle_s : time_s();
+    obstacle.at_distance = false;
+    obstacle.answers_after_s = law_.reaction_s;
+    mind.owes_ahead = at_distance || keeps(law_, obstacle, car.speed_mps, 0.0, 0.0);
+  }
+  const double since_s = time_s() - mind.ego_ahead_s;
+  obstacle.at_distance = since_s >= law_.settle_s - 1e-6;
+  obstacle.answers_after_s = std::max(0.0, law_.reaction_s - since_s);
+  if (obstacle.at_distance || mind.owes_ahead) all.push_back(obstacle);
+}
+
+void AdversaryTraffic::zones_ahead(const TrafficCar& car, const Actor& self, const Mind& mind,
+                                   std::vector<Obstacle>& all) const {
+  for (const ZoneGroup& group : zone_groups(*road_, stretches_of(*road_, self.way), car.length_m)) {
+    if (group.entry_m <= 0.0) continue;  // whoever is inside goes on
+    for (const ZoneOnWay& zone : group.zones) {
+      const std::optional<Ground> ego = ground_of_other(zone, ego_->actor);
+      if (!ego) continue;
+      const bool ego_inside =
+          ego_->inside >= 0 && ego->entry_m <= ego_->groups[static_cast<std::size_t>(ego_->inside)].exit_m;
+      Obstacle line{group.entry_m - kRoom_m, 0.0, false, 0.0};
+      if (zone.meeting.rule == Rule::kFirstHasPriority) {
+        if (!ego_inside || !mind.owes_zone) continue;
+        line.gap_m = zone.entry_m - kRoom_m;
+        line.answers_after_s = std::max(0.0, law_.reaction_s - (time_s() - mind.owes_since_s));
+      } else if (may_enter(self, mind, group.entry_m, zone, ego->entry_m, ego->exit_m)) {
+        continue;
+      }
+      all.push_back(line);
+    }
+  }
+}
+
+bool AdversaryTraffic::may_enter(const Actor& self, const Mind& mind, double to_group_m,
+                                 const ZoneOnWay& zone, double ego_entry_m, double ego_exit_m) const {
+  if (zone.meeting.rule == Rule::kFirstCome) return ego_entry_m > 0.0;
+  const Actor& ego = ego_->actor;
+  const double limit = limit_mps(zone.lane);
+  const double until_s = time_to_cover_s(to_group_m, self.speed_mps, 0.0, limit);
+  if (!std::isfinite(until_s) && to_group_m > kAtLine_m) return false;
+  const double wait_s = std::isfinite(until_s) ? until_s : 0.0;
+  const double ego_limit = std::max(limit_mps(ego.lane), limit_mps(zone.meeting.other));
+  const double top_mps = top_speed_mps(law_, ego.speed_mps, ego_limit);
+  const double reached_mps = std::min(top_mps, ego.speed_mps + law_.acceleration_mps2 * wait_s);
+  const double ego_way_m = 0.5 * (ego.speed_mps + reached_mps) * wait_s;
+  Entry entry;
+  entry.merging = zone.meeting.merging;
+  entry.gone_after_s =
+      time_to_cover_s(zone.exit_m - to_group_m, self.speed_mps, law_.acceleration_mps2, limit);
+  entry.gone_mps = std::min(limit, self.speed_mps + law_.acceleration_mps2 * entry.gone_after_s);
+  entry.other_to_zone_m = ego_entry_m - ego_way_m;
+  entry.other_to_end_m = ego_exit_m - ego_way_m;
+  entry.other_mps = reached_mps;
+  entry.other_limit_mps = ego_limit;
+  entry.bumpers_m = 0.5 * (self.length_m + ego.length_m);
+  const bool at_line = to_group_m < law_.shown_within_m;
+  entry.shown_s = at_line ? mind.stood_s : 0.0;
+  entry.other_stood_s = to_group_m < kAtLine_m ? ego_stood_s_ : 0.0;
+  entry.both_stood_s = to_group_m < kAtLine_m ? std::min(mind.stood_s, ego_stood_s_) : 0.0;
+  return licence_of(law_, entry) != Licence::kNone;
+}
+
+double AdversaryTraffic::nearest_m(const Actor& self, double acceleration_mps2) const {
+  const double top_mps = law_.over_limit * limit_mps(self.lane);
+  double nearest = std::numeric_limits<double>::infinity();
+  double way_m = 0.0;
+  double speed_mps = self.speed_mps;
+  for (double t = kDecision_s; t <= kHorizon_s; t += kDecision_s) {
+    const double before = speed_mps;
+    speed_mps = std::clamp(speed_mps + acceleration_mps2 * kDecision_s, 0.0, std::max(top_mps, before));
+    way_m += 0.5 * (before + speed_mps) * kDecision_s;
+    const Vec2 own = place_on(*road_, self.way, way_m);
+    const Vec2 ego = place_on(*road_, ego_->actor.way, ego_->actor.speed_mps * t);
+    nearest = std::min(nearest, std::hypot(own.x - ego.x, own.y - ego.y));
+  }
+  return nearest;
+}
+
+double AdversaryTraffic::choose(const TrafficCar& car, const Actor& self, Mind& mind,
+                                double most_mps2) const {
+  const double hard = -law_.rss.front_braking_mps2;
+  const double options[kActions] = {most_mps2, std::min(0.0, most_mps2), std::min(-3.0, most_mps2),
+                                    std::min(hard, most_mps2)};
+  if (car.change_done < 0.5) return options[kRolls];  // the gaps that were left are kept until the line
+  if (mind.stood_s >= kStands_s) mind.drives_until_s = time_s() + kDrives_s;
+  if (time_s() < mind.drives_until_s) return options[kFull];
+  const std::uint64_t own = next_seed(next_seed(seed_ ^ 0xAD7E) + static_cast<std::uint64_t>(car.id));
+  const bool searches = hash_uniform(own) < 0.5;
+  if (!searches) {
+    if (time_s() >= mind.action_until_s) {
+      const double draw = hash_uniform(next_seed(own + ++mind.draws));
+      mind.action = draw < 0.5 ? kFull : draw < 0.7 ? kRolls : draw < 0.85 ? kBrakes : kBrakesHard;
+      mind.action_until_s = time_s() + 0.5 + 2.0 * hash_uniform(next_seed(own + ++mind.draws));
+    }
+    return options[mind.action];
+  }
+  if (nearest_m(self, most_mps2) > kSeesEgo_m) return most_mps2;
+  const double* const best =
+      std::min_element(std::begin(options), std::end(options),
+                       [&](double a, double b) { return nearest_m(self, a) < nearest_m(self, b) - 1e-3; });
+  return *best;
+}
+
+bool AdversaryTraffic::may_change(const TrafficCar& car, const WayPart& beside) const {
+  if (!ego_) return true;
+  Actor self;
+  self.id = car.id;
+  self.lane = beside.lane;
+  self.s_m = -beside.start_m;
+  self.speed_mps = car.speed_mps;
+  self.length_m = car.length_m;
+  self.guide = &plan_->ways[car.way].guide;
+  const TrafficView two(*road_, {ego_->actor, self});
+  const double slack_m = 0.5 * kEgoMayGain_mps2 * kToLine_s * kToLine_s;
+  const double gained_mps = kEgoMayGain_mps2 * kToLine_s;
+  const auto left = [&](const Leader& found, double rear_mps, double front_mps) {
+    const double gap_m = found.gap_m - (rear_mps - front_mps) * kToLine_s - slack_m;
+    return gap_m >= rss_gap_m(law_.rss, rear_mps, front_mps);
+  };
+  const Leader ahead = two.leader(two.actors()[1].way, car.id, car.length_m);
+  if (ahead.actor != nullptr &&
+      !left(ahead, car.speed_mps, std::max(0.0, ahead.actor->speed_mps - gained_mps))) {
+    return false;
+  }
+  const Leader behind = two.follower(beside.lane, self.s_m, car.id, car.length_m);
+  return behind.actor == nullptr || left(behind, behind.actor->speed_mps + gained_mps, car.speed_mps);
+}
+
+}  // namespace s4tp::world

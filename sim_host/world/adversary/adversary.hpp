@@ -1,0 +1,87 @@
+#pragma once
+/// The legal adversary: the built-in traffic, whose drivers do to the ego the worst that the law leaves them
+/// (judge/law.hpp, METHOD's duties and licences). It says nothing of how well a planner drives; what it shows is
+/// that nobody is touched by the ego's fault.
+///
+/// | towards                                     | a driver                                               |
+/// |---------------------------------------------|--------------------------------------------------------|
+/// | each other                                  | drives as in the built-in traffic, never distracted    |
+/// | the ego ahead since long                    | keeps the RSS gap to the centimetre (D4)               |
+/// | the ego that has just come into the lane    | answers after the whole reaction time, with the duty's |
+/// |                                             | braking (D2), or not at all where that does not do     |
+/// | the ego on a zone, gone in by right         | the same before the zone (D2)                          |
+/// | the ego on a zone, gone in without          | drives on                                              |
+/// | a zone where the ego has priority           | goes in by licence (D1), and takes every one           |
+/// | a zone where the first comes                | goes in unless the ego is there                        |
+/// | a lane beside the ego                       | changes into it where RSS gaps are left (D3)           |
+///
+/// LAW-042 Within these bounds half of the drivers change their mind at random (full power, rolling on, braking
+/// gently or as hard as can be), the others do what brings them nearest to the ego within 3 s. Nobody stands for
+/// ever: after `kStands_s` without a reason a car drives on.
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+
+#include "sim_host/world/adversary/lawful.hpp"
+#include "sim_host/world/judge/standing.hpp"
+#include "sim_host/world/traffic/traffic.hpp"
+
+namespace s4tp::world {
+
+/// The judge's law, with what the ECU counts on as the most that others gain and drive (docs/safety.md).
+[[nodiscard]] Law promised_law();
+
+class AdversaryTraffic final : public Traffic {
+ public:
+  AdversaryTraffic(const Scenario& scenario, std::uint64_t episode, std::uint64_t seed,
+                   const Law& law = promised_law());
+  [[nodiscard]] std::unique_ptr<TrafficEngine> clone() const override;
+
+ private:
+  /// What one driver keeps in mind from one decision to the next.
+  struct Mind {
+    double stood_s = 0.0;
+    double drives_until_s = 0.0;  ///< has stood for long: no braking for its own sake
+    double ego_ahead_s = -1.0;    ///< since when the ego has been the one ahead; < 0: it is not
+    bool owes_ahead = false;      ///< and is bound to brake for it
+    bool owes_zone = false;       ///< is bound to keep off the zones that the ego is on
+    double owes_since_s = 0.0;
+    int action = 0;
+    double action_until_s = 0.0;
+    std::uint64_t draws = 0;
+  };
+  /// The ego on its own way.
+  struct Watched {
+    Actor actor;  ///< with its way
+    std::vector<ZoneGroup> groups;
+    int inside = -1;  ///< which of them the ego is on; < 0: none
+  };
+
+  void decide(const Actor* ego) override;
+  [[nodiscard]] bool may_change(const TrafficCar& car, const WayPart& beside) const override;
+
+  void watch(const Actor& ego, const TrafficView& others);
+  /// Who is bound by the ego's going into a group, from now on.
+  void bind(const ZoneGroup& group, const TrafficView& others);
+  [[nodiscard]] bool ego_is_licensed(const ZoneOnWay& zone, const Actor& other, const Mind& mind) const;
+  [[nodiscard]] std::vector<Obstacle> obstacles_of(const TrafficCar& car, const Actor& self,
+                                                   Mind& mind) const;
+  void ego_ahead(const TrafficCar& car, const Actor& self, Mind& mind, std::vector<Obstacle>& all) const;
+  void zones_ahead(const TrafficCar& car, const Actor& self, const Mind& mind,
+                   std::vector<Obstacle>& all) const;
+  [[nodiscard]] bool may_enter(const Actor& self, const Mind& mind, double to_group_m, const ZoneOnWay& zone,
+                               double ego_entry_m, double ego_exit_m) const;
+  [[nodiscard]] double choose(const TrafficCar& car, const Actor& self, Mind& mind, double most_mps2) const;
+  [[nodiscard]] double nearest_m(const Actor& self, double acceleration_mps2) const;
+  [[nodiscard]] double limit_mps(LaneId lane) const { return this->lane(lane).speed_limit_mps; }
+
+  Law law_;
+  std::map<int, Mind> minds_;
+  std::optional<Watched> ego_;
+  double ego_shown_s_ = 0.0;  ///< its nose has been near the group ahead
+  double ego_stood_s_ = 0.0;
+};
+
+}  // namespace s4tp::world

@@ -1,0 +1,117 @@
+// The legal adversary: what its bounds are, that it keeps the law, and that it is no friend.
+#include "sim_host/world/adversary/adversary.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "sim_host/campaign/episode.hpp"
+#include "tests/support/networks.hpp"
+
+namespace s4tp::world {
+namespace {
+
+// LAW-040 D2 towards a line, answered at once: 8 m/s stop with 4 m/s^2 in 8 m; in 0.1 s at 0 m/s^2 0.8 m of them
+// are gone. With a second left to answer in, 0.9 s of it afterwards, 7.2 m more.
+TEST(Lawful, TheDutysBrakingHasToDoInTheEnd) {
+  const Law law = promised_law();
+  EXPECT_TRUE(keeps(law, {8.81, 0.0, false, 0.0}, 8.0, 0.0, 0.1));
+  EXPECT_FALSE(keeps(law, {8.79, 0.0, false, 0.0}, 8.0, 0.0, 0.1));
+  EXPECT_TRUE(keeps(law, {16.01, 0.0, false, 1.0}, 8.0, 0.0, 0.1));
+  EXPECT_FALSE(keeps(law, {15.99, 0.0, false, 1.0}, 8.0, 0.0, 0.1));
+}
+
+// LAW-040 D4 behind one who stands: the RSS gap at 10 m/s is 5.25 m of response and 12.1 m of braking, and 1 m is
+// driven in 0.1 s.
+TEST(Lawful, TheDistanceOwedIsTheRssGap) {
+  const Law law = promised_law();
+  EXPECT_TRUE(keeps(law, {18.36, 0.0, true, 0.0}, 10.0, 0.0, 0.1));
+  EXPECT_FALSE(keeps(law, {18.34, 0.0, true, 0.0}, 10.0, 0.0, 0.1));
+}
+
+// LAW-041 Nothing ahead: what is wanted. A line 30 m ahead at 10 m/s: full power for now. One nearer than the duty's
+// braking reaches: the duty's braking.
+TEST(Lawful, TheHardestIsNoHarderThanWanted) {
+  const Law law = promised_law();
+  EXPECT_EQ(hardest_mps2(law, {}, 10.0, 1.5, 0.1), 1.5);
+  const Obstacle far{30.0, 0.0, false, 0.0};
+  EXPECT_EQ(hardest_mps2(law, {&far, 1}, 10.0, 2.0, 0.1), 2.0);
+  const Obstacle near{2.0, 0.0, false, 0.0};
+  EXPECT_EQ(hardest_mps2(law, {&near, 1}, 10.0, 2.0, 0.1), -law.duty_braking_mps2);
+}
+
+struct Seen {
+  int touches = 0;
+  int by_others = 0;
+  double hardest_braking_mps2 = 0.0;
+  double fastest_gain_mps2 = 0.0;
+  double most_over_limit = 0.0;
+};
+
+Seen drive(const char* planner, const char* name, std::uint64_t first_seed, int episodes) {
+  const Scenario scenario = test::shipped(name);
+  Seen seen;
+  for (int i = 0; i < episodes; ++i) {
+    campaign::EpisodeOptions options;
+    options.planner = planner;
+    options.guarded = std::string(planner) == "s4tp";
+    options.engine = Engine::kAdversary;
+    options.seed = first_seed + static_cast<std::uint64_t>(i);
+    const Recording recording = campaign::run_episode(scenario, options).recording;
+    for (const Collision& collision : recording.collisions) {
+      ++seen.touches;
+      seen.by_others += collision.fault == Fault::kOther ? 1 : 0;
+    }
+    for (const Snapshot& snapshot : recording.snapshots) {
+      for (const CarState& car : snapshot.others) {
+        if (car.lane == kNoLane || snapshot.time_s < 0.0) continue;
+        const double limit = scenario.network.lanes[static_cast<std::size_t>(car.lane)].speed_limit_mps;
+        seen.hardest_braking_mps2 = std::max(seen.hardest_braking_mps2, -car.acceleration_mps2);
+        seen.fastest_gain_mps2 = std::max(seen.fastest_gain_mps2, car.acceleration_mps2);
+        seen.most_over_limit = std::max(seen.most_over_limit, car.speed_mps / limit);
+      }
+    }
+  }
+  return seen;
+}
+
+// LAW-042 It uses what the law leaves and no more: brakes with 8 m/s^2, gains 2, comes near 1.1 of the limit; and a
+// driver who is blind to it is touched, in a drive of six at least one.
+TEST(Adversary, GoesToTheLawsEdgeAndNotBeyond) {
+  const Seen seen = drive("blind", "left_turn", 500, 6);
+  EXPECT_GT(seen.touches, 0);
+  EXPECT_NEAR(seen.hardest_braking_mps2, 8.0, 1e-9);
+  EXPECT_NEAR(seen.fastest_gain_mps2, 2.0, 0.3);
+  EXPECT_LE(seen.fastest_gain_mps2, 2.0 + 1e-9);
+  EXPECT_GT(seen.most_over_limit, 1.0);
+  EXPECT_LT(seen.most_over_limit, 1.12);
+}
+
+// WORLD-023 A copy goes on as the original does, to the bit, for 5 s.
+TEST(Adversary, ACopyIsTheSame) {
+  const Scenario scenario = test::shipped("cruise");
+  AdversaryTraffic traffic(scenario, 0, 7);
+  EgoSeen ego;
+  ego.actor.lane = ego.car.lane = scenario.mission.start_lane;
+  ego.actor.s_m = 40.0;
+  for (int i = 0; i < 1500; ++i) traffic.step(nullptr);
+  for (int i = 0; i < 105; ++i) traffic.step(&ego);
+  const std::unique_ptr<TrafficEngine> copy = traffic.clone();
+  for (int i = 0; i < 500; ++i) {
+    traffic.step(&ego);
+    copy->step(&ego);
+  }
+  const std::vector<CarState> cars = traffic.cars();
+  const std::vector<CarState> copied = copy->cars();
+  ASSERT_EQ(cars.size(), copied.size());
+  ASSERT_GT(cars.size(), 1U);
+  for (std::size_t i = 0; i < cars.size(); ++i) {
+    EXPECT_EQ(cars[i].centre.x, copied[i].centre.x);
+    EXPECT_EQ(cars[i].speed_mps, copied[i].speed_mps);
+  }
+}
+
+}  // namespace
+}  // namespace s4tp::world
