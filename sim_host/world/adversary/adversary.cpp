@@ -175,7 +175,7 @@ std::vector<Obstacle> AdversaryTraffic::obstacles_of(const TrafficCar& car, cons
                                                      Mind& mind) const {
   std::vector<Obstacle> all;
   ego_ahead(car, self, mind, all);
-  if (!lane(car.lane).in_junction) zones_ahead(car, self, mind, all);
+  zones_ahead(car, self, mind, all);
   return all;
 }
 
@@ -183,13 +183,17 @@ void AdversaryTraffic::ego_ahead(const TrafficCar& car, const Actor& self, Mind&
                                  std::vector<Obstacle>& all) const {
   const TrafficView two(*road_, {ego_->actor, self});
   const Leader leader = two.leader(self.way, car.id, car.length_m);
-  if (leader.actor == nullptr || leader.merging) {
+  if (leader.actor == nullptr || (leader.merging && (ego_->inside < 0 || !mind.owes_zone))) {
     mind.ego_ahead_s = -1.0;
     return;
   }
   Obstacle obstacle{leader.gap_m, leader.actor->speed_mps, true, 0.0};
   const bool at_distance = leader.gap_m >= rss_gap_m(law_.rss, car.speed_mps, obstacle.speed_mps);
-  if (mind.ego_ahead_s < 0.0) {
+  if (leader.merging &&
+      mind.ego_ahead_s < 0.0) {  // the duty that began with its going in goes on in the lane
+    mind.ego_ahead_s = mind.owes_since_s;
+    mind.owes_ahead = true;
+  } else if (mind.ego_ahead_s < 0.0) {
     mind.ego_ahead_s = at_distance ? time_s() - law_.settle_s : time_s();
     obstacle.at_distance = false;
     obstacle.answers_after_s = law_.reaction_s;
@@ -204,7 +208,6 @@ void AdversaryTraffic::ego_ahead(const TrafficCar& car, const Actor& self, Mind&
 void AdversaryTraffic::zones_ahead(const TrafficCar& car, const Actor& self, const Mind& mind,
                                    std::vector<Obstacle>& all) const {
   for (const ZoneGroup& group : zone_groups(*road_, stretches_of(*road_, self.way), car.length_m)) {
-    if (group.entry_m <= 0.0) continue;  // whoever is inside goes on
     for (const ZoneOnWay& zone : group.zones) {
       const std::optional<Ground> ego = ground_of_other(zone, ego_->actor);
       if (!ego) continue;
@@ -212,10 +215,12 @@ void AdversaryTraffic::zones_ahead(const TrafficCar& car, const Actor& self, con
           ego_->inside >= 0 && ego->entry_m <= ego_->groups[static_cast<std::size_t>(ego_->inside)].exit_m;
       Obstacle line{group.entry_m - kRoom_m, 0.0, false, 0.0};
       if (zone.meeting.rule == Rule::kFirstHasPriority) {
-        if (!ego_inside || !mind.owes_zone) continue;
+        if (!ego_inside || !mind.owes_zone || zone.entry_m <= 0.0) continue;
+        if (zone.meeting.merging && mind.ego_ahead_s >= 0.0) continue;  // followed
         line.gap_m = zone.entry_m - kRoom_m;
         line.answers_after_s = std::max(0.0, law_.reaction_s - (time_s() - mind.owes_since_s));
-      } else if (may_enter(self, mind, group.entry_m, zone, ego->entry_m, ego->exit_m)) {
+      } else if (group.entry_m <= 0.0 ||
+                 may_enter(self, mind, group.entry_m, zone, ego->entry_m, ego->exit_m)) {
         continue;
       }
       all.push_back(line);
