@@ -16,7 +16,6 @@ constexpr double kStands_s = 3.0;    // without a reason, no longer ...
 constexpr double kDrives_s = 5.0;    // ... then it drives so long
 constexpr double kSeesEgo_m = 80.0;  // nobody looks for nearness from further away
 constexpr double kHorizon_s = 3.0;
-constexpr double kToLine_s = 1.5;         // of a lane change until the car's centre is on the line
 constexpr double kEgoMayGain_mps2 = 2.0;  // meanwhile, either way
 constexpr double kRoom_m = 0.1;           // a line is kept off by
 constexpr double kAtLine_m = 0.3;         // who waits for a licence of those who stand is so near
@@ -307,11 +306,15 @@ bool AdversaryTraffic::may_change(const TrafficCar& car, const WayPart& beside) 
   self.speed_mps = car.speed_mps;
   self.length_m = car.length_m;
   self.guide = &plan_->ways[car.way].guide;
-  const TrafficView two(*road_, {ego_->actor, self});
-  const double slack_m = 0.5 * kEgoMayGain_mps2 * kToLine_s * kToLine_s;
-  const double gained_mps = kEgoMayGain_mps2 * kToLine_s;
+  Actor ego =
+      ego_->actor;  // where it may be by then: it may come over, too, and a change begun is not given up
+  if (ego.lane != kNoLane && lane(ego.lane).edge == lane(beside.lane).edge) ego.lane = beside.lane;
+  const TrafficView two(*road_, {ego, self});
+  const double to_line_s = 0.5 / std::min(1.0 / 3.0, std::max(car.speed_mps, 1.0) / 15.0);
+  const double slack_m = 0.5 * kEgoMayGain_mps2 * to_line_s * to_line_s;
+  const double gained_mps = kEgoMayGain_mps2 * to_line_s;
   const auto left = [&](const Leader& found, double rear_mps, double front_mps) {
-    const double gap_m = found.gap_m - (rear_mps - front_mps) * kToLine_s - slack_m;
+    const double gap_m = found.gap_m - (rear_mps - front_mps) * to_line_s - slack_m;
     return gap_m >= rss_gap_m(law_.rss, rear_mps, front_mps);
   };
   const Leader ahead = two.leader(two.actors()[1].way, car.id, car.length_m);
