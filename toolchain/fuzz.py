@@ -4,6 +4,7 @@
     fuzz.py [TARGET...] [--seconds N] [--runs N] [--shards N]     fuzzes; what is new goes to BUILD/corpus/TARGET
     fuzz.py [TARGET...] --replay                                  runs the kept inputs, no others, and keeps nothing
     fuzz.py [TARGET...] --planted                                 the other way round: the planted fault must be found
+    fuzz.py [TARGET...] --memory [--seconds N ...]                with the memory sanitizer, those targets that can be
     fuzz.py [TARGET...] --coverage                                lines that the inputs known reach, by source file
     fuzz.py [TARGET...] --keep                                    makes the kept inputs anew: few that reach as much
 """
@@ -151,16 +152,22 @@ def coverage(options):
             report = subprocess.run(["llvm-cov-14", "export", "--summary-only", program(options, target), f"-instr-profile={data}"],
                                     check=True, capture_output=True, text=True).stdout
         count = reached = 0
+        unseen = set(TARGETS[target].covers)
         for file in json.loads(report)["data"][0]["files"]:
-            name = posixpath.normpath(file["filename"].removeprefix(f"{ROOT}/"))  # build/fuzz_coverage/../../hal/can.hpp
-            if not any(name == one or name.startswith(f"{one}/") for one in TARGETS[target].covers):
+            # build/fuzz_coverage/../../hal/can.hpp, and build/fuzz_coverage/hal/can.cpp where sources are compiled together
+            name = posixpath.normpath(file["filename"].removeprefix(f"{ROOT}/")).removeprefix(f"build/{options.build.name}/")
+            of = {one for one in TARGETS[target].covers if name == one or name.startswith(f"{one}/")}
+            if not of:
                 continue
+            unseen -= of
             lines = file["summary"]["lines"]
             count, reached = count + lines["count"], reached + lines["covered"]
             if options.verbose:
                 print(f"  {name:50} {lines['covered']:5} of {lines['count']:5} lines")
         print(f"{target:10} {reached:5} of {count:5} lines, {100 * reached / max(count, 1):5.1f} %", flush=True)
-        bad += count == 0
+        for one in sorted(unseen):
+            print(f"{target:10} {one}: not in the program")
+        bad += bool(unseen)
     return 1 if bad else 0
 
 
@@ -195,7 +202,7 @@ def keep(options):
 
 def main(arguments_given):
     parser = argparse.ArgumentParser(prog="s4tp fuzz", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("targets", nargs="*", metavar="TARGET", help=f"of {', '.join(TARGETS)}; all when none is named")
+    parser.add_argument("targets", nargs="*", metavar="TARGET", help=f"of {', '.join(TARGETS)}; all that are built when none is named")
     parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build/sanitize", help=argparse.SUPPRESS)
     parser.add_argument("--seconds", type=int, help="for each target; a minute where nothing is said")
     parser.add_argument("--runs", type=int, help="executions for each target, shared out to the shards")
@@ -203,14 +210,16 @@ def main(arguments_given):
     parser.add_argument("--seed", type=int, default=1, help="of the first shard")
     parser.add_argument("--fresh", action="store_true", help="begin with the kept inputs, leave nothing behind")
     parser.add_argument("--verbose", action="store_true", help="coverage of every file")
-    for name in ("replay", "planted", "coverage", "keep"):
+    for name in ("replay", "planted", "memory", "coverage", "keep"):
         parser.add_argument(f"--{name}", action="store_true")
     options = parser.parse_args(arguments_given)
     unknown = [name for name in options.targets if name not in TARGETS]
     if unknown or options.shards < 1:
         parser.error(f"no such target: {', '.join(unknown)}; there are {', '.join(TARGETS)}" if unknown else "--shards: expected 1 or more")
-    options.targets = options.targets or list(TARGETS)
     options.build = options.build.resolve()
+    options.targets = options.targets or [name for name in TARGETS if program(options, name).exists()]
+    if not options.targets:
+        parser.error(f"{options.build} holds no fuzz targets: ./s4tp fuzz builds them")
     if options.replay:
         options.runs = 0
     if options.runs is None and options.seconds is None:

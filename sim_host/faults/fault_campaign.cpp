@@ -45,11 +45,6 @@ bool has(const FaultScript& script, FaultKind kind) {
                      [kind](const Fault& fault) { return fault.kind == kind; });
 }
 
-bool honest(const FaultScript& script) {
-  return std::none_of(script.faults.begin(), script.faults.end(),
-                      [](const Fault& fault) { return traits(fault.kind).lies; });
-}
-
 std::vector<Row> count(const CampaignResult& campaign) {
   std::vector<Row> rows;
   for (int i = 0; i < kFaultKinds; ++i) rows.push_back({traits(static_cast<FaultKind>(i)).name, {}});

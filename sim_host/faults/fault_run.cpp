@@ -83,9 +83,7 @@ class Run {
     result.verdict = judge_.verdict();
     result.ending = world_.recording().ending;
     result.modes = story_.modes;
-    for (const world::Collision& collision : world_.recording().collisions) {
-      result.own_fault = result.own_fault || collision.fault == world::Fault::kEgo;
-    }
+    result.own_fault = own_contact() != nullptr;
     return result;
   }
 
@@ -96,6 +94,13 @@ class Run {
     options.seed = script.seed;
     options.pre_roll_s = kPreRollTicks * 0.01;
     return options;
+  }
+
+  [[nodiscard]] const world::Collision* own_contact() const {
+    const std::vector<world::Collision>& all = world_.recording().collisions;
+    const auto found = std::find_if(
+        all.begin(), all.end(), [](const world::Collision& one) { return one.fault == world::Fault::kEgo; });
+    return found == all.end() ? nullptr : &*found;
   }
 
   void step(int tick) {
@@ -126,6 +131,8 @@ class Run {
     }
     for (const wire::Frame& frame : faults_.to_world(tick, sent)) world_.receive(frame);
     if (options_.watch) options_.watch(tick, ecu_->core(), pose_);
+    const world::Collision* const contact = honest(script_) ? own_contact() : nullptr;
+    if (contact != nullptr) judge_.contact(world::cause_words(contact->fault, contact->cause));
     judge_.end_tick();
   }
 

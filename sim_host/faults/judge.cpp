@@ -56,8 +56,8 @@ bool slow_to_return(const Fault& fault) {
 }  // namespace
 
 const char* breach_name(Breach breach) {
-  constexpr std::array<const char*, kBreaches> kNames{"none",        "silence",    "limits", "unsafe stop",
-                                                      "no recovery", "fault mode", "crash",  "hang"};
+  constexpr std::array<const char*, kBreaches> kNames{
+      "none", "silence", "limits", "unsafe stop", "no recovery", "fault mode", "crash", "hang", "contact"};
   return kNames.at(static_cast<std::size_t>(breach));
 }
 

@@ -9,7 +9,8 @@
 /// down by 2 m/s^2 at least, one second of grace, until it stands, and then stays where it is. FAULT-013 When
 /// the faults have been over for long enough (settling_ticks()), it drives again without any fault, or has
 /// come to rest for good (kStopped), or the driver took over and it waits. FAULT-014 It never reaches kFault,
-/// crashes (a signal) or hangs.
+/// crashes (a signal) or hangs. FAULT-018 Whatever is lost, late, repeated or damaged, it touches nobody by its
+/// own fault, as the world judges it; where a sender lies it may be led astray, which is counted beside.
 
 #include <cstdint>
 #include <string>
@@ -32,8 +33,9 @@ enum class Breach : std::uint8_t {
   kFaultMode,
   kCrash,
   kHang,
+  kContact,
 };
-inline constexpr int kBreaches = 8;
+inline constexpr int kBreaches = 9;
 [[nodiscard]] const char* breach_name(Breach breach);
 
 /// How a run ended, when nothing is wrong.
@@ -74,6 +76,8 @@ class Judge {
   void control_tick(const std::vector<wire::Frame>& sent, bool off_bus);
   /// Ends a tick.
   void end_tick();
+  /// The car touches somebody, and the fault is its own. \param cause  in words
+  void contact(const std::string& cause) { breach(Breach::kContact, cause); }
 
   [[nodiscard]] bool breached() const { return verdict_.breach != Breach::kNone; }
   [[nodiscard]] ecu::Mode mode() const { return mode_; }  ///< as its commands say

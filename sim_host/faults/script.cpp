@@ -259,6 +259,11 @@ const KindTraits& traits(FaultKind kind) {
   return kKinds.at(static_cast<std::size_t>(kind));
 }
 
+bool honest(const FaultScript& script) {
+  return std::none_of(script.faults.begin(), script.faults.end(),
+                      [](const Fault& fault) { return traits(fault.kind).lies; });
+}
+
 FaultScript make_script(std::uint64_t seed, const std::vector<std::string>& scenarios) {
   world::Random random(seed ^ 0xFA17ULL);
   FaultScript script;

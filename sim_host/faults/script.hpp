@@ -92,6 +92,9 @@ struct FaultScript {
   std::vector<Fault> faults;
 };
 
+/// No sender in it says something false under a valid CRC.
+[[nodiscard]] bool honest(const FaultScript& script);
+
 /// FAULT-001 The same seed gives the same script, to the byte of its text.
 [[nodiscard]] FaultScript make_script(std::uint64_t seed, const std::vector<std::string>& scenarios);
 

@@ -5,9 +5,9 @@
 
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
 #include <deque>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -113,9 +113,10 @@ class CommandCheck {
   }
 
   void find(const Heard& heard, const char* what, float allowed, float found) {
-    std::ostringstream text;
-    text << "tick " << heard.tick << ": " << what << ' ' << found << " where " << allowed << " is allowed";
-    findings_.push_back(text.str());
+    char text[120];
+    std::snprintf(text, sizeof text, "tick %d: %s %g where %g is allowed", static_cast<int>(heard.tick), what,
+                  static_cast<double>(found), static_cast<double>(allowed));
+    findings_.emplace_back(text);
   }
 
   gate::CommandGate gate_{gate::Limits{}};

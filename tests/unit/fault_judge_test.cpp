@@ -302,5 +302,14 @@ TEST(FaultJudge, FaultModeIsAFailure) {
   EXPECT_EQ(verdict.breach, Breach::kFaultMode);
 }
 
+// FAULT-018: a contact of our own fault is one, whatever the frames say.
+TEST(FaultJudge, AContactIsAFailure) {
+  Bench bench;
+  bench.ticks(20);
+  bench.judge.contact("we ran into another from behind");
+  EXPECT_EQ(bench.judge.verdict().breach, Breach::kContact);
+  EXPECT_EQ(bench.judge.verdict().what, "we ran into another from behind");
+}
+
 }  // namespace
 }  // namespace s4tp::faults

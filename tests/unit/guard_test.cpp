@@ -430,6 +430,33 @@ TEST(Guard, MergingBehindAnotherStopsBehindIt) {
   }
 }
 
+// GUARD-002 GUARD-008 Where two lanes become one a vehicle stands, whoever owes whom the way, and for whatever reason: at 8 m/s,
+// 0.1 s after 0.1 s, no plan passes that could not be left any more before our box is at its own. From there none does until it
+// has been driven through: 36 in a row did once.
+TEST(Guard, WhoStandsWhereLanesMergeIsNotDrivenThrough) {
+  constexpr float kStop_m = 0.35F * 8.0F + 64.0F / 12.0F;
+  for (const Priority priority :
+       {Priority::kFirstYields, Priority::kFirstHasPriority, Priority::kFirstCome}) {
+    for (const float at_m : {99.0F, 100.0F, 102.0F, 104.0F}) {
+      for (const std::uint16_t stood_ms : {0, 1000}) {
+        SharedGround road(priority, true);
+        road.other(at_m, 0.0F).stood_ms = stood_ms;
+        road.scene.waited_s = 1.0F;
+        int refused = 0;
+        for (float s_m = at_m - 40.0F; s_m < at_m; s_m += 0.8F) {
+          if (road.safe(s_m, 8.0F, 0.0F)) {
+            EXPECT_LE(s_m + kStop_m, at_m - 5.0F) << "stands at " << at_m;
+          } else {
+            ++refused;
+          }
+        }
+        EXPECT_GE(refused, 16) << at_m;
+        EXPECT_LE(refused, 40) << at_m;
+      }
+    }
+  }
+}
+
 /// A change from the right lane to the left one, over within 3 s; our box centre is at 100.
 struct Change {
   LaneMap map = straight_road(2, 400.0F);

@@ -179,6 +179,47 @@ TEST(MapNode, LongLanesAreSentInParts) {
   EXPECT_EQ(parts, 4);  // parts that start within 1000 m: 5
 }
 
+// NET-004 A lane of 2 km that zigzags in its first two metres is no 6000 parts: the map around it holds a few, each as near to
+// it as 12 vertices can be.
+TEST(MapNode, ALaneThatBendsOftenHasFewParts) {
+  std::string text = "<net><edge id=\"road\"><lane id=\"road_0\" index=\"0\" shape=\"";
+  for (int i = 0; i < 40; ++i) text += std::to_string(0.05 * i) + "," + std::to_string(i % 2) + " ";
+  const Network network = network_of(text + "2000,0\"/></edge></net>");
+  const RouteGuide guide(network, {"road"}, kNoLane, 2000.0);
+  MapNode node(network, guide, {});
+  const wire::Map& map = node.update({0.0, 0.0});
+  EXPECT_LE(lane_count(map), 5);
+  const std::uint8_t first = slot_at(map, 0.0, 0.0);
+  ASSERT_NE(first, wire::kNoLane);
+  EXPECT_LE(map.lanes[first].point_count, wire::kMaxLanePoints);
+}
+
+// NET-004 Two lanes inside a junction that lead into each other, and into a lane in conflict with our way: the search for where
+// it is entered from went round for ever.
+TEST(MapNode, LanesThatLeadIntoEachOtherAreNoWayWithoutEnd) {
+  std::string text = test::replaced(test::kCross, "\"0,-10 0,10\"", "\"0,-10 0,-1\"");
+  const std::string south = R"(<connection from=":c_1" to="north_out" fromLane="0" toLane="0"/>)";
+  text = test::replaced(text, south, R"(
+    <connection from=":c_1" to="north_out" fromLane="0" toLane="0" via=":c_5_0"/>
+    <connection from=":c_5" to="north_out" fromLane="0" toLane="0"/>
+    <connection from=":c_0a" to="north_out" fromLane="0" toLane="0" via=":c_5_0"/>
+    <connection from=":c_0a" to="north_out" fromLane="0" toLane="0" via=":c_0b_0"/>
+    <connection from=":c_0b" to="north_out" fromLane="0" toLane="0" via=":c_0a_0"/>)");
+  text = test::replaced(text, "<net>", R"(<net>
+    <edge id=":c_0a" function="internal"><lane id=":c_0a_0" index="0" shape="-3,-9 -3,-1"/></edge>
+    <edge id=":c_0b" function="internal"><lane id=":c_0b_0" index="0" shape="-3,-1 -3,-9"/></edge>
+    <edge id=":c_5" function="internal"><lane id=":c_5_0" index="0" shape="0,-1 0,10"/></edge>)");
+  const Network network = network_of(text);
+  const LaneId crossed = network.find(":c_5_0");
+  ASSERT_EQ(lane(network, ":c_5_0").predecessors.front(), network.find(":c_0a_0"));
+  ASSERT_TRUE(std::any_of(
+      network.conflicts.begin(), network.conflicts.end(),
+      [&](const NetworkConflict& each) { return each.first == crossed || each.second == crossed; }));
+  const RouteGuide guide(network, {"west_in", "east_out"}, kNoLane, 40.0);
+  MapNode node(network, guide, {});
+  EXPECT_GE(lane_count(node.update({-30.0, 0.0})), 9);
+}
+
 // MAP-002 Vertices sent stay within 0.03 m of the lane, and zones lie on the vertices' arc length: none ends
 // beyond it, and the merging ones end with it.
 TEST(MapNode, ArcLengthsAreThoseOfTheVerticesSent) {

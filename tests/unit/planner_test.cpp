@@ -24,8 +24,9 @@ using test::straight_road;
 /// A planner that is driven at its own planned state, 100 ms a cycle.
 class Drive {
  public:
-  explicit Drive(LaneMap map) : map_(std::make_unique<LaneMap>(std::move(map))) {
-    EXPECT_EQ(planner->init(Parameters{}), Status::kOk);
+  explicit Drive(LaneMap map, const Parameters& with = {})
+      : parameters(with), map_(std::make_unique<LaneMap>(std::move(map))) {
+    EXPECT_EQ(planner->init(parameters), Status::kOk);
     input.start_ms = 100;
   }
 
@@ -35,7 +36,7 @@ class Drive {
     Plan next;
     const Status status = planner->plan(input, next, explanation);
     running = next;
-    EXPECT_TRUE(trajectory::keeps_limits(running.trajectory, Parameters{})) << input.now_ms;  // CAND-020
+    EXPECT_TRUE(trajectory::keeps_limits(running.trajectory, parameters)) << input.now_ms;  // CAND-020
     input.now_ms += 100;
     input.start_ms += 100;
     input.tracks_ms = input.now_ms;
@@ -46,6 +47,7 @@ class Drive {
     return status;
   }
 
+  Parameters parameters;
   bool has_map = true;
   std::unique_ptr<Planner> planner = std::make_unique<Planner>();
   PlannerInput input;
@@ -56,8 +58,8 @@ class Drive {
   std::unique_ptr<LaneMap> map_;
 };
 
-Drive on_straight_road(float speed_mps) {
-  Drive drive(straight_road(3, 400.0F));
+Drive on_straight_road(float speed_mps, const Parameters& parameters = {}) {
+  Drive drive(straight_road(3, 400.0F), parameters);
   drive.input.ego.rear_axle = {20.0F, 0.0F, 0.0F};
   drive.input.ego.speed_mps = speed_mps;
   return drive;
@@ -171,6 +173,38 @@ TEST(Planner, TakesNoRunningPlanBeyondTheCarsLimits) {
     EXPECT_EQ(drive.planner->plan(drive.input, plan, drive.explanation), expected);
     EXPECT_TRUE(trajectory::keeps_limits(plan.trajectory, Parameters{}));
   }
+}
+
+// CORE-003, CAND-020: with any one parameter at the least or the most it may be, and with all that may be at their least, three
+// cycles behind a slower car give plans within the limits that these parameters say. A weight of 0 once left nothing to divide by.
+TEST(Planner, PlansWithParametersAtTheirEnds) {
+  const auto planner = std::make_unique<Planner>();
+  const auto drive_with = [](const Parameters& parameters, const std::string& name) {
+    SCOPED_TRACE(name);
+    Drive drive = on_straight_road(10.0F, parameters);
+    (void)drive.input.tracks.push(car(1, 60.0F, 0.0F, 0.0F, 8.0F));
+    for (int cycle = 0; cycle < 3; ++cycle) {
+      const Status status = drive.step();
+      EXPECT_TRUE(status == Status::kOk || status == Status::kNoSafePlan) << status_name(status);
+    }
+  };
+  Parameters least;
+  int taken = 0;
+  for (int i = 0; i < kParameterCount; ++i) {
+    const ParameterInfo& info = parameter_info(i);
+    for (const float end : {info.minimum, info.maximum}) {
+      Parameters parameters;
+      set_parameter(parameters, i, end);
+      if (planner->init(parameters) != Status::kOk) continue;  // the others do not let it
+      ++taken;
+      drive_with(parameters, info.name);
+    }
+    const Parameters before = least;
+    set_parameter(least, i, info.minimum);
+    if (planner->init(least) != Status::kOk) least = before;
+  }
+  EXPECT_GT(taken, kParameterCount);
+  drive_with(least, "all at their least");
 }
 
 // CORE-007: a car standing 8 m ahead across all lanes at 13 m/s: 13^2 / (2 * 8) = 10.6 m, nothing avoids it,

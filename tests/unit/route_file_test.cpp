@@ -180,6 +180,65 @@ TEST(RouteFile, ChoicesAreBounded) {
   EXPECT_NE(error_of(kinds).find("more than 1000 kinds of drivers"), std::string::npos) << error_of(kinds);
 }
 
+/// A road of `edges` edges, each of so many lanes.
+Network long_road(int edges, int lanes) {
+  std::string text = "<net>";
+  std::string connections;
+  for (int e = 0; e < edges; ++e) {
+    text += "<edge id=\"e" + std::to_string(e) + "\">";
+    for (int i = 0; i < lanes; ++i) {
+      const std::string y = std::to_string(3 * i);
+      const std::string n = std::to_string(i);
+      text += "<lane id=\"e" + std::to_string(e) + "_" + n + "\" index=\"" + n + "\" shape=\"" +
+              std::to_string(20 * e) + "," + y + " " + std::to_string(20 * e + 20) + "," + y + "\"/>";
+      if (e + 1 < edges) {
+        connections += "<connection from=\"e" + std::to_string(e) + "\" to=\"e" + std::to_string(e + 1) +
+                       "\" fromLane=\"" + n + "\" toLane=\"" + n + "\"/>";
+      }
+    }
+    text += "</edge>";
+  }
+  return test::network_of(text + connections + "</net>");
+}
+
+// FILE-002 Different routes are kept lane by lane: 900 of them along 30 to 60 edges of 90 lanes each are refused.
+TEST(RouteFile, LanesAlongAllRoutesAreBounded) {
+  const Network network = long_road(60, 90);
+  std::string text = "<routes>";
+  for (int first = 0; first < 30; ++first) {
+    for (int last = 30; last < 60; ++last) {
+      std::string edges;
+      for (int e = first; e <= last; ++e) edges += "e" + std::to_string(e) + " ";
+      text += "<vehicle id=\"v\" depart=\"0\"><route edges=\"" + edges + "\"/></vehicle>";
+    }
+  }
+  const Folder folder;
+  const auto file = folder.write("a.rou.xml", text + "</routes>");
+  try {
+    static_cast<void>(load_demand(file, network));
+    FAIL() << "no error";
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("more than 2000000 lanes together"), std::string::npos)
+        << error.what();
+  }
+}
+
+// FILE-002 Of a way that goes round and round no more is sought than can be driven: what comes after it has passed an edge
+// again is left out, here the name of an edge that is not there.
+TEST(RouteFile, AWayRoundAndRoundIsNotFollowedOn) {
+  const Network ring = test::network_of(R"(<net>
+    <edge id="a"><lane id="a_0" index="0" shape="0,0 50,0"/></edge>
+    <edge id="b"><lane id="b_0" index="0" shape="50,0 50,50 0,50 0,0"/></edge>
+    <connection from="a" to="b" fromLane="0" toLane="0"/><connection from="b" to="a" fromLane="0" toLane="0"/></net>)");
+  const Folder folder;
+  const Demand demand = load_demand(
+      folder.write("a.rou.xml",
+                   R"(<routes><trip id="t" depart="0" from="a" via="b a b a nowhere" to="b"/></routes>)"),
+      ring);
+  ASSERT_EQ(demand.routes.size(), 1U);
+  EXPECT_EQ(demand.routes[0].edges, (std::vector<std::string>{"a", "b"}));
+}
+
 // FILE-003 Ten million cars, or fewer from long before the beginning, were drawn one by one before anything
 // drove; the limit holds for all flows together.
 TEST(RouteFile, CarsAreBounded) {

@@ -99,7 +99,11 @@ std::vector<int> lane_ranks(const Network& network, const RouteGuide& guide) {
   }
   const auto conflicting = [&](LaneId lane) {
     improve(lane, kConflicting);
-    for (LaneId at = lane; lane_at(network, at).in_junction && !lane_at(network, at).predecessors.empty();) {
+    LaneId at = lane;
+    for (std::size_t hops = 0; hops < network.lanes.size(); ++hops) {
+      if (!lane_at(network, at).in_junction || lane_at(network, at).predecessors.empty()) {
+        break;
+      }
       at = lane_at(network, at).predecessors.front();
       improve(at, kConflicting);
     }

@@ -58,7 +58,8 @@ struct Network {
 
 /// Reads a network. Lanes closed to passenger cars, walking areas and crossings are left out; signals are not
 /// read (the junction's priorities hold). NET-001 \throws std::runtime_error naming file, element and what
-/// was expected
+/// was expected. NET-004 Reading it, and what a drive makes of it, costs memory and time by the size of the file:
+/// no number in it makes that much more.
 [[nodiscard]] Network load_network(const std::filesystem::path& file);
 
 /// Way along a list of edges: for each lane of the network what a driver on it must know (as SUMO's
@@ -86,10 +87,12 @@ class RouteGuide {
     double goal_distance_m = 0.0;  ///< from the lane's start along the route to the goal
     LaneId next = kNoLane;         ///< the successor the route takes; none if the lane does not lead on
   };
-  [[nodiscard]] const Advice& advice(LaneId lane) const { return advice_[static_cast<std::size_t>(lane)]; }
+  [[nodiscard]] const Advice& advice(LaneId lane) const;
+  [[nodiscard]] std::size_t size() const { return lanes_.size(); }  ///< lanes on the route
 
  private:
-  std::vector<Advice> advice_;
+  std::vector<LaneId> lanes_;   ///< on the route, ascending: there may be thousands of routes
+  std::vector<Advice> advice_;  ///< of each of them
 };
 
 }  // namespace s4tp::world

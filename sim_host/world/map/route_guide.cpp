@@ -137,12 +137,12 @@ class Builder {
 }  // namespace
 
 RouteGuide::RouteGuide(const Network& network, std::vector<std::string> edges, LaneId goal_lane,
-                       double goal_s_m)
-    : advice_(network.lanes.size()) {
+                       double goal_s_m) {
   if (edges.empty()) {
     throw std::runtime_error("a route needs at least one edge");
   }
-  Builder builder(network, advice_);
+  std::vector<Advice> of_all(network.lanes.size());
+  Builder builder(network, of_all);
   for (std::size_t i = edges.size(); i-- > 0;) {
     const std::vector<LaneId> lanes = network.lanes_of(edges[i]);
     if (lanes.empty()) {
@@ -158,6 +158,19 @@ RouteGuide::RouteGuide(const Network& network, std::vector<std::string> edges, L
                                "\"");
     }
   }
+  for (std::size_t lane = 0; lane < of_all.size(); ++lane) {
+    if (of_all[lane].on_route) {
+      lanes_.push_back(static_cast<LaneId>(lane));
+      advice_.push_back(of_all[lane]);
+    }
+  }
+}
+
+const RouteGuide::Advice& RouteGuide::advice(LaneId lane) const {
+  static const Advice off_route;
+  const auto found = std::lower_bound(lanes_.begin(), lanes_.end(), lane);
+  return found == lanes_.end() || *found != lane ? off_route
+                                                 : advice_[static_cast<std::size_t>(found - lanes_.begin())];
 }
 
 }  // namespace s4tp::world

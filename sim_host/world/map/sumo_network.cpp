@@ -15,7 +15,13 @@
 namespace s4tp::world {
 namespace {
 
-constexpr double kLongestThroughJunction_m = 1000.0;  // conflicts are looked for along it, step by step
+// NET-004. Shapes are followed step by step, so a number in a small file must not say how many steps that are.
+constexpr double kLongestThroughJunction_m = 1'000.0;  // of one way
+constexpr double kWaysThroughJunction_m =
+    20'000.0;                               // of all ways of one junction: each is compared with each
+constexpr std::size_t kPartsOfWay = 100;    // lanes in a row, inside a junction
+constexpr double kLanesTogether_m = 2e7;    // of the whole network: those of a capital are 1.5e7
+constexpr std::size_t kSuccessorsMax = 64;  // of one lane
 
 class Reader {
  public:
@@ -40,6 +46,7 @@ class Reader {
         }
       }
     }
+    check_lengths();
     for (NetworkLane& each : network_.lanes) {
       const bool whole = each.in_junction && each.predecessors.size() == 1 && each.successors.size() == 1;
       if (whole && !lane(each.predecessors[0]).in_junction && !lane(each.successors[0]).in_junction) {
@@ -188,6 +195,26 @@ class Reader {
     return at.to;
   }
 
+  void check_lengths() const {
+    double together_m = 0.0;
+    for (const NetworkLane& each : network_.lanes) {
+      together_m += each.centre.length_m();
+      if (each.in_junction) check_through(each, each.centre.length_m());
+    }
+    if (together_m > kLanesTogether_m) {
+      fail_at("<net>", "its lanes are " + std::to_string(std::lround(0.001 * together_m)) +
+                           " km long together: expected at most 20000 km");
+    }
+  }
+
+  static void check_through(const NetworkLane& inside, double length_m) {
+    if (length_m > kLongestThroughJunction_m) {
+      fail_at("lane \"" + inside.name + "\"", "its way through the junction is " +
+                                                  std::to_string(std::lround(length_m)) +
+                                                  " m long: expected at most 1000 m");
+    }
+  }
+
   void link_lanes(const std::string& from, const std::string& to) {
     const auto target = lane_of_.find(to);
     if (target == lane_of_.end()) {
@@ -197,6 +224,9 @@ class Reader {
     std::vector<LaneId>& successors = network_.lanes[static_cast<std::size_t>(from_id)].successors;
     if (std::find(successors.begin(), successors.end(), target->second) == successors.end()) {
       successors.push_back(target->second);
+      if (successors.size() > kSuccessorsMax) {
+        fail_at("lane \"" + from + "\"", "it leads to more than 64 lanes");
+      }
       network_.lanes[static_cast<std::size_t>(target->second)].predecessors.push_back(from_id);
     }
   }
@@ -205,11 +235,14 @@ class Reader {
   /// lists the lanes in their order, of a link in two parts the second one.
   std::vector<Junction> read_junctions(const pugi::xml_node& net) const {
     std::vector<Junction> junctions;
+    std::set<LaneId> listed;
     for (const pugi::xml_node node : net.children("junction")) {
       if (std::string(node.attribute("type").value()) == "internal") {
         continue;
       }
+      const std::string where = "junction \"" + std::string(node.attribute("id").value()) + "\"";
       Junction junction;
+      double ways_m = 0.0;
       junction.signals = std::string(node.attribute("type").value()).rfind("traffic_light", 0) == 0;
       junction.first_come = std::string(node.attribute("type").value()) == "allway_stop";
       std::vector<std::string> names = words_in(node.attribute("intLanes").value());
@@ -218,14 +251,20 @@ class Reader {
         names = bridges->second;
       }
       for (const std::string& name : names) {
-        const auto lane = lane_of_.find(name);
-        junction.links.push_back(lane == lane_of_.end() ? Link{} : link_through(lane->second));
+        const auto inside = lane_of_.find(name);
+        if (inside != lane_of_.end() && !listed.insert(inside->second).second) {
+          fail_at(where, "lists the lane \"" + name + "\", which is listed already");
+        }
+        junction.links.push_back(inside == lane_of_.end() ? Link{} : link_through(inside->second));
+        for (const LaneId part : junction.links.back().inside) ways_m += lane(part).centre.length_m();
+        if (ways_m > kWaysThroughJunction_m) {
+          fail_at(where, "its ways are more than 20 km long together");
+        }
       }
       if (junction.links.empty()) {
         continue;
       }
       for (const pugi::xml_node request : node.children("request")) {
-        const std::string where = "junction \"" + std::string(node.attribute("id").value()) + "\"";
         const std::size_t index = request.attribute("index").as_uint(~0U);
         const auto bits = [&](const char* name) {
           const std::string text = request.attribute(name).value();
@@ -273,16 +312,19 @@ class Reader {
     link.inside = {inside};
     while (!lane(link.inside.front()).predecessors.empty() &&
            lane(lane(link.inside.front()).predecessors.front()).in_junction &&
-           link.inside.size() < network_.lanes.size()) {
+           link.inside.size() <= kPartsOfWay) {
       link.inside.insert(link.inside.begin(), lane(link.inside.front()).predecessors.front());
     }
     while (!lane(link.inside.back()).successors.empty() &&
            lane(lane(link.inside.back()).successors.front()).in_junction &&
-           link.inside.size() < network_.lanes.size()) {
+           link.inside.size() <= kPartsOfWay) {
       link.inside.push_back(lane(link.inside.back()).successors.front());
     }
     if (lane(link.inside.front()).predecessors.empty() || lane(link.inside.back()).successors.empty()) {
       return {};  // no car can come here or get away
+    }
+    if (link.inside.size() > kPartsOfWay) {
+      fail_at("lane \"" + lane(inside).name + "\"", "its way through the junction has more than 100 lanes");
     }
     link.from = lane(link.inside.front()).predecessors.front();
     link.to = lane(link.inside.back()).successors.front();
@@ -291,11 +333,7 @@ class Reader {
     for (const LaneId each : link.inside) {
       length_m += lane(each).centre.length_m();
     }
-    if (length_m > kLongestThroughJunction_m) {
-      fail_at("lane \"" + lane(inside).name + "\"", "its way through the junction is " +
-                                                        std::to_string(std::lround(length_m)) +
-                                                        " m long: expected at most 1000 m");
-    }
+    check_through(lane(inside), length_m);
     return link;
   }
 

@@ -12,6 +12,9 @@ namespace {
 
 constexpr double kTolerance_m = 0.03;
 constexpr double kMaxPart_m = 250.0;
+// Where a lane bends more often than that many parts can follow, they follow it as well as they can.
+constexpr int kMostPerLane = 16;
+constexpr int kMostPerPart = 4;  // of 250 m
 constexpr double kHysteresis_m = 10.0;
 constexpr double kMaxWidth_m = 6.3;  // s4tp.dbc's ranges
 constexpr double kMaxSpeed_mps = 63.75;
@@ -64,13 +67,16 @@ void MapNode::split_into_parts() {
   for (std::size_t i = 0; i < network_.lanes.size(); ++i) {
     const Polyline& centre = network_.lanes[i].centre;
     std::vector<Polyline> lines;
-    for (int count = static_cast<int>(std::ceil(centre.length_m() / kMaxPart_m));; ++count) {
+    const int fewest = static_cast<int>(std::ceil(centre.length_m() / kMaxPart_m));
+    const int most = kMostPerLane + kMostPerPart * fewest;
+    for (int count = fewest;; count = std::min(most, count + std::max(1, count / 8))) {
+      const int points = count < most ? std::numeric_limits<int>::max() : wire::kMaxLanePoints;
       lines.clear();
       bool fits = true;
       for (int k = 0; k < count && fits; ++k) {
         const double step_m = centre.length_m() / count;
         const Polyline whole = centre.part(k * step_m, (k + 1) * step_m);
-        lines.push_back(whole.simplified(std::numeric_limits<int>::max(), kTolerance_m));
+        lines.push_back(whole.simplified(points, kTolerance_m));
         fits = lines.back().points().size() <= index(wire::kMaxLanePoints);
       }
       if (fits) {

@@ -235,7 +235,8 @@ class Reader {
     stations.insert(stations.begin(), node.attribute("from").value());
     stations.push_back(node.attribute("to").value());
     std::vector<std::string> edges{stations.front()};
-    for (std::size_t i = 1; i < stations.size(); ++i) {
+    // Longer than the network is, it passes an edge again, from where it is left out anyway.
+    for (std::size_t i = 1; i < stations.size() && edges.size() <= network_.lanes.size(); ++i) {
       try {
         const std::vector<std::string> on = find_route(network_, stations[i - 1], stations[i]);
         edges.insert(edges.end(), on.begin() + 1, on.end());
@@ -278,10 +279,14 @@ class Reader {
     const auto [entry, is_new] = index_.try_emplace({route.edges, route.end_lane}, demand_.routes.size());
     if (is_new) {
       try {
-        RouteGuide(network_, route.edges, kNoLane, 0.0);
+        guided_ += RouteGuide(network_, route.edges, kNoLane, 0.0).size();
       } catch (const std::runtime_error& error) {
         index_.erase(entry);
         fail_at(node, error.what());
+      }
+      if (guided_ > kGuidedMax) {
+        fail_at(node,
+                "the file's routes lead along more than " + std::to_string(kGuidedMax) + " lanes together");
       }
       demand_.routes.push_back(route);
       return demand_.routes.size() - 1;
@@ -295,6 +300,7 @@ class Reader {
   std::map<std::vector<std::string>, std::size_t> way_index_;
   std::map<std::string, Choice> named_;
   std::size_t choices_ = 0;  ///< of all that was built
+  std::size_t guided_ = 0;   ///< lanes along demand_.routes
   double cars_ = 0.0;
   std::map<std::pair<std::vector<std::string>, int>, std::size_t> index_;
   std::map<std::string, int> left_out_;

@@ -16,5 +16,6 @@ inline constexpr std::size_t kChoicesMax = 1'000'000;  ///< routes and drivers t
 inline constexpr std::size_t kChoiceMax = 10'000;      ///< routes of one distribution
 inline constexpr std::size_t kDriversMax = 1'000;      ///< kinds of drivers of one distribution
 inline constexpr double kWeightMax = 1e12;             ///< of one route
+inline constexpr std::size_t kGuidedMax = 2'000'000;   ///< lanes along all different routes, each counted
 
 }  // namespace s4tp::world

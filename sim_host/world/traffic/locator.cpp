@@ -60,22 +60,23 @@ Locator::Locator(const Network& network, const RouteGuide& guide) : network_(net
 }
 
 void Locator::add_junction_hulls() {
-  std::map<std::string, std::vector<Vec2>> borders;
+  std::map<std::string, std::vector<Vec2>> hulls;
   for (const NetworkLane& lane : network_.lanes) {
     if (!lane.in_junction) {
       continue;
     }
+    std::vector<Vec2>& hull = hulls[junction_of(lane)];
     for (double s = 0.0; s <= lane.centre.length_m(); s += 0.5) {
       const PolylinePose pose = lane.centre.at(s);
       for (const double side : {-0.5, 0.5}) {
-        borders[junction_of(lane)].push_back(
-            {pose.point.x - side * lane.width_m * std::sin(pose.heading_rad),
-             pose.point.y + side * lane.width_m * std::cos(pose.heading_rad)});
+        hull.push_back({pose.point.x - side * lane.width_m * std::sin(pose.heading_rad),
+                        pose.point.y + side * lane.width_m * std::cos(pose.heading_rad)});
       }
     }
+    hull = convex_hull(hull);
   }
-  for (const auto& entry : borders) {
-    hulls_.push_back(convex_hull(entry.second));
+  for (auto& [junction, hull] : hulls) {
+    hulls_.push_back(std::move(hull));
   }
 }
 

@@ -10,6 +10,7 @@ namespace {
 constexpr double kSight_m = 120.0;
 constexpr std::size_t kWayPartsMax = 10;
 constexpr int kLanesBack = 3;
+constexpr double kAsFar_m = 1000.0;    // beyond it nobody asks whether two lanes have parted
 constexpr double kSideBySide_m = 2.3;  // two car widths and half a metre: no longer in each other's way
 
 bool meet(const NetworkLane& a, const NetworkLane& b) {
@@ -19,7 +20,7 @@ bool meet(const NetworkLane& a, const NetworkLane& b) {
 }
 
 double apart_m(const Polyline& a, const Polyline& b) {
-  const double shorter = std::min(a.length_m(), b.length_m());
+  const double shorter = std::min({a.length_m(), b.length_m(), kAsFar_m});
   for (double s = 0.0; s < shorter; s += 0.5) {
     if (std::abs(b.project(a.at(s).point).d_m) > kSideBySide_m) {
       return s;
