@@ -344,7 +344,7 @@ Verdict Guard::judge(int path_index, const Trajectory& trajectory) const {
     if (verdict.stops_short) break;  // the fail-safe comes no further
   }
   if (verdict.stops_short) verdict.fail_safe.branch_s = guard.takeover_s;
-  if ((sight.changes && !sight.half_over) || sight.straddles) {
+  if (sight.changes && !sight.half_over) {
     bool brakes = false;
     for (const Settling& settling : kSettlings) {
       const float braking_mps2 = settling.share * guard.braking_mps2;

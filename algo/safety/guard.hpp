@@ -10,8 +10,7 @@
 /// before it any more.
 /// GUARD-007 Who cannot stay out of a zone any more leaves it no later than it was to. GUARD-008 Merging
 /// leaves room, in both orders. GUARD-009 A lane change leaves who is behind room to brake, and begins only
-/// when who is ahead is ahead of all of us by the time we are over the line, braking as hard as can be; given up
-/// while our box is over the line, it still leaves who is behind there room.
+/// when who is ahead is ahead of all of us by the time we are over the line, braking as hard as can be.
 /// GUARD-010 Whoever drives only what passes, and else the last fail-safe, touches nobody who keeps to the
 /// law. GUARD-011 Who entered a group by right may stand in it, short of one that comes after all and
 /// before we were to be gone, where nobody comes who cannot stop for it and nobody has let us go.
@@ -128,8 +127,7 @@ class Guard {
     std::uint8_t beside = 255;  ///< ... because of whom
     bool changes = false;       ///< our box is, or comes, from another lane
     bool half_over = false;     ///< most of us is in the lane already
-    bool straddles = false;  ///< our box is over the line of a lane it could change to, and stays in its own
-    BoundedVector<InLane, 4> behind;  ///< in the lane where `changes`, in the one beside it where `straddles`
+    BoundedVector<InLane, 4> behind;  ///< only where `changes`
     BoundedVector<ZoneGroup, kMaxPathZones> groups;
     BoundedVector<Threat, kMostThreats> threats;
     std::uint16_t staying_out[kMaxPathZones] = {};  ///< of each zone; bit i: agent i leaves it to us
@@ -143,7 +141,6 @@ class Guard {
   struct Own;
 
   void look_at_path(int path_index);
-  void look_beside(int path_index);
   void find_groups(const scene::EgoPath& path, Sight& sight) const;
   void find_threats(const scene::EgoPath& path, const occupancy::LaneReach (&reach)[kMaxTracks],
                     Sight& sight) const;

@@ -15,7 +15,6 @@ constexpr float kClearOfZoneM = 0.7F;  // before it
 constexpr float kCurvesMps2 = 3.0F;
 constexpr int kCapSamples = 4;
 constexpr float kStandingMps = 0.3F;
-constexpr float kOverLineM = 0.2F;  // less is no lane change, but a wide bend
 
 }  // namespace
 
@@ -36,27 +35,7 @@ void Guard::look(const scene::Scene& scene, const TrajectoryPoint& start, float 
     look_at_path(path);
     find_threats(scene.ego_paths[path], reach, sights_[path]);
   }
-  for (int path = 0; path < scene.ego_paths.size(); ++path) look_beside(path);
   if (scene.known.left_out > 0) look_beyond(reach);
-}
-
-void Guard::look_beside(int path_index) {
-  const scene::EgoPath& path = scene_->ego_paths[path_index];
-  Sight& sight = sights_[path_index];
-  const float half_lane_m = 0.5F * scene::path_point(*scene_->map, path.path, path.frenet.s_m).width_m;
-  const float half_box_m = 0.5F * parameters_->vehicle.width_m;
-  if (sight.changes || abs(path.frenet.d_m) + half_box_m < half_lane_m + kOverLineM) return;
-  const scene::Manoeuvre side = path.frenet.d_m > 0.0F ? scene::Manoeuvre::kLeft : scene::Manoeuvre::kRight;
-  for (int i = 0; i < scene_->ego_paths.size(); ++i) {
-    if (scene_->ego_paths[i].manoeuvre != side) continue;
-    const Sight& beside = sights_[i];
-    sight.straddles = true;
-    for (InLane behind : beside.behind) {
-      behind.bumper_s_m += sight.start_s_m - beside.start_s_m;
-      if (!sight.behind.push(behind)) return;
-    }
-    return;
-  }
 }
 
 void Guard::look_at_path(int path_index) {
