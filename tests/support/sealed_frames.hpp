@@ -22,4 +22,10 @@ inline hal::CanFrame hello() {
   return sealed(wire::VersionEcu{}, sender);
 }
 
+inline hal::CanFrame tick_frame(int number, wire::E2eSender& sender) {
+  wire::Tick tick;
+  tick.tick = static_cast<std::uint16_t>(number);
+  return sealed(tick, sender);
+}
+
 }  // namespace s4tp::processes

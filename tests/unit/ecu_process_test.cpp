@@ -41,12 +41,6 @@ struct EcuRun {
   }
 };
 
-hal::CanFrame tick_frame(int number, wire::E2eSender& sender) {
-  wire::Tick tick;
-  tick.tick = static_cast<std::uint16_t>(number);
-  return sealed(tick, sender);
-}
-
 // PROC-012, PROC-013 A second without a tick: about ten times "I am there", nothing else, and it gives up.
 TEST(EcuProcess, SaysThatItIsThere) {
   FakeBus bus;
