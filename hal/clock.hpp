@@ -1,5 +1,5 @@
 #pragma once
-/// Monotonic local time, for ages and time-outs on a real target. In lock-step it follows vehicle time.
+/// Monotonic local time: when something arrived, when a tick is due. The application has vehicle time instead.
 
 #include <cstdint>
 

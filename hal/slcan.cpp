@@ -98,6 +98,19 @@ SlcanEvent SlcanParser::take(char character, CanFrame& frame) {
   return event;
 }
 
+bool SlcanWatch::take(char character) {
+  if (character == '\r' || character == '\a') {
+    const bool ends = character == '\r' && matched_ == kBegin;
+    matched_ = 0;
+    return ends;
+  }
+  if (character == '\n' || matched_ < 0 || matched_ == kBegin) return false;
+  const auto wanted = static_cast<int>(id_ >> static_cast<unsigned>(4 * (kBegin - 1 - matched_)) & 0xFU);
+  const bool fits = matched_ == 0 ? character == 't' : value_of(character) == wanted;
+  matched_ = fits ? matched_ + 1 : -1;
+  return false;
+}
+
 SlcanEvent SlcanParser::judge(CanFrame& frame) const {
   if (size_ == 0) return SlcanEvent::kDone;
   if (size_ > kLongest) return SlcanEvent::kGarbage;

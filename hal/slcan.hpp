@@ -47,4 +47,18 @@ class SlcanParser {
   int size_ = 0;  ///< kLongest + 1: overlong
 };
 
+/// SLCAN-008 Knows when a data frame of one 11-bit id ends in a stream, and nothing else about it: for an interrupt that
+/// notes when frames arrive.
+class SlcanWatch {
+ public:
+  explicit SlcanWatch(std::uint32_t id) : id_(id) {}
+  /// \return whether this character ends such a line
+  [[nodiscard]] bool take(char character);
+
+ private:
+  static constexpr int kBegin = 4;  ///< t and three digits
+  std::uint32_t id_;
+  int matched_ = 0;  ///< characters of the begin; -1: the line is another one
+};
+
 }  // namespace s4tp::hal

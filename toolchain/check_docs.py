@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""The pages are whole: no dead link, no file named that is not there, every word of the list in the glossary, a short README.
+"""The pages are whole: no dead link, no file named that is not there, every word of the list in the glossary, a short README;
+and what the code cites, a page and a section of it, is there.
 
     check_docs.py [ROOT]
 """
@@ -13,13 +14,17 @@ LINK = re.compile(r"!?\[[^\]\n]*\]\(([^()\s]+)\)")
 # A file or folder of ours named in backticks; braces, stars and capitals (places to fill in) are no names.
 NAMED = re.compile(r"`((?:algo|hal|firmware|sim_host|tests|toolchain|docs)/[\w./-]*|[\w-]+\.md)(?:[ :][^`]*)?`")
 HEADING = re.compile(r"^#+\s+(.*)$", re.MULTILINE)
+# A page cited in the code, and its section: "method.md 4.8".
+CITED = re.compile(r"\b([\w/-]+\.md)\b(?: (\d+(?:\.\d+)?)(?![\w%]))?")
+CODE = ("algo", "hal", "firmware", "sim_host", "tests")
+SECTION = re.compile(r"^(?:#+ |\*\*)(\d+(?:\.\d+)?) ", re.MULTILINE)
 # Made by a build or a run, not kept.
 MADE = ("algo/satp/shipped_weights.inc", "docs/requirements.md")
 # Words that a reader of the pages must find explained.
 WORDS = ("path hypothesis", "right-of-way verdict", "commitment", "yield belief", "lateral offset", "blocking reason", "lane cost-to-go",
          "merge target", "path context", "overshoot", "ego-side risk", "other-side risk", "marginal prediction",
          "conditional prediction", "constant-velocity prediction", "ego", "track", "candidate", "decision", "conflict zone", "zone group",
-         "horizon", "boundary", "driving risk field", "look-ahead distance", "cost map", "guard", "fail-safe", "legal occupancy",
+         "horizon", "boundary", "scenario", "flavour", "seed", "episode", "guarded", "bare", "driving risk field", "look-ahead distance", "cost map", "guard", "fail-safe", "legal occupancy",
          "minimum-risk manoeuvre", "RSS", "command gate", "end-to-end protection", "lock-step", "bit-exact", "iLQR", "fork", "standing")
 
 
@@ -51,6 +56,21 @@ def dead(root, page):
             yield f"{where}: names {name}, which is not there"
 
 
+def cited(root):
+    """Pages that the code cites and nobody has."""
+    sections = {page.name: set(SECTION.findall(page.read_text(encoding="utf-8"))) for page in pages(root)}
+    for file in sorted(file for folder in CODE for file in (root / folder).rglob("*.[hc]*") if file.suffix in (".hpp", ".cpp", ".h", ".c")):
+        for line in file.read_text(encoding="utf-8").splitlines():
+            comment = re.search(r"//.*", line)
+            for name, section in CITED.findall(comment[0]) if comment else ():
+                page = pathlib.PurePath(name).name
+                where = file.relative_to(root).as_posix()
+                if page not in sections:
+                    yield f"{where}: cites {name}: there is no such page"
+                elif section and sections[page] and section not in sections[page]:
+                    yield f"{where}: cites {name} {section}: there is no such section"
+
+
 def glossary(root):
     """Words defined, and names of the code given for them."""
     words, names = set(), []
@@ -64,6 +84,7 @@ def glossary(root):
 
 def findings(root):
     result = [line for page in pages(root) for line in dead(root, page)]
+    result += cited(root)
     words, names = glossary(root)
     result += [f"docs/glossary.md: {word} is not defined" for word in WORDS if word not in words]
     code = " ".join(file.read_text(encoding="utf-8") for file in (root / "algo").rglob("*.[hc]pp"))

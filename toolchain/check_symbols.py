@@ -186,6 +186,9 @@ def main():
     parser.add_argument("--build", required=True, type=pathlib.Path)
     parser.add_argument("--image", action="append", default=[], help="path below the build folder")
     arguments = parser.parse_args()
+    if not (arguments.build / "algo/libs4tp_core.a").exists():
+        print(f"symbols: {arguments.build} is not built; cmake --preset {arguments.target} && cmake --build --preset {arguments.target} does that")
+        return 1
     report = []
     print(f"{arguments.target}:")
     check_archives(arguments.target, arguments.build, report)

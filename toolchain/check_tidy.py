@@ -36,6 +36,9 @@ def main(arguments):
     parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build/host")
     parser.add_argument("files", nargs="*", type=pathlib.Path)
     options = parser.parse_args(arguments)
+    if not (options.build / "compile_commands.json").exists():
+        print(f"tidy: {options.build} is not configured; cmake --preset host does that")
+        return 1
     chosen = options.files or files(options.build)
     if not chosen:
         print(f"tidy: {options.build} compiles no file of {', '.join(FOLDERS)}")

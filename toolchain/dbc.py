@@ -9,7 +9,10 @@ from decimal import ROUND_HALF_EVEN
 # canmatrix reports every optional format it lacks while it is imported.
 logging.disable(logging.WARNING)
 with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):
-    import canmatrix.formats
+    try:
+        import canmatrix.formats
+    except ModuleNotFoundError as error:
+        raise SystemExit(f"{error}; apt-get install python3-canmatrix, and Debian's own python3 (/usr/bin/python3)") from error
 
 # Supplied by end-to-end protection (e2e.hpp), so no fields of a message.
 PROTECTION = {"crc": (0, 8), "counter": (8, 4)}

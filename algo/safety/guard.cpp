@@ -1,6 +1,7 @@
 #include "algo/safety/guard.hpp"
 
 #include "algo/core/inline.hpp"
+#include "algo/core/standing.hpp"
 #include "algo/safety/change_gaps.hpp"
 #include "algo/trajectory/along_path.hpp"
 #include "algo/trajectory/bicycle.hpp"
@@ -12,7 +13,6 @@ using occupancy::kNeverS;
 using occupancy::Pace;
 
 constexpr float kHorizonS = static_cast<float>(kHorizonSteps) * kStepS;
-constexpr float kStandingMps = 0.3F;
 constexpr float kCrawledM = 0.05F;
 constexpr float kStopTubeM = 0.4F;
 constexpr float kStoppingMps2 = -2.0F;

@@ -1,5 +1,6 @@
 // What the guard sees of a scene before it judges plans: leader, followers, groups of zones, who may be in them.
 #include "algo/core/inline.hpp"
+#include "algo/core/standing.hpp"
 #include "algo/safety/change_gaps.hpp"
 #include "algo/safety/guard.hpp"
 #include "algo/trajectory/along_path.hpp"
@@ -14,7 +15,6 @@ constexpr float kWaitingRoomM = 1.0F;  // between two zones there is room to sta
 constexpr float kClearOfZoneM = 0.7F;  // before it
 constexpr float kCurvesMps2 = 3.0F;
 constexpr int kCapSamples = 4;
-constexpr float kStandingMps = 0.3F;
 
 }  // namespace
 

@@ -1,6 +1,7 @@
 #include "algo/safety/legal_occupancy.hpp"
 
 #include "algo/core/inline.hpp"
+#include "algo/core/standing.hpp"
 
 namespace s4tp::safety {
 namespace {
@@ -8,7 +9,6 @@ namespace {
 using occupancy::kNeverS;
 using occupancy::Pace;
 
-constexpr float kStandingMps = 0.3F;  // all that a standing vehicle's measured speed may be
 constexpr float kSetsOffMps2 = 0.5F;
 constexpr float kShortOfZoneM = 0.5F;  // who gives way stops so far before
 constexpr float kBendRad = 0.5F;       // lanes that turn by less are driven like straight ones

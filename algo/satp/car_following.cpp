@@ -7,14 +7,14 @@ namespace {
 
 constexpr float kTwoSqrtAB = 4.472136F;  // 2 sqrt(a b), b = 2.5 m/s^2
 constexpr float kFreeBrakingMps2 = 3.0F;
-constexpr float kStandingMps = 0.1F;  // who wants less than this wants to stand
+constexpr float kWishToStandMps = 0.1F;  // who wants less than this wants to stand
 constexpr float kShortestGapM = 0.5F;
 constexpr float kShortestHeadwayS = 0.4F;
 
 }  // namespace
 
 float free_acceleration(float speed_mps, float desired_mps) {
-  if (desired_mps < kStandingMps) return -kFreeBrakingMps2;
+  if (desired_mps < kWishToStandMps) return -kFreeBrakingMps2;
   const float ratio = square(speed_mps / desired_mps);
   return max(kAccelerationMps2 * (1.0F - ratio * ratio), -kFreeBrakingMps2);
 }

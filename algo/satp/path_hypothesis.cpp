@@ -14,7 +14,7 @@ constexpr float kSlowestTurnMps = 2.0F;
 constexpr float kSlowAheadM = 60.0F;
 constexpr float kStartingMps = 6.0F;  // below this a vehicle is on its way to the limit
 constexpr float kGainingMps2 = 0.5F;
-constexpr float kStandingMps = 0.5F;
+constexpr float kHardlyMovingMps = 0.5F;  // who is slower is not counted as coming
 constexpr float kUnlikely = 0.2F;         // ways of others less likely than this make nobody wait
 constexpr float kZoneMarginM = 1.0F;      // how far before a zone a vehicle waits
 constexpr float kZoneMarginS = 1.0F;      // between others leaving and entering
@@ -104,7 +104,7 @@ float busy_until_s(const scene::Scene& scene, int index, const scene::ConflictVi
         if (part.lane != view.other) continue;
         const float to_entry_m = part.start_s_m + view.other_entry_m - agent.frenet[k].s_m;
         const float to_exit_m = part.start_s_m + view.other_exit_m - agent.frenet[k].s_m;
-        if (to_exit_m < 0.0F || (speed_mps < kStandingMps && to_entry_m > 0.0F)) break;
+        if (to_exit_m < 0.0F || (speed_mps < kHardlyMovingMps && to_entry_m > 0.0F)) break;
         const float there_s = max(to_entry_m, 0.0F) / max(speed_mps, 1.0F);
         const float gone_s = to_exit_m / max(speed_mps, 1.0F);
         if (there_s < out_s + kZoneMarginS && gone_s > in_s) until_s = max(until_s, gone_s);
@@ -184,7 +184,7 @@ PathHypothesis read_path_hypothesis(const scene::Scene& scene, int index, int pa
   read_leader(scene, index, path, s_m, lead_s, hypothesis);
   read_zones(scene, index, path, hypothesis);
   // Who stands though nothing is in its way has a reason we do not see.
-  const bool standing = hypothesis.speed_mps < kStandingMps && agent.track.acceleration_mps2 < 0.2F;
+  const bool standing = hypothesis.speed_mps < kHardlyMovingMps && agent.track.acceleration_mps2 < 0.2F;
   if (standing && !hypothesis.follows && hypothesis.hold_until_s <= 0.0F && hypothesis.conflicts.empty())
     hypothesis.desired_mps = 0.0F;
   return hypothesis;

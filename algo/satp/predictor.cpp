@@ -1,6 +1,7 @@
 #include "algo/satp/predictor.hpp"
 
 #include "algo/core/inline.hpp"
+#include "algo/core/standing.hpp"
 #include "algo/satp/path_motion.hpp"
 
 namespace s4tp::satp {

@@ -21,7 +21,6 @@ inline constexpr int kNetworkAgentWork = 18;
 
 /// Most work of one decode: both predictors on every vehicle.
 inline constexpr int kMaxPredictionWork = kMaxAgents * (kMaxAgentWork + kNetworkAgentWork);
-inline constexpr float kStandingMps = 0.3F;  ///< all that a standing vehicle's measured speed may be
 
 class Predictor {
  public:

@@ -3,6 +3,7 @@
 #include <new>
 
 #include "algo/core/inline.hpp"
+#include "algo/core/standing.hpp"
 #include "algo/satp/input_builder.hpp"
 
 namespace s4tp::satp {

@@ -2,8 +2,7 @@
 /// The network's numbers as they lie in flash: a header, then the layers in the order of network_shape.hpp.
 ///
 /// \code
-///   | WeightHeader | layer 0: bias, multiplier, weights | layer 1 ... |     little endian, all 4-byte
-///   aligned
+///   | WeightHeader | layer 0: bias, multiplier, weights | layer 1 ... |   little endian, all 4-byte aligned
 /// \endcode
 /// An image is looked at once, at start: what passes can be computed with, whatever the input, without any
 /// accumulator running over.

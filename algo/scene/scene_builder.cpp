@@ -1,4 +1,5 @@
 #include "algo/core/inline.hpp"
+#include "algo/core/standing.hpp"
 #include "algo/scene/agent_paths.hpp"
 #include "algo/scene/ego_paths.hpp"
 #include "algo/scene/lane_table.hpp"
@@ -15,7 +16,6 @@ constexpr float kSameSpeedMps = 4.0F;
 constexpr float kJumpM = 8.0F;    // an id this far from where it should be is another vehicle
 constexpr float kHinderS = 2.5F;  // a vehicle within this headway explains another's braking
 constexpr float kHinderBesideM = 2.0F;
-constexpr float kStandingMps = 0.3F;
 constexpr float kAtJunctionM = 15.0F;  // standing this far before the zone, or nearer, is waiting for it
 constexpr std::int32_t kLongestStepMs = 500;  // a hole in time is no waiting
 constexpr std::int32_t kLongestStandMs = 60'000;

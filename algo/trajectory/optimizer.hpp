@@ -41,7 +41,7 @@ class Optimizer {
  public:
   /// CAND-011 Never worse than its start: by the model that it works with the result costs no more than
   /// `candidate` did, or is `candidate` itself, to the bit; in the field, who asks compares the exact risk.
-  /// CAND-020 It evaluates the field at most allowance.evaluations times, and keeps within 0.5 m of where it did.
+  /// CAND-023 It evaluates the field at most allowance.evaluations times, and keeps within 0.5 m of where it did.
   /// CAND-013 Standing still stays standing still, to the bit.
   /// CAND-014 Within kRefinedAlongM and kRefinedWithinS of it, across within kRefinedInLaneM of the lane's
   /// centre or no further out than it, on its way to a lane within kOnTheWayM of it; and where it kept

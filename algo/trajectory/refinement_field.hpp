@@ -41,7 +41,7 @@ struct FieldScratch {
   sadrf::SmoothRisk risks[kHorizonSteps];
 };
 
-/// CAND-019 Evaluates the field along a motion, with its slopes by pose, speed and curvature. \param origin  what
+/// CAND-022 Evaluates the field along a motion, with its slopes by pose, speed and curvature. \param origin  what
 /// the problem's positions are relative to \return w_r times the integral of R, linear between the knots; 0:
 /// there is no risk Work: at most kFieldKnots * (kMaxAgents * kMaxModes + kMaxTracks) boxes, on each side.
 [[nodiscard]] float evaluate_field(const Surroundings& surroundings, const RefinementProblem& problem,

@@ -16,7 +16,6 @@
 #include "firmware/ecu/triple_buffer.hpp"
 #include "firmware/gate/command_gate.hpp"
 #include "hal/can.hpp"
-#include "hal/clock.hpp"
 #include "hal/cycle_counter.hpp"
 #include "hal/flash_bank.hpp"
 #include "hal/telemetry.hpp"
@@ -24,11 +23,10 @@
 
 namespace s4tp::ecu {
 
-/// What the ECU stands on. Clock and telemetry may be null: the application's time is vehicle time, so that a
-/// log replays to the bit; the clock is there for tick sources and telemetry of a platform.
+/// What the ECU stands on; telemetry may be null. No clock: the application's time is vehicle time, so that a
+/// log replays to the bit.
 struct Ports {
   hal::Can* can = nullptr;
-  hal::Clock* clock = nullptr;
   hal::CycleCounter* cycles = nullptr;
   hal::Watchdog* watchdog = nullptr;
   hal::Telemetry* telemetry = nullptr;

@@ -16,7 +16,7 @@ constexpr std::uint32_t kLongestTickMs = 100;  // longer ones are a gap: nothing
 constexpr float kClockStepMs = 5.0F;           // a single late tick is the platform's, not a clock's rate
 constexpr float kSumMaxBases = 10.0F;          // PLAUS-012: forgotten in 2 s * ln 10, whatever the limit was
 constexpr float kMovingMps = 0.3F;
-constexpr float kStandingMps = 0.05F;
+constexpr float kFrozenMps = 0.05F;
 constexpr float kDriveMps2 = 0.4F;  // a car asked for so much moves
 // What a car on a road can do at most; beyond it a value is not measured but made up.
 constexpr float kSpeedMaxMps = 70.0F;
@@ -163,7 +163,7 @@ void PlausibilityMonitor::model_actuators(const Measured& measured, const Comman
   const bool moves = measured.speed_mps > kMovingMps;
   judge(Check::kAccelerationCommand, moves ? abs(measured.acceleration_mps2 - drive_model_mps2_) : 0.0F,
         measured);
-  const bool frozen = commanded.active && measured.speed_mps < kStandingMps && drive_model_mps2_ > kDriveMps2;
+  const bool frozen = commanded.active && measured.speed_mps < kFrozenMps && drive_model_mps2_ > kDriveMps2;
   judge(Check::kSpeedFrozen, frozen ? 1.0F : 0.0F, measured);
 }
 

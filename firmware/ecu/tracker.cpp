@@ -13,8 +13,8 @@ constexpr float kTrimMax1pm = 0.01F;  // 0.03 rad of steering at a 2.9 m wheelba
 constexpr float kBesideMaxM = 3.0F;
 constexpr float kBehindMaxM = 2.0F;
 constexpr float kShortestStepM = 0.1F;
-constexpr float kStandingMps = 0.05F;   // a plan this slow stands
-constexpr float kHoldBelowMps = 0.2F;   // the brake may take over from here
+constexpr float kPlanStandsMps = 0.05F;  // a plan this slow stands
+constexpr float kHoldBelowMps = 0.2F;    // the brake may take over from here
 constexpr float kTrimRate1ps3 = 0.1F;   // along: a third of the limit of stability, speed_gain * station_gain
 constexpr float kTrimCrossMaxM = 0.3F;  // further off is a manoeuvre, not a bias
 constexpr float kTrimAlongMaxM = 2.0F;
@@ -143,7 +143,7 @@ float Tracker::drive(const Plan& plan, std::uint32_t now_ms, const EgoState& ego
   const std::uint32_t delay_ms =
       static_cast<std::uint32_t>(to_int(1000.0F * parameters.tracking.drive_delay_s, 0, 1000));
   const TrajectoryPoint next = sample(plan, now_ms + delay_ms);
-  const bool plan_stands = now.speed_mps < kStandingMps && next.speed_mps < kStandingMps;
+  const bool plan_stands = now.speed_mps < kPlanStandsMps && next.speed_mps < kPlanStandsMps;
   holding_ = plan_stands && (holding_ || ego.speed_mps < kHoldBelowMps);
   if (holding_) {
     acceleration_trim_mps2_ = 0.0F;

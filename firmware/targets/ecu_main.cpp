@@ -1,7 +1,7 @@
 /// The ECU image of a board: control in an interrupt of its own, which the timer asks for; planning in the
 /// background; CAN as SLCAN on UART 1. UART 0 is the console: boot line, a status line a second, last words.
 ///
-/// Built twice. `ecu` is the car's: a control tick each 10 ms. `ecu_lockstep` drives in a simulated world,
+/// Built twice. `ecu` is the car's: a control tick each 10 ms, 4 ms after the motion frame (hal/phase_lock.hpp). `ecu_lockstep` drives in a simulated world,
 /// whose TICK frames open its ticks; it also prints what each planning cycle cost. What a simulation may do,
 /// no bus of a car may: `ecu` knows no TICK frame.
 
@@ -9,6 +9,7 @@
 #include "firmware/ecu/ecu.hpp"
 #include "firmware/targets/interrupt_meter.hpp"
 #include "firmware/targets/text.hpp"
+#include "firmware/wire/codec.hpp"
 #include "hal/mps/interrupts.hpp"
 #include "hal/mps/memory_bank.hpp"
 #include "hal/mps/slcan_can.hpp"
@@ -16,6 +17,7 @@
 #include "hal/mps/timer.hpp"
 #include "hal/mps/uart.hpp"
 #include "hal/mps/watchdog.hpp"
+#include "hal/phase_lock.hpp"
 #ifdef S4TP_LOCKSTEP
 #include "firmware/targets/lockstep_tick.hpp"
 #include "firmware/targets/paced_probe.hpp"
@@ -80,6 +82,14 @@ void begin_cycle() {}
 void print_cycle() {}
 #endif
 
+/// The car's tick keeps its distance to the motion frames; a simulated world opens its ticks itself.
+void keep_phase() {
+  std::uint32_t arrival_us = 0;
+  if (can.take_arrival(arrival_us)) {
+    tick.adjust(hal::phase_shift_us(arrival_us, hal::kTickLeadUs, timer.due_phase_us()));
+  }
+}
+
 void print_status() {
   Text line;
   line << "tick " << ticks << " mode " << static_cast<std::int32_t>(the_ecu.mode()) << " faults ";
@@ -136,7 +146,10 @@ void systick_handler() {
 
 void pendsv_handler() {
   const InterruptMeter::Guard guard(meter);
-  if (tick.take()) control();
+  if (tick.take()) {
+    keep_phase();
+    control();
+  }
   // Asked for again while it ran: not before the next period, so that planning has its turn.
   s4tp::hal::mps::forget_control_interrupt();
 }
@@ -159,7 +172,6 @@ void image_main() {
   console.start(kBaud);
   s4tp::ecu::Ports ports;
   ports.can = &bus;
-  ports.clock = &timer;
   ports.cycles = &timer;
   ports.watchdog = &watchdog;
   ports.weights = &weights;
@@ -171,6 +183,7 @@ void image_main() {
   boot << "s4tp ecu: " << status_name(status) << kTickName << "\n";
   console.print(boot.c_str());
   s4tp::hal::mps::start_control_interrupt();
+  can.watch(s4tp::wire::kMotionId, timer);
   can.start(kBaud);
   watchdog.start(kWatchdogMs);
   timer.start(kTimerUs);

@@ -8,8 +8,6 @@
 namespace s4tp::targets {
 namespace {
 
-constexpr std::uint32_t kTickMs = 10;
-
 bool same(const wire::Frame& a, const wire::Frame& b) {
   bool equal = a.id == b.id && a.length == b.length;
   for (int i = 0; i < 8; ++i) equal = equal && a.data[i] == b.data[i];
@@ -107,7 +105,6 @@ bool Replay::init(const Parameters& parameters) {
   parameters_crc_ = parameters_crc(parameters);
   ecu::Ports ports;
   ports.can = &can_;
-  ports.clock = &clock_;
   ports.cycles = &cycles_;
   ports.watchdog = &watchdog_;
   return ecu_.init(parameters, ports) == Status::kOk;
@@ -148,7 +145,6 @@ void Replay::comment(const char* text, int size) {
 void Replay::tick() {
   expect_nothing_left();
   ++ticks_;
-  clock_.follow(ticks_ * kTickMs);
   ecu_.control_tick();
   if (!ecu_.planning_due()) return;
   ecu_.planning_cycle();

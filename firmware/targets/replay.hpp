@@ -19,7 +19,6 @@
 #include "firmware/wire/frame.hpp"
 #include "hal/can.hpp"
 #include "hal/sim/null_devices.hpp"
-#include "hal/sim/sim_clock.hpp"
 
 namespace s4tp::targets {
 
@@ -77,7 +76,6 @@ class Replay {
 
   ecu::Ecu<planner::Planner> ecu_;
   LogCan can_;
-  hal::sim::SimClock clock_;
   hal::sim::NullCycleCounter cycles_;
   hal::sim::NullWatchdog watchdog_;
   std::uint32_t parameters_crc_ = 0;

@@ -15,17 +15,7 @@ bool TimerTick::take() {
 }
 
 void TimerTick::adjust(std::int32_t phase_us) {
-  phase_us_ = phase_us < -kMaxPhaseUs ? -kMaxPhaseUs : phase_us > kMaxPhaseUs ? kMaxPhaseUs : phase_us;
-}
-
-std::int32_t phase_shift_us(std::uint64_t arrival_us, std::uint32_t lead_us, std::uint64_t due_us) {
-  constexpr auto kPeriod = static_cast<std::int32_t>(kTickPeriodUs);
-  const auto wanted = static_cast<std::int32_t>((arrival_us + lead_us) % kTickPeriodUs);
-  const auto is = static_cast<std::int32_t>(due_us % kTickPeriodUs);
-  std::int32_t missing = wanted - is;
-  if (missing > kPeriod / 2) missing -= kPeriod;
-  if (missing < -kPeriod / 2) missing += kPeriod;
-  return missing / 4;
+  phase_us_ = limited_phase_us(phase_us);
 }
 
 }  // namespace s4tp::hal::linux_host

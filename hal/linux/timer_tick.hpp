@@ -1,20 +1,13 @@
 #pragma once
-/// The 100 Hz tick of a program on Linux, phase-locked to the motion frame.
-///
-/// \code
-///   motion frames   M         M         M         M          the car's clock
-///   due              . lead T . lead T                       ours, shifted by at most 0.5 ms a tick
-///   woken                   |t        |t                     late by so much
-/// \endcode
+/// The 100 Hz tick of a program on Linux, phase-locked to the motion frame (hal/phase_lock.hpp).
 
 #include <cstdint>
 
 #include "hal/linux/host_clock.hpp"
+#include "hal/phase_lock.hpp"
 #include "hal/tick.hpp"
 
 namespace s4tp::hal::linux_host {
-
-inline constexpr std::uint32_t kTickPeriodUs = 10'000;
 
 /// How a tick was met.
 struct WakeUp {
@@ -24,8 +17,6 @@ struct WakeUp {
 
 class TimerTick final : public Tick {
  public:
-  static constexpr std::int32_t kMaxPhaseUs = 500;
-
   /// \param clock  must outlive this
   explicit TimerTick(HostClock& clock) : clock_(clock) {}
 
@@ -50,12 +41,5 @@ class TimerTick final : public Tick {
   std::int32_t phase_us_ = 0;
   WakeUp wake_up_;
 };
-
-/// HAL-023 What to give to adjust(), so that ticks come `lead_us` after the motion frames: a quarter of what
-/// is missing, the shorter way round, so that a frame's jitter is damped and the two clocks' drift of some
-/// 100 ppm leaves 7 us at most.
-/// \param arrival_us  of any motion frame, \param due_us  of any tick, on one clock
-[[nodiscard]] std::int32_t phase_shift_us(std::uint64_t arrival_us, std::uint32_t lead_us,
-                                          std::uint64_t due_us);
 
 }  // namespace s4tp::hal::linux_host

@@ -1,6 +1,7 @@
 #include "hal/mps/slcan_can.hpp"
 
 #include "hal/mps/interrupts.hpp"
+#include "hal/phase_lock.hpp"
 
 namespace s4tp::hal::mps {
 namespace {
@@ -21,12 +22,28 @@ void SlcanCan::start(std::uint32_t baud) {
   state_ = CanState::kActive;
 }
 
+void SlcanCan::watch(std::uint32_t id, const Clock& clock) {
+  watch_ = SlcanWatch(id);
+  clock_ = &clock;
+}
+
+bool SlcanCan::take_arrival(std::uint32_t& phase_us) {
+  const std::uint32_t arrival_us = arrival_us_.exchange(kNoArrival, std::memory_order_relaxed);
+  if (arrival_us == kNoArrival) return false;
+  phase_us = arrival_us;
+  return true;
+}
+
 void SlcanCan::on_interrupt() {
   uart_.clear_interrupts();
   std::uint8_t received = 0;
   for (int i = 0; i < kBytesAnInterrupt && uart_.receive(received); ++i) {
     const char character = static_cast<char>(received);
     if (!in_.push(&character, 1)) ++lost_bytes_;
+    if (clock_ != nullptr && watch_.take(character)) {
+      const auto phase_us = static_cast<std::uint32_t>(clock_->now_us() % kTickPeriodUs);
+      arrival_us_.store(phase_us, std::memory_order_relaxed);
+    }
   }
   if (uart_.take_overrun()) ++lost_bytes_;
   char next = 0;

@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "hal/can.hpp"
+#include "hal/clock.hpp"
 #include "hal/mps/byte_ring.hpp"
 #include "hal/mps/uart.hpp"
 #include "hal/slcan.hpp"
@@ -20,6 +21,11 @@ class SlcanCan final : public Can {
   /// MPS-040 Tells the adapter to open at 500 kbit/s. \param baud  kSlcanLeastBaud or more
   void start(std::uint32_t baud);
   void on_interrupt();
+  /// Before start(): from then on the arrival of each frame of this id is noted. \param clock  must outlive this
+  void watch(std::uint32_t id, const Clock& clock);
+  /// MPS-043 When the newest frame watched for ended, modulo the tick's period; asking takes it.
+  /// \return false when none has come since
+  [[nodiscard]] bool take_arrival(std::uint32_t& phase_us);
 
   /// MPS-041 Frames in the order of arrival. What is no frame of ours is read over; garbage, an adapter's no,
   /// and bytes that came too fast count as errors.
@@ -38,7 +44,12 @@ class SlcanCan final : public Can {
   Uart uart_{kUart1};
   ByteRing<kReceiveBytes> in_;
   ByteRing<kTransmitBytes> out_;
-  std::atomic<std::uint32_t> lost_bytes_{0};  ///< the interrupt's
+  static constexpr std::uint32_t kNoArrival = UINT32_MAX;
+
+  std::atomic<std::uint32_t> lost_bytes_{0};           ///< the interrupt's
+  std::atomic<std::uint32_t> arrival_us_{kNoArrival};  ///< the interrupt's, taken by control
+  SlcanWatch watch_{0};
+  const Clock* clock_ = nullptr;  ///< null: nothing is watched for
   SlcanParser parser_;
   CanState state_ = CanState::kDown;
   CanCounters counters_;

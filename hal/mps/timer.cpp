@@ -1,6 +1,7 @@
 #include "hal/mps/timer.hpp"
 
 #include "hal/mps/board.hpp"
+#include "hal/phase_lock.hpp"
 
 namespace s4tp::hal::mps {
 namespace {
@@ -13,7 +14,6 @@ constexpr std::uint32_t kSysTickPending = 1U << 26;
 constexpr std::uint32_t kEnableCoreClockInterrupt = 0x7;
 
 constexpr std::int32_t kCyclesPerUs = kCoreClockHz / 1'000'000;
-constexpr std::int32_t kMaxPhaseUs = 500;
 
 }  // namespace
 
@@ -27,6 +27,7 @@ void Timer::start(std::uint32_t tick_us) {
 
 void Timer::on_interrupt() {
   elapsed_cycles_ = elapsed_cycles_ + period_cycles_;
+  due_phase_cycles_ = (due_phase_cycles_ + period_cycles_) % tick_cycles_;
   // The hardware took the reload value when the counter passed zero, so a new one acts a period later.
   period_cycles_ = reg(kReload) + 1;
   reg(kReload) = tick_cycles_ - 1 + static_cast<std::uint32_t>(phase_us_ * kCyclesPerUs);
@@ -41,7 +42,11 @@ bool Timer::take() {
 }
 
 void Timer::adjust(std::int32_t phase_us) {
-  phase_us_ = phase_us < -kMaxPhaseUs ? -kMaxPhaseUs : phase_us > kMaxPhaseUs ? kMaxPhaseUs : phase_us;
+  phase_us_ = limited_phase_us(phase_us);
+}
+
+std::uint32_t Timer::due_phase_us() const {
+  return due_phase_cycles_ / static_cast<std::uint32_t>(kCyclesPerUs);
 }
 
 std::uint64_t Timer::cycles() const {

@@ -14,10 +14,10 @@ class MemoryFlashBank final : public FlashBank {
   MemoryFlashBank();
   [[nodiscard]] std::uint32_t size() const override { return kSize; }
   [[nodiscard]] const void* mapped() const override { return bytes_; }
-  /// HAL-020 Reading and writing beyond the end change nothing and answer false.
+  /// HAL-030 Reading and writing beyond the end change nothing and answer false.
   [[nodiscard]] bool read(std::uint32_t offset, void* destination, std::uint32_t size) const override;
   [[nodiscard]] bool erase() override;
-  /// HAL-021 As on the device, a bit once written to 0 stays 0 until erased; false when data would need it.
+  /// HAL-031 As on the device, a bit once written to 0 stays 0 until erased; false when data would need it.
   [[nodiscard]] bool write(std::uint32_t offset, const void* source, std::uint32_t size) override;
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-/// A driver who holds the speed he came with and steers along the route, whoever is in the way.
+/// Holds the speed of the start and steers along the route, whoever is in the way.
 
 #include "algo/planner/planner.hpp"
 

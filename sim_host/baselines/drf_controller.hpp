@@ -9,7 +9,7 @@
 ///                    still over C_t: steer there, slow down
 ///                    else: steer for risk = C_t, keep speed
 /// \endcode
-/// Risk is R_ego of method.md 3, preset kolekar2020: the field of the driver as he steers, on the boxes
+/// Risk is R_ego of method.md 3, preset kolekar2020: the field of the driver as it steers, on the boxes
 /// of the others where they are now and on what the road costs. Heading control aims at a point of the
 /// route's lane; the risk that decides is that of the steering it asks for. The plan is the law itself,
 /// driven on for 3 s in a world that stands. Source: method.md 5. The field begins at the rear axle

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "algo/occupancy/pace.hpp"
 #include "algo/trajectory/bicycle.hpp"
 #include "algo/trajectory/candidates.hpp"
 #include "algo/trajectory/path_walk.hpp"
@@ -13,12 +14,13 @@
 namespace s4tp::baselines {
 namespace {
 
+using occupancy::kNeverS;
+
 const RegisterPlanner kRegistered{
     planner<IdmLanePlanner>("idm_lane", "a plain driver: IDM, gap acceptance, needed lane changes")};
 
 constexpr float kFarM = 1e6F;
 constexpr std::uint8_t kNobody = 255;
-constexpr float kNeverS = 1e3F;
 constexpr float kShortestGapM = 0.5F;       // for the model; nearer is touching
 constexpr float kClearM = 0.7F;             // of a zone we wait before
 constexpr float kRoadEndM = 1.0F;           // of the road's end
@@ -36,15 +38,6 @@ constexpr float kStartingMps2 = 1.5F;  // who is slow may be gaining speed
 constexpr float kUsualHalfLengthM = 2.5F;
 constexpr int kStretches = 4;
 constexpr float kStretch = 1.7F;
-
-float time_to_cover_s(float way_m, float speed_mps, float gain_mps2, float top_mps) {
-  if (way_m <= 0.0F) return 0.0F;
-  const float top = std::max(top_mps, speed_mps);
-  const float gaining_m = (top * top - speed_mps * speed_mps) / (2.0F * gain_mps2);
-  if (way_m < gaining_m)
-    return (std::sqrt(speed_mps * speed_mps + 2.0F * gain_mps2 * way_m) - speed_mps) / gain_mps2;
-  return (top - speed_mps) / gain_mps2 + (way_m - gaining_m) / std::max(top, 0.1F);
-}
 
 const scene::EgoPath* path_with(const scene::Scene& scene, scene::Manoeuvre manoeuvre) {
   for (const scene::EgoPath& path : scene.ego_paths) {
@@ -114,7 +107,7 @@ Status IdmLanePlanner::plan(const planner::PlannerInput& input, Plan& plan,
   const Status status = scene_builder_.build(input.now_ms, input.ego, input.tracks, input.tracks_ms,
                                              input.map, parameters_, scene_);
   explanation.status = status;
-  if (status != Status::kOk) {  // he knows no way: he brakes
+  if (status != Status::kOk) {  // it knows no way: it brakes
     plan.trajectory.points[0] = start_;
     for (int i = 1; i < kTrajectoryPoints; ++i) {
       plan.trajectory.points[i] = trajectory::bicycle_step(plan.trajectory.points[i - 1],
@@ -301,7 +294,8 @@ bool IdmLanePlanner::refuses(const scene::ConflictZone& zone, float in_s, float 
         Crosser crosser;
         crosser.priority = zone.priority;
         const float limit_mps = scene_.map->lanes[zone.other_lane].speed_limit_mps;
-        crosser.arrives_s = time_to_cover_s(to_entry_m, speed_mps, kStartingMps2, 0.5F * limit_mps);
+        crosser.arrives_s =
+            occupancy::time_to_cover_s({speed_mps, kStartingMps2, 0.5F * limit_mps}, to_entry_m);
         crosser.gone_s = to_exit_m / std::max(speed_mps, 1.0F);
         crosser.can_stop =
             speed_mps * speed_mps < 2.0F * driver.pressed_braking_mps2 * std::max(to_entry_m, 0.0F);

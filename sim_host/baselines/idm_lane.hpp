@@ -1,7 +1,7 @@
 #pragma once
 /// A plain driver, as traffic simulations have them: keeps to the lane, follows by the intelligent driver
 /// model, accepts gaps at junctions and for lane changes: those the route needs, and to pass somebody slow.
-/// No prediction beyond "keeps his speed", no risk, no score.
+/// No prediction beyond "keeps its speed", no risk, no score.
 ///
 /// \code
 ///   scene -> lane: own, or the one beside when the route needs it, or it gains much, and the gap is accepted
@@ -43,15 +43,15 @@ struct IdmDriver {
 [[nodiscard]] bool change_accepted(const IdmDriver& driver, float speed_mps, const trajectory::Leader& ahead,
                                    const trajectory::Leader& behind);
 
-/// Somebody on his way through a conflict zone of ours, in seconds from now.
+/// Somebody on the way through a conflict zone of ours, in seconds from now.
 struct Crosser {
-  float arrives_s = 0.0F;  ///< <= 0: he is in it
+  float arrives_s = 0.0F;  ///< <= 0: in it already
   float gone_s = 0.0F;
   Priority priority = Priority::kFirstYields;  ///< seen from us: kFirstYields = we yield
   bool can_stop = true;                        ///< before it, braking at b
 };
 
-/// Whether we may be in the zone from `in_s` to `out_s`: he has gone, comes `margin_s` later, or owes us the
+/// Whether we may be in the zone from `in_s` to `out_s`: the other one has gone, comes `margin_s` later, or owes us the
 /// way.
 [[nodiscard]] bool gap_accepted(const Crosser& crosser, float in_s, float out_s, float margin_s);
 
@@ -64,11 +64,11 @@ class IdmLanePlanner {
   IdmDriver driver;
 
  private:
-  /// A leader, as the place where we would touch him.
+  /// A leader, as the place where we would touch it.
   struct Ahead {
     float touch_s_m;   ///< of our rear axle, at plan start
-    float speed_mps;   ///< his, kept
-    float least_mps2;  ///< harder we do not brake for him
+    float speed_mps;   ///< its own, kept
+    float least_mps2;  ///< harder we do not brake for it
   };
 
   [[nodiscard]] const scene::EgoPath& choose_path();

@@ -3,7 +3,7 @@
 /// names it:
 ///
 /// \code
-///     const RegisterPlanner kMine{planner<MyPlanner>("mine", "what he is, in a line")};
+///     const RegisterPlanner kMine{planner<MyPlanner>("mine", "what it is, in a line")};
 /// \endcode
 /// MyPlanner offers init() and plan() as s4tp::Planner does. It plans bare; the guard is put around it here
 /// (sim_host/baselines/guard.hpp), unless its file says otherwise. The files are linked as objects: an

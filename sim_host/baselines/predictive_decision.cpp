@@ -130,8 +130,8 @@ PdCost pd_features(const scene::Scene& scene, int path_index, const trajectory::
         if (i % kTtcStride != kTtcStride - 1) continue;
         const Pose before = trajectory::ego_box(trajectory.points[i].rear_axle, parameters).centre;
         const world::CarState us = car_at(before, own.centre, own.length_m, own.width_m);
-        const world::CarState him = car_at(mode.steps[i - 1], mode.steps[i], track.length_m, track.width_m);
-        least_s = std::min(least_s, static_cast<float>(metrics::time_to_collision_s(us, him, kTtcS)));
+        const world::CarState them = car_at(mode.steps[i - 1], mode.steps[i], track.length_m, track.width_m);
+        least_s = std::min(least_s, static_cast<float>(metrics::time_to_collision_s(us, them, kTtcS)));
       }
       ttc += future.probability * (1.0F - least_s / kTtcS);
     }

@@ -1,6 +1,6 @@
 /// SUMO's own driver (Krauss following, its lane changes and junction rules) in the ego's place, from the
-/// mission's start on: what a simulator takes for human, and a reference for time and success. He knows his
-/// traffic from inside, so there is no ECU and no guard; what he does is recorded and judged as any drive is.
+/// mission's start on: what a simulator takes for human, and a reference for time and success. It knows its
+/// traffic from inside, so there is no ECU and no guard; what it does is recorded and judged as any drive is.
 
 #include "sim_host/baselines/planner_registry.hpp"
 

@@ -1,6 +1,9 @@
 #include "sim_host/campaign/bus_log.hpp"
 
+#include <cerrno>
+#include <cstring>
 #include <stdexcept>
+#include <system_error>
 
 #include "algo/core/versions.hpp"
 #include "firmware/wire/candump.hpp"
@@ -13,7 +16,10 @@ std::string ecu_note(const std::string& planner, bool guarded, const Parameters&
 }
 
 BusLog::BusLog(const std::filesystem::path& file, std::uint64_t seed, const std::string& ecu_note)
-    : stream_(file), file_(file) {
+    : file_(file) {
+  std::error_code error;  // opening says what is wrong
+  if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path(), error);
+  stream_.open(file);
   stream_ << "# s4tp log: seed " << seed << ", " << ecu_note << (ecu_note.empty() ? "" : ", ") << "wire "
           << int{kWireVersion} << '\n';
   check();
@@ -30,7 +36,7 @@ void BusLog::write(std::uint64_t time_us, const std::vector<wire::Frame>& frames
 }
 
 void BusLog::check() const {
-  if (!stream_) throw std::runtime_error(file_.string() + ": cannot write the log");
+  if (!stream_) throw std::runtime_error(file_.string() + ": cannot write the log: " + std::strerror(errno));
 }
 
 }  // namespace s4tp::campaign

@@ -31,16 +31,17 @@ std::string digest_of(const world::Scenario& scenario) {
   return digest.hex();
 }
 
-}  // namespace
+bool is_sumo(const std::string& traffic) {
+  return world::engine_of(traffic) == world::Engine::kSumo;
+}
 
-Campaign load_campaign(const CampaignPlan& plan, const std::filesystem::path& scenario_root) {
-  Campaign campaign{plan, {}};
-  const auto is_sumo = [](const std::string& traffic) {
-    return world::engine_of(traffic) == world::Engine::kSumo;
-  };
-  const bool with_sumo = std::any_of(plan.traffic.begin(), plan.traffic.end(), is_sumo);
+using ByFlavourAndArgument =
+    std::map<std::pair<std::string, std::string>, std::shared_ptr<const CampaignScenario>>;
+
+ByFlavourAndArgument load_scenarios(const CampaignPlan& plan, const std::filesystem::path& scenario_root,
+                                    bool with_sumo) {
+  ByFlavourAndArgument loaded;
   std::map<std::string, std::string> argument_of;  // scenario name -> argument
-  std::map<std::pair<std::string, std::string>, std::shared_ptr<const CampaignScenario>> loaded;
   for (const std::string& flavour : plan.flavours) {
     for (const std::string& argument : plan.scenarios) {
       auto one = std::make_shared<CampaignScenario>();
@@ -56,22 +57,37 @@ Campaign load_campaign(const CampaignPlan& plan, const std::filesystem::path& sc
       loaded[{flavour, argument}] = one;
     }
   }
+  return loaded;
+}
+
+/// A planner's cells in one traffic, guarded or not.
+void add_cells(Campaign& campaign, const ByFlavourAndArgument& scenarios, const std::string& planner,
+               bool guarded, const std::string& traffic) {
+  const CampaignPlan& plan = campaign.plan;
+  for (const std::string& flavour : plan.flavours) {
+    for (const std::string& argument : plan.scenarios) {
+      const auto& scenario = scenarios.at({flavour, argument});
+      campaign.cells.push_back(
+          {{planner, scenario->scenario.name, flavour, traffic, guarded, plan.perception}, scenario});
+    }
+  }
+}
+
+}  // namespace
+
+Campaign load_campaign(const CampaignPlan& plan, const std::filesystem::path& scenario_root) {
+  const bool with_sumo = std::any_of(plan.traffic.begin(), plan.traffic.end(), is_sumo);
+  const ByFlavourAndArgument scenarios = load_scenarios(plan, scenario_root, with_sumo);
+  Campaign campaign{plan, {}};
   for (const std::string& planner : plan.planners) {
-    const bool by_sumo =
-        baselines::find_planner(planner).drives_in_sumo;  // in its traffic only, and nothing to guard
+    // SUMO's own driver: in its traffic only, and nothing to guard.
+    const bool by_sumo = baselines::find_planner(planner).drives_in_sumo;
     if (by_sumo && !with_sumo) {
       throw std::invalid_argument(planner + " drives in SUMO's traffic only: --traffic sumo");
     }
     for (const bool guarded : by_sumo ? std::vector<bool>{false} : plan.guards) {
       for (const std::string& traffic : plan.traffic) {
-        if (by_sumo && !is_sumo(traffic)) continue;
-        for (const std::string& flavour : plan.flavours) {
-          for (const std::string& argument : plan.scenarios) {
-            const auto& scenario = loaded.at({flavour, argument});
-            campaign.cells.push_back(
-                {{planner, scenario->scenario.name, flavour, traffic, guarded, plan.perception}, scenario});
-          }
-        }
+        if (!by_sumo || is_sumo(traffic)) add_cells(campaign, scenarios, planner, guarded, traffic);
       }
     }
   }

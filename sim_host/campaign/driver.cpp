@@ -5,7 +5,6 @@
 #include "firmware/can/frames.hpp"
 #include "hal/sim/bus.hpp"
 #include "hal/sim/null_devices.hpp"
-#include "hal/sim/sim_clock.hpp"
 
 namespace s4tp::campaign {
 namespace {
@@ -15,13 +14,12 @@ class EcuOnBus final : public Driver {
   EcuOnBus(const std::string& planner, bool guarded, const Parameters& parameters, hal::Telemetry* telemetry,
            planner::Probe* probe, const hal::FlashBank* weights)
       : ecu_(baselines::make_ecu(planner, guarded, parameters,
-                                 {ecu_port_, &clock_, &cycles_, &watchdog_, telemetry, weights}, probe)) {}
+                                 {ecu_port_, &cycles_, &watchdog_, telemetry, weights}, probe)) {}
 
   void tick(const std::vector<wire::Frame>& from_world, std::vector<wire::Frame>& to_world) override {
     for (const wire::Frame& frame : from_world) {
       if (!world_port_->send(to_hal(frame))) throw std::logic_error("the in-process bus refused a frame");
     }
-    clock_.follow(time_ms_ += kTickMs);
     ecu_->control_tick();
     if (ecu_->planning_due()) ecu_->planning_cycle();
     hal::CanFrame frame;
@@ -33,15 +31,11 @@ class EcuOnBus final : public Driver {
   const hal::Can& bus() const override { return *ecu_port_; }
 
  private:
-  static constexpr std::uint32_t kTickMs = 10;
-
   hal::sim::Bus bus_;
   hal::sim::Bus::Port* world_port_ = bus_.attach();
   hal::sim::Bus::Port* ecu_port_ = bus_.attach();
-  hal::sim::SimClock clock_;
   hal::sim::NullCycleCounter cycles_;
   hal::sim::NullWatchdog watchdog_;
-  std::uint32_t time_ms_ = 0;
   std::unique_ptr<baselines::AnyEcu> ecu_;
 };
 

@@ -132,8 +132,12 @@ ordered_json header_of(const Campaign& campaign, const Shard& shard, const std::
 
 std::string difference(const ordered_json& there, const ordered_json& here, const std::string& but) {
   std::string text;
+  constexpr std::size_t kShown = 60;  // of a value: where it begins to differ says enough
+  const auto shown = [](const std::string& value) {
+    return value.size() > kShown ? value.substr(0, kShown) + "..." : value;
+  };
   const auto note = [&](const std::string& key, const std::string& first, const std::string& second) {
-    text += (text.empty() ? "" : "; ") + key + ": " + first + " there, " + second + " here";
+    text += (text.empty() ? "" : "; ") + key + ": " + shown(first) + " there, " + shown(second) + " here";
   };
   for (const auto& [key, value] : here.items()) {
     if (key == but || key == "cells") continue;  // the cells follow from the rest

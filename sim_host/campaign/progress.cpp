@@ -1,7 +1,10 @@
 #include "sim_host/campaign/progress.hpp"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cmath>
+#include <iostream>
 
 namespace s4tp::campaign {
 namespace {
@@ -36,6 +39,13 @@ void Progress::done(double elapsed_s, const std::string& what) {
     out_ << counts << "  " << what << std::endl;
     last_line_s_ = elapsed_s;
   }
+}
+
+ConsoleProgress::ConsoleProgress(std::size_t total, std::size_t already)
+    : progress_(std::cerr, isatty(STDERR_FILENO) != 0, total, already) {}
+
+double ConsoleProgress::elapsed_s() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
 }
 
 void Progress::end() {

@@ -1,6 +1,7 @@
 #pragma once
 /// How far a campaign is: a bar with the time left on a terminal, now and then a plain line elsewhere.
 
+#include <chrono>
 #include <cstddef>
 #include <ostream>
 #include <string>
@@ -23,6 +24,19 @@ class Progress {
   std::size_t already_;
   std::size_t done_ = 0;
   double last_line_s_ = 0.0;
+};
+
+/// The same of this program, on its error output and by the clock.
+class ConsoleProgress {
+ public:
+  explicit ConsoleProgress(std::size_t total, std::size_t already = 0);
+  void done(const std::string& what) { progress_.done(elapsed_s(), what); }
+  void end() { progress_.end(); }
+  [[nodiscard]] double elapsed_s() const;
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  Progress progress_;
 };
 
 /// "45 s", "12 min", "3 h 20 min"

@@ -1,24 +1,16 @@
 #include "sim_host/campaign/table.hpp"
 
 #include <algorithm>
-#include <cstdarg>
-#include <cstdio>
 
 #include "sim_host/campaign/compare.hpp"
+#include "sim_host/world/scenario/format.hpp"
 
 namespace s4tp::campaign {
 namespace {
 
-using Cells = std::vector<const CellResult*>;
+using world::format;
 
-[[gnu::format(printf, 1, 2)]] std::string text(const char* format, ...) {
-  char line[400];
-  va_list arguments;
-  va_start(arguments, format);
-  std::vsnprintf(line, sizeof line, format, arguments);
-  va_end(arguments);
-  return line;
-}
+using Cells = std::vector<const CellResult*>;
 
 /// Cells that differ in planner and scenario only.
 std::string group_of(const Cell& cell) {
@@ -61,11 +53,11 @@ std::string scenario_of(const CellResult& cell) {
 
 void print_paper(std::ostream& out, const Cells& group) {
   const std::vector<std::string> scenarios = distinct(group, scenario_of);
-  out << text("%-20s", "planner");
-  for (const std::string& scenario : scenarios) out << text("%24.23s", scenario.c_str());
-  out << text("%8s\n", "all %");
+  out << format("%-20s", "planner");
+  for (const std::string& scenario : scenarios) out << format("%24.23s", scenario.c_str());
+  out << format("%8s\n", "all %");
   for (const std::string& planner : distinct(group, planner_of)) {
-    out << text("%-20.20s", planner.c_str());
+    out << format("%-20.20s", planner.c_str());
     int goals = 0;
     int episodes = 0;
     for (const std::string& scenario : scenarios) {
@@ -73,32 +65,32 @@ void print_paper(std::ostream& out, const Cells& group) {
         return cell.cell.planner == planner && cell.cell.scenario == scenario;
       });
       if (one.empty()) {
-        out << text("%24s", "-");
+        out << format("%24s", "-");
         continue;
       }
       const metrics::Summary& s = one.front()->summary;
       goals += s.success.count;
       episodes += s.episodes;
-      out << text(
+      out << format(
           "%24s",
-          text("%.1f / %.1f / %.3g", 100.0 * s.comp1_success, s.comp1_time, s.comp1_humanness).c_str());
+          format("%.1f / %.1f / %.3g", 100.0 * s.comp1_success, s.comp1_time, s.comp1_humanness).c_str());
     }
-    out << text("%8.2f\n", 100.0 * goals / std::max(episodes, 1));
+    out << format("%8.2f\n", 100.0 * goals / std::max(episodes, 1));
   }
 }
 
 void print_details(std::ostream& out, const Cells& group) {
-  out << text("%-20s%-16s%9s%17s%14s%5s%5s%10s%9s%9s%9s%8s%8s%9s%7s%7s%9s\n", "planner", "scenario", "goal",
-              "95 % interval", "hits (ours)", "off", "late", "to goal s", "TTC p05", "near m.", "|jerk|",
-              "brake", "RSS %", "PET<1.5%", "imp>2%", "imp>3%", "pressed%");
+  out << format("%-20s%-16s%9s%17s%14s%5s%5s%10s%9s%9s%9s%8s%8s%9s%7s%7s%9s\n", "planner", "scenario", "goal",
+                "95 % interval", "hits (ours)", "off", "late", "to goal s", "TTC p05", "near m.", "|jerk|",
+                "brake", "RSS %", "PET<1.5%", "imp>2%", "imp>3%", "pressed%");
   for (const CellResult* const cell : group) {
     const metrics::Summary& s = cell->summary;
-    out << text(
+    out << format(
         "%-20.19s%-16.15s%9s%17s%14s%5d%5d%10.1f%9.2f%9.2f%9.2f%8.1f%8.1f%9.1f%7.1f%7.1f%9.1f\n",
         cell->cell.planner.c_str(), cell->cell.scenario.c_str(),
-        text("%d/%d", s.success.count, s.episodes).c_str(),
-        text("%.1f..%.1f %%", 100.0 * s.success.interval.low, 100.0 * s.success.interval.high).c_str(),
-        text("%d (%d)", s.collision.count, s.at_fault.count).c_str(), s.off_road.count,
+        format("%d/%d", s.success.count, s.episodes).c_str(),
+        format("%.1f..%.1f %%", 100.0 * s.success.interval.low, 100.0 * s.success.interval.high).c_str(),
+        format("%d (%d)", s.collision.count, s.at_fault.count).c_str(), s.off_road.count,
         s.time_out.count + s.dead_ecu.count, s.seconds_to_goal, s.min_ttc_s_p05, s.near_misses,
         s.mean_abs_jerk_mps3, s.hardest_braking_mps2, 100.0 * s.rss_violation_share,
         100.0 * s.close_encroachment.share, 100.0 * s.imposed_over_2.share, 100.0 * s.imposed_over_3.share,
@@ -138,7 +130,7 @@ std::size_t print_failures(std::ostream& out, const std::vector<CellResult>& cel
     for (const metrics::EpisodeMetrics& episode : cell.episodes) {
       if (episode.ending == world::Ending::kGoal || ++count > limit) continue;
       const char* const whose = episode.collisions_at_fault > 0 ? " (ours)" : "";
-      out << text("%7.2f s  %-26s  ", episode.duration_s, (episode.cause + whose).c_str())
+      out << format("%7.2f s  %-26s  ", episode.duration_s, (episode.cause + whose).c_str())
           << command(cell.cell, episode.seed) << '\n';
     }
   }

@@ -104,7 +104,7 @@ Trajectory driven(const Drive& drive, std::size_t start) {
   return trajectory;
 }
 
-/// The others near him, with what they will have done.
+/// The others near the driver, with what they will have done.
 void see(const Drives& drives, int id, std::size_t start, scene::Scene& scene, satp::KinematicSet& others) {
   const Point here = position(drives.at(id).at(start)->centre);
   std::vector<std::pair<float, const Drive*>> near;

@@ -15,7 +15,7 @@ struct WatchOptions {
   int episodes = 20;
   std::uint64_t first_seed = 0;  ///< the others follow
   double duration_s = 120.0;     ///< of each, from an empty road
-  /// One more driver on the mission's way, from the time of entry on; he is traffic like all others.
+  /// One more driver on the mission's way, from the time of entry on; traffic like all others.
   bool neutral_driver = false;
   int threads = 0;                      ///< 0: one per core
   std::function<void(int)> on_episode;  ///< how many are done; one call at a time

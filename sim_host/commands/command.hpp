@@ -9,6 +9,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "algo/core/parameters.hpp"
@@ -59,6 +60,20 @@ extern const CLI::Validator kEpisodes;
 /// one. \throws std::runtime_error
 [[nodiscard]] std::filesystem::path folder_of_its_own(const std::filesystem::path& wanted);
 
+/// One made by folder_of_its_own(): it goes again with this object if nothing was written to it.
+class OwnFolder {
+ public:
+  OwnFolder() = default;
+  explicit OwnFolder(std::filesystem::path made) : made_(std::move(made)) {}
+  ~OwnFolder();
+  OwnFolder(OwnFolder&& from) noexcept : made_(std::exchange(from.made_, {})) {}
+  OwnFolder(const OwnFolder&) = delete;
+  OwnFolder& operator=(const OwnFolder&) = delete;
+
+ private:
+  std::filesystem::path made_;
+};
+
 /// `eval --scenario left_turn merge` names two scenarios, one of which has a subcommand's name: the names
 /// that follow a list's option become one argument, joined with commas. \param arguments  as main() has them,
 /// without the program
@@ -78,7 +93,7 @@ struct CommonOptions {
   void add_traffic_to(CLI::App& command);
   [[nodiscard]] Parameters parameters() const;
   /// Where nobody named --out, a folder of this command's own. \throws std::runtime_error
-  void choose_out();
+  [[nodiscard]] OwnFolder choose_out();
   /// A scenario by the name of a shipped one, by its folder or its .toml file; in the flavour asked for.
   [[nodiscard]] world::Scenario find_scenario(const std::string& name) const;
 };

@@ -3,6 +3,7 @@
 #include <iostream>
 #include <stdexcept>
 #include <string_view>
+#include <system_error>
 
 #include "sim_host/campaign/parameters_file.hpp"
 #include "sim_host/campaign/record_limits.hpp"
@@ -63,8 +64,15 @@ std::vector<std::string> with_lists_joined(const std::vector<std::string>& argum
   return joined;
 }
 
-void CommonOptions::choose_out() {
-  if (out_named == nullptr || out_named->count() == 0) out = folder_of_its_own(out);
+OwnFolder::~OwnFolder() {
+  std::error_code not_empty;
+  if (!made_.empty()) std::filesystem::remove(made_, not_empty);
+}
+
+OwnFolder CommonOptions::choose_out() {
+  if (out_named != nullptr && out_named->count() > 0) return {};
+  out = folder_of_its_own(out);
+  return OwnFolder(out);
 }
 
 void CommonOptions::add_to(CLI::App& command) {

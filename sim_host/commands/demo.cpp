@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "sim_host/campaign/episode_record.hpp"
+#include "sim_host/campaign/progress.hpp"
 #include "sim_host/campaign/records.hpp"
 #include "sim_host/campaign/results.hpp"
 #include "sim_host/campaign/table.hpp"
@@ -78,11 +79,11 @@ int demo(const CommonOptions& common, int episodes) {
 
   campaign::CampaignOptions options;
   options.trace = true;
-  std::size_t done = 0;
+  campaign::ConsoleProgress progress(campaign.episodes());
   options.on_episode = [&](const campaign::CampaignCell& cell, const campaign::EpisodeRow& row,
                            const campaign::EpisodeResult& result) {
-    std::cerr << '[' << ++done << '/' << campaign.episodes() << "] " << words(row.cell) << ", seed "
-              << row.metrics.seed << ": " << metrics::ending_name(row.metrics.ending) << '\n';
+    progress.done(words(row.cell) + ", seed " + std::to_string(row.metrics.seed) + ": " +
+                  metrics::ending_name(row.metrics.ending));
     view::draw_episode(
         cell.scenario->scenario, result,
         common.out / view::picture_name(row.cell.scenario, row.cell.planner, row.metrics.seed));
@@ -90,6 +91,7 @@ int demo(const CommonOptions& common, int episodes) {
   std::cerr << "seeds " << plan.first_seed << " to "
             << plan.first_seed + static_cast<std::uint64_t>(plan.episodes) - 1 << '\n';
   const std::vector<campaign::EpisodeRow> rows = run_campaign(campaign, jobs_of(campaign), options);
+  progress.end();
 
   const auto header = campaign::header_of(campaign, {}, common.parameters_file);
   const std::vector<campaign::CellResult> cells = collect(rows);
@@ -112,7 +114,8 @@ int demo(const CommonOptions& common, int episodes) {
 }  // namespace
 
 Command add_demo(CLI::App& tool) {
-  CLI::App* app = tool.add_subcommand("demo", "the four scenarios, s4tp beside two careless drivers");
+  CLI::App* app =
+      tool.add_subcommand("demo", "left_turn, merge, cruise and overtake: s4tp beside two careless drivers");
   struct Options {
     CommonOptions common;
     int episodes = 20;
@@ -122,7 +125,7 @@ Command add_demo(CLI::App& tool) {
   options->common.add_to(*app);
   app->add_option("--episodes", options->episodes, "per scenario and planner (default 20)")->check(kEpisodes);
   return {app, [options] {
-            options->common.choose_out();
+            const OwnFolder folder = options->common.choose_out();
             return demo(options->common, options->episodes);
           }};
 }

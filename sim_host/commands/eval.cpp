@@ -1,6 +1,3 @@
-#include <unistd.h>
-
-#include <chrono>
 #include <fstream>
 #include <iostream>
 #include <iterator>
@@ -63,10 +60,6 @@ campaign::Shard shard_of(const std::string& text) {
     throw std::invalid_argument("--shard " + text + ": accepted is i/n with i from 1 to n, such as 3/8");
   }
   return shard;
-}
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 /// Table, comparison, failures and JSON: what one run and merged parts have in common.
@@ -139,15 +132,14 @@ int run_eval(EvalOptions& options) {
   campaign::CampaignOptions run;
   run.threads = options.jobs;
   run.stop = &stop;
-  const auto start = std::chrono::steady_clock::now();
-  campaign::Progress progress(std::cerr, isatty(STDERR_FILENO) != 0, total, total - jobs.size());
+  campaign::ConsoleProgress progress(total, total - jobs.size());
   double driven_s = 0.0;
   run.on_episode = [&](const campaign::CampaignCell&, const campaign::EpisodeRow& row,
                        const campaign::EpisodeResult& result) {
     record.append(row);
     driven_s += result.recording.snapshots.back().time_s - result.recording.snapshots.front().time_s;
-    progress.done(seconds_since(start), words(row.cell) + ", seed " + std::to_string(row.metrics.seed) +
-                                            ": " + metrics::ending_name(row.metrics.ending));
+    progress.done(words(row.cell) + ", seed " + std::to_string(row.metrics.seed) + ": " +
+                  metrics::ending_name(row.metrics.ending));
   };
   const std::vector<campaign::EpisodeRow> fresh = run_campaign(campaign, jobs, run);
   progress.end();
@@ -165,7 +157,7 @@ int run_eval(EvalOptions& options) {
               << " --json FILE\n";
   }
   if (!fresh.empty()) {
-    const double wall_s = seconds_since(start);
+    const double wall_s = progress.elapsed_s();
     std::cout << fresh.size() << " episodes driven in " << campaign::rough_time(wall_s) << ": "
               << static_cast<int>(driven_s / wall_s) << " times real time\n";
   }

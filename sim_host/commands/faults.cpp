@@ -1,10 +1,9 @@
-#include <unistd.h>
-
 #include <fstream>
 #include <iostream>
 #include <iterator>
 #include <thread>
 
+#include "sim_host/campaign/progress.hpp"
 #include "sim_host/commands/command.hpp"
 #include "sim_host/faults/fault_campaign.hpp"
 #include "sim_host/metrics/metrics.hpp"
@@ -58,16 +57,13 @@ int judge_many(const FaultsOptions& options, const faults::Scenarios& scenarios)
   faults::CampaignOptions campaign = options.campaign;
   std::cerr << "seeds " << campaign.first_seed << " to "
             << campaign.first_seed + static_cast<std::uint64_t>(campaign.scripts) - 1 << '\n';
-  const bool terminal = isatty(STDERR_FILENO) != 0;
-  campaign.on_progress = [&](int done, int failed) {
-    if (!terminal && done % 1000 != 0 && done != campaign.scripts) return;
-    std::cerr << (terminal ? "\r" : "") << done << " of " << campaign.scripts << ", " << failed << " failed"
-              << (terminal && done != campaign.scripts ? "" : "\n") << std::flush;
-  };
+  campaign::ConsoleProgress progress(static_cast<std::size_t>(campaign.scripts));
+  campaign.on_progress = [&](int, int failed) { progress.done(std::to_string(failed) + " failed"); };
   const auto runner = [&](const faults::FaultScript& script) {
     return faults::run_script(scenarios, script);
   };
   const faults::CampaignResult result = faults::run_campaign(scenarios, runner, campaign);
+  progress.end();
 
   faults::print_table(std::cout, result);
   fs::create_directories(options.common.out);
@@ -111,7 +107,7 @@ Command add_faults(CLI::App& tool) {
             const faults::Scenarios scenarios = load(*options);
             if (script->count() > 0) return judge_one(scenarios, read_script(options->script));
             if (seed->count() == 0) {
-              options->common.choose_out();
+              const OwnFolder folder = options->common.choose_out();
               return judge_many(*options, scenarios);
             }
             std::vector<std::string> names;

@@ -1,6 +1,7 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "sim_host/campaign/progress.hpp"
 #include "sim_host/campaign/results.hpp"
 #include "sim_host/campaign/weights_file.hpp"
 #include "sim_host/clips/figures.hpp"
@@ -41,11 +42,12 @@ int run(const PredictOptions& options) {
   for (std::size_t k = 0; k < forecasters.size(); ++k) {
     const std::string& name = options.predictors[k];
     clips::ClipFigures figures(*forecasters[k], options.kept);
-    for (std::size_t i = 0; i < files.size(); ++i) {
-      std::cerr << '\r' << name << ": clip " << i + 1 << " of " << files.size() << ' ' << std::flush;
-      figures.add(clips::load_clip(files[i]));
+    campaign::ConsoleProgress progress(files.size());
+    for (const std::filesystem::path& file : files) {
+      figures.add(clips::load_clip(file));
+      progress.done(name + ", clip " + file.filename().string());
     }
-    std::cerr << '\r' << std::string(60, ' ') << '\r';
+    progress.end();
     for (const auto& [family, sums] : figures.families()) {
       nlohmann::json run = sums.all.figures();
       run["predictor"] = name;

@@ -21,8 +21,6 @@ namespace fs = std::filesystem;
 using recording::DriveNote;
 using view::format;
 
-constexpr double kTick_s = 0.01;
-
 struct ReplayOptions {
   CommonOptions common;
   fs::path file;
@@ -69,7 +67,7 @@ int replay(ReplayOptions& options) {
   playback.run();
   const int code = playback.report(std::cout);
   if (!options.view) return code;
-  options.common.choose_out();
+  const OwnFolder folder = options.common.choose_out();
   fs::create_directories(options.common.out);
   const fs::path page = options.common.out / "replay.html";
   playback.write_page(page, std::cout);
@@ -89,8 +87,8 @@ double kept_from_s(const fs::path& file) {
 
 int cut_same_start(const ReplayOptions& options, const world::Scenario& roads) {
   const DriveNote note = recording::Playback(playback_options(options)).note();
-  const double start_s =
-      *options.cut_s + note.take_over_tick * kTick_s - recording::kBefore_s - kept_from_s(options.file);
+  const double start_s = *options.cut_s + note.take_over_tick * world::kTick_s - recording::kBefore_s -
+                         kept_from_s(options.file);
   const recording::StartMade made =
       recording::write_same_start(options.file, note, start_s, roads, options.common.out);
   std::cout << options.common.out.string() << ": the start 10 s before; of " << made.told << " vehicles told "

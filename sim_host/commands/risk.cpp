@@ -3,6 +3,7 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "sim_host/campaign/progress.hpp"
 #include "sim_host/campaign/threshold.hpp"
 #include "sim_host/commands/command.hpp"
 #include "sim_host/view/field_picture.hpp"
@@ -53,18 +54,17 @@ nlohmann::ordered_json json_of(const campaign::Calibration& calibration) {
 int calibrate(CalibrateOptions& options) {
   campaign::Calibration calibration = campaign::empty_calibration();
   options.calibration.first_seed = options.common.seed;
+  campaign::ConsoleProgress progress(options.flavours.size() * options.scenarios.size() *
+                                     static_cast<std::size_t>(options.calibration.episodes));
   for (const std::string& flavour : options.flavours) {
     options.common.flavour = flavour;
     for (const std::string& name : options.scenarios) {
       const world::Scenario scenario = options.common.find_scenario(name);
-      options.calibration.on_episode = [&](int done) {
-        std::cerr << '\r' << name << ", " << flavour << ": " << done << " of " << options.calibration.episodes
-                  << ' ';
-      };
+      options.calibration.on_episode = [&](int) { progress.done(name + ", " + flavour); };
       campaign::calibrate(scenario, options.calibration, calibration);
-      std::cerr << '\n';
     }
   }
+  progress.end();
   if (calibration.cells.front().risks.empty()) {
     throw std::runtime_error("nobody drove for 3.4 s: more --seconds or --episodes");
   }

@@ -4,6 +4,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "sim_host/campaign/progress.hpp"
 #include "sim_host/commands/command.hpp"
 #include "sim_host/processes/stop_signals.hpp"
 #include "sim_host/roads/generator.hpp"
@@ -66,11 +67,13 @@ std::vector<std::string> road_folders(const std::string& text, const std::filesy
       if (!hidden && fs::is_regular_file(entry.path() / "scenario.toml")) folders.push_back(entry.path());
     }
   } else if (is_range(text, first, count)) {
+    campaign::ConsoleProgress progress(static_cast<std::size_t>(count));
     for (int i = 0; i < count; ++i) {
-      folders.push_back(
-          roads::write_road(first + static_cast<std::uint64_t>(i), scenario_root / "social.toml", out)
-              .folder);
+      const auto number = first + static_cast<std::uint64_t>(i);
+      folders.push_back(roads::write_road(number, scenario_root / "social.toml", out).folder);
+      progress.done("road " + std::to_string(number) + " drawn");
     }
+    progress.end();
   }
   if (folders.empty()) {
     throw std::invalid_argument(

@@ -2,6 +2,7 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "sim_host/campaign/progress.hpp"
 #include "sim_host/campaign/traffic_watch.hpp"
 #include "sim_host/commands/command.hpp"
 
@@ -27,6 +28,8 @@ void write(const std::filesystem::path& file, const std::string& text) {
 
 int run(TrafficOptions& options) {
   std::vector<metrics::TrafficRun> runs;
+  const std::size_t kinds = options.flavours.size() * options.scenarios.size() * options.engines.size();
+  campaign::ConsoleProgress progress(kinds * static_cast<std::size_t>(options.watch.episodes));
   for (const std::string& flavour : options.flavours) {
     options.common.flavour = flavour;
     for (const std::string& name : options.scenarios) {
@@ -34,15 +37,12 @@ int run(TrafficOptions& options) {
       for (const std::string& engine : options.engines) {
         options.watch.engine = world::engine_of(engine);
         options.watch.first_seed = options.common.seed;
-        options.watch.on_episode = [&](int done) {
-          std::cerr << '\r' << name << ", " << flavour << ", " << engine << ": " << done << " of "
-                    << options.watch.episodes << ' ';
-        };
+        options.watch.on_episode = [&](int) { progress.done(name + ", " + flavour + ", " + engine); };
         runs.push_back(campaign::watch_traffic(scenario, options.watch));
-        std::cerr << '\n';
       }
     }
   }
+  progress.end();
   metrics::write_traffic_tables(std::cout, runs);
   if (!options.json.empty()) write(options.json, metrics::traffic_json(runs).dump(2) + "\n");
   if (!options.markdown.empty()) {

@@ -163,8 +163,8 @@ class Run {
                    judge_};
   hal::sim::NullCycleCounter cycles_;
   hal::sim::NullWatchdog watchdog_;
-  std::unique_ptr<baselines::AnyEcu> ecu_ = baselines::make_ecu(
-      "s4tp", true, Parameters{}, {&witness_, nullptr, &cycles_, &watchdog_, &story_}, nullptr);
+  std::unique_ptr<baselines::AnyEcu> ecu_ =
+      baselines::make_ecu("s4tp", true, Parameters{}, {&witness_, &cycles_, &watchdog_, &story_}, nullptr);
   double speed_mps_ = 0.0;
   wire::Pose pose_;
 };

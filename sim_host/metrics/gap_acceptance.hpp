@@ -6,7 +6,7 @@
 
 namespace s4tp::metrics {
 
-/// The gaps one driver was offered until he took one.
+/// The gaps one driver was offered until one was taken.
 struct GapChoice {
   double largest_rejected_s = 0.0;                              ///< 0: took the first
   double accepted_s = std::numeric_limits<double>::infinity();  ///< infinity: nobody came any more
@@ -20,7 +20,7 @@ struct CriticalGap {
 };
 
 /// Maximum likelihood with a log-normal distribution of critical gaps over drivers: each one's lies between
-/// his largest rejected and his accepted gap, L = product of F(accepted) - F(rejected).
+/// a driver's largest rejected and its accepted gap, L = product of F(accepted) - F(rejected).
 /// Source: Troutbeck 1992, Estimating the critical acceptance gap from traffic movements; Brilon, Koenig,
 /// Troutbeck 1999, Useful estimation procedures for critical gaps.
 [[nodiscard]] CriticalGap critical_gap(const std::vector<GapChoice>& choices);

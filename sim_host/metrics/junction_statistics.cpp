@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "sim_host/world/map/lane_of.hpp"
 #include "sim_host/world/traffic/box.hpp"
 
 namespace s4tp::metrics {
@@ -19,10 +20,6 @@ constexpr double kFirstInLine_m = 15.0;
 constexpr double kTurn_rad = 0.6;
 constexpr double kStep_s = 0.1;
 constexpr double kStuck_s = 60.0;
-
-const NetworkLane& lane_of(const world::Network& network, LaneId id) {
-  return network.lanes[static_cast<std::size_t>(id)];
-}
 
 void post_encroachment(const world::Network& network, const std::vector<world::Journey>& tracks,
                        TrafficSamples& samples) {
@@ -96,7 +93,7 @@ Manoeuvre turn_of(const world::Network& network, LaneId inside) {
                                  : Manoeuvre::kStraight;
 }
 
-/// When a driver is first in line near the end of a lane: nobody of the others on it is still before him.
+/// When a driver is first in line near the end of a lane: nobody of the others on it is still before it.
 std::optional<double> first_in_line_s(const world::Journey& self, LaneId lane, double length_m,
                                       const std::vector<world::Journey>& tracks, double entered_s) {
   const double near_m = length_m - kFirstInLine_m - 0.5 * self.length_m;

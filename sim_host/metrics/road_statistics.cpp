@@ -4,6 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "sim_host/world/map/lane_of.hpp"
+
 namespace s4tp::metrics {
 namespace {
 
@@ -15,10 +17,6 @@ constexpr double kDetectorLane_m = 20.0;
 constexpr double kFollowing_s = 3.0;
 constexpr double kSameSpeed_mps = 1.0;
 constexpr double kMoving_mps = 3.0;
-
-const NetworkLane& lane_of(const world::Network& network, LaneId id) {
-  return network.lanes[static_cast<std::size_t>(id)];
-}
 
 /// The next car on the same lane ahead and behind a place.
 struct Beside {
@@ -149,7 +147,7 @@ void add_lane_changes(const world::Network& network, std::span<const world::Snap
       if (beside.ahead.car != nullptr) {
         samples.change_leads_s.push_back(gap_s({&car, s_m}, beside.ahead));
       }
-      if (from.successors.empty() && !lane_of(network, car.lane).successors.empty()) {  // his lane ends
+      if (from.successors.empty() && !lane_of(network, car.lane).successors.empty()) {  // its lane ends
         samples.choices[Manoeuvre::kMerge].push_back(
             merge_choice(network, snapshots, i, car.id, before->lane, car.lane, samples));
       }

@@ -40,10 +40,10 @@ struct TrafficSamples {
   std::vector<double> following_gaps_s;
   std::vector<double> speeds_mps;  ///< every second of every car
   /// Of each driver who yields in a junction: the intervals between cars with right of way that pass the
-  /// ground he has to cross, all streams together, each referred to the line by his own way from there. The
-  /// first begins when he is first in line within 15 m. At a merge: see `merge_gaps`.
+  /// ground it has to cross, all streams together, each referred to the line by its own way from there. The
+  /// first begins when it is first in line within 15 m. At a merge: see `merge_gaps`.
   std::map<Manoeuvre, std::vector<GapChoice>> choices;
-  std::map<Manoeuvre, std::vector<double>> waits_s;  ///< first in line until he enters the junction
+  std::map<Manoeuvre, std::vector<double>> waits_s;  ///< first in line until it enters the junction
   int still_waiting = 0;           ///< at a junction for more than 60 s when the recording ended
   std::vector<double> rejected_s;  ///< each gap of them that was let pass
   std::vector<double> accepted_s;  ///< each that was taken and ended

@@ -8,7 +8,6 @@
 #include "firmware/ecu/reports.hpp"
 #include "firmware/lockstep/lockstep_bus.hpp"
 #include "hal/sim/null_devices.hpp"
-#include "hal/sim/sim_clock.hpp"
 #include "sim_host/baselines/any_ecu.hpp"
 #include "sim_host/processes/bus_end.hpp"
 #include "sim_host/processes/ecu_realtime.hpp"
@@ -20,11 +19,9 @@ namespace s4tp::processes {
 namespace {
 
 using std::chrono::steady_clock;
-constexpr std::uint32_t kTick_ms = 10;
 
 /// What an ECU stands on in this process, besides its bus.
 struct Devices {
-  hal::sim::SimClock clock;
   hal::sim::NullCycleCounter cycles;
   hal::sim::NullWatchdog watchdog;
   EcuReporter reporter;
@@ -37,7 +34,7 @@ struct Devices {
     if (told && !tap.open(options.telemetry, options.planner, options.bus, options.parameters, reason))
       out << "no telemetry: " << reason.text << std::endl;
     return baselines::make_ecu(options.planner, options.guarded, options.parameters,
-                               {&bus, &clock, &cycles, &watchdog, &tap, options.weights.get()},
+                               {&bus, &cycles, &watchdog, &tap, options.weights.get()},
                                tap.is_open() ? &tap : nullptr);
   }
 };
@@ -112,7 +109,7 @@ EcuEnd run_in_lock_step(hal::linux_host::LinuxCan& can, const EcuProcessOptions&
       break;
     }
     heard = steady_clock::now();
-    devices.clock.follow(++ticks * kTick_ms);
+    ++ticks;
     ecu->control_tick();
     if (ecu->planning_due()) ecu->planning_cycle();
     devices.tap.note_status(ecu->core(), top);

@@ -12,13 +12,11 @@
 namespace s4tp::processes {
 namespace {
 
+using hal::kTickPeriodUs;
 using hal::linux_host::Grant;
-using hal::linux_host::kTickPeriodUs;
 
 constexpr int kControlPriority = 80;
 constexpr int kPlanningPriority = 70;
-// The world's frames of a tick take 3 ms on a bus of 500 kbit/s; the answer has the rest of the tick.
-constexpr std::uint32_t kLead_us = 4000;
 // Listening ends so long before a tick: waiting for frames is less exact than sleeping until an instant.
 constexpr std::uint64_t kQuiet_us = 1000;
 constexpr int kWaitsPerTick = 64;  // a line that comes in pieces wakes us without a frame
@@ -111,7 +109,7 @@ class Drive {
 
   void drive() {
     std::uint64_t heard_us = clock_.now_us();
-    timer_.start(bus_.take_motion_arrival().value_or(heard_us) + kLead_us);
+    timer_.start(bus_.take_motion_arrival().value_or(heard_us) + hal::kTickLeadUs);
     while (!stop_) {
       listen();
       timer_.sleep();
@@ -120,7 +118,7 @@ class Drive {
       result_.report.wake_ups.add_slips(timer_.wake_up().skipped);
       (void)bus_.take(0);
       if (const auto motion_us = bus_.take_motion_arrival())
-        timer_.adjust(hal::linux_host::phase_shift_us(*motion_us, kLead_us, timer_.due_us()));
+        timer_.adjust(hal::phase_shift_us(*motion_us, hal::kTickLeadUs, timer_.due_us()));
       ecu_.control_tick();
       wake_.release();
       tap_.note_status(ecu_.core(), bus_);

@@ -32,7 +32,7 @@ void TimedBus::keep(const hal::CanFrame& frame) {
   }
   heard_ = heard_ || is_tick;
   if (frame.id == wire::kMotionId && wire::e2e_crc_fits(to_wire(frame)))
-    motion_us_ = hal::linux_host::monotonic_us(can_.received_at_us(), hal::linux_host::kTickPeriodUs);
+    motion_us_ = hal::linux_host::monotonic_us(can_.received_at_us(), hal::kTickPeriodUs);
   if (size_ == kQueueFrames) {
     first_ = (first_ + 1) % kQueueFrames;
     --size_;

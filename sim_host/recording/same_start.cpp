@@ -15,6 +15,7 @@
 #include "sim_host/recording/ticks.hpp"
 #include "sim_host/world/ego_road.hpp"
 #include "sim_host/world/engine_factory.hpp"
+#include "sim_host/world/map/lane_of.hpp"
 #include "sim_host/world/traffic/traffic_engine.hpp"
 
 namespace s4tp::recording {
@@ -26,10 +27,6 @@ using world::Network;
 using world::NetworkLane;
 
 constexpr double kTick_s = 0.01;
-
-const NetworkLane& lane_of(const Network& network, LaneId lane) {
-  return network.lanes[static_cast<std::size_t>(lane)];
-}
 
 /// A position along a lane's shape as SUMO counts it.
 double sumo_position_m(const NetworkLane& lane, double s_m) {

@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdarg>
-#include <cstdio>
 #include <stdexcept>
+
+#include "sim_host/world/scenario/format.hpp"
 
 namespace s4tp::roads {
 namespace {
 
+using world::format;
 using world::LaneId;
 using world::NetworkLane;
 
@@ -16,15 +17,6 @@ constexpr double kFirstStart_m = 5.0;
 constexpr double kLatestStart_m = 15.0;
 constexpr double kHalfCar_m = 2.5;
 constexpr double kComfort_mps2 = 2.0;
-
-[[gnu::format(printf, 1, 2)]] std::string text(const char* format, ...) {
-  char line[400];
-  va_list arguments;
-  va_start(arguments, format);
-  std::vsnprintf(line, sizeof line, format, arguments);
-  va_end(arguments);
-  return line;
-}
 
 /// A way as streams: one for each lane that leads on without a change.
 std::vector<world::TrafficRoute> streams_of(const world::TrafficRoute& way, const world::Network& network) {
@@ -51,7 +43,7 @@ std::string flow_toml(const Streams& streams, const world::Network& network) {
   const int count = static_cast<int>(all.size());
   const int low = streams.choose_high == 0 ? count : std::min(streams.choose_low, count);
   const int high = streams.choose_high == 0 ? count : std::min(streams.choose_high, count);
-  std::string toml = text(
+  std::string toml = format(
       "{ choose = [%d, %d], vehicles_per_minute = [%.1f, %.1f], begin_s = [0, 3], spacing = \"random\", ",
       low, high, streams.vehicles_per_minute.low, streams.vehicles_per_minute.high);
   if (!streams.driver.empty()) {
@@ -63,7 +55,7 @@ std::string flow_toml(const Streams& streams, const world::Network& network) {
     for (std::size_t i = 0; i < stream.edges.size(); ++i) {
       toml += (i > 0 ? ", \"" : "\"") + stream.edges[i] + '"';
     }
-    toml += text("], start_lane = %d, end_lane = %d },\n", stream.start_lane, stream.end_lane);
+    toml += format("], start_lane = %d, end_lane = %d },\n", stream.start_lane, stream.end_lane);
   }
   return toml + "] }";
 }
@@ -95,7 +87,7 @@ std::string mission_toml(const RoadMission& mission, const world::Network& netwo
   // Who has to yield at the lane's end can: with comfort, from where the bumper is at entry.
   const double to_line_m = std::max(0.0, lane.centre.length_m() - start_m - kHalfCar_m);
   const double speed_mps = std::min(lane.speed_limit_mps, std::sqrt(2.0 * kComfort_mps2 * to_line_m));
-  return text(
+  return format(
       "[mission]\nstart_lane = \"%s_%d\"\nstart_pos_m = %.1f\ngoal_lane = \"%s_%d\"\ngoal_pos_m = -1.0\n"
       "entry_time_s = %.1f\ntime_limit_s = 80.0\nentry_speed_mps = %.1f\n",
       mission.start_edge.c_str(), mission.start_lane, start_m, mission.goal_edge.c_str(), mission.goal_lane,

@@ -24,9 +24,10 @@ struct SumoDrive {
 
 struct Replay {
   bool touched = false;
-  bool stood = false;             ///< the ego, when it was touched first
-  double touched_s = 0.0;         ///< after entry
-  double others_strayed_m = 0.0;  ///< largest distance between one of the others and himself in the drive
+  bool stood = false;      ///< the ego, when it was touched first
+  double touched_s = 0.0;  ///< after entry
+  double others_strayed_m =
+      0.0;  ///< largest distance between one of the others and the same one in the drive
 };
 
 [[nodiscard]] Replay replay(const Scenario& scenario, std::uint64_t seed, const SumoDrive& drive,

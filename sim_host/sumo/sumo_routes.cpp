@@ -10,7 +10,7 @@
 namespace s4tp::world {
 namespace {
 
-// A driver of orientation 0 is SUMO's default driver; the others differ from him as they differ from ours.
+// A driver of orientation 0 is SUMO's default driver; the others differ from it as they differ from ours.
 const SocialTraits kOrdinary = social_traits(0.0);
 constexpr double kTimegapMinor_s = 1.0;  // SUMO's default
 constexpr double kWait_s = 10.0;         // at a line, of a patient driver: p95 in docs/traffic_tables.md

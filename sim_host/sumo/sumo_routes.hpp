@@ -24,19 +24,16 @@ void check_names(const Scenario& scenario);
 /// social has these:
 ///
 /// \code
-///   Driver                   vType            of ours to SUMO's; a driver of orientation 0 has SUMO's
-///   default
+///   Driver                   vType            of ours to SUMO's; a driver of orientation 0 has SUMO's default
 ///   -----------------------  --------------- ---------------------------------------------------------------
 ///   gap_margin_s             jmTimegapMinor   both are the time between own leaving and the other's arrival:
 ///                                             as many seconds more or less than 1 s, at least 0
-///   patience_s               impatience       SUMO's grows by the same for all (1 in 300 s): what he is
-///   ahead
-///                                             of the ordinary driver after 10 s of waiting
+///   patience_s               impatience       SUMO's grows by the same for all (1 in 300 s): by how much
+///                                             the driver is ahead of the ordinary one after 10 s of waiting
 ///   change_threshold_mps2    lcSpeedGain      the share of the ordinary one's gain that is enough, inverted
 ///   asked_braking_mps2       lcAssertive      gaps asked for shrink as the braking asked for grows
 ///   rivalry                  lcCooperative    1 - rivalry: makes room, or closes up
-///   courtesy, politeness     -                SUMO's default driver makes room always (lcCooperative 1 is
-///   the
+///   courtesy, politeness     -                SUMO's default driver makes room always (lcCooperative 1 is the
 ///                                             most there is), and stops for nobody who has to yield
 ///   reaction_s               -                SUMO's drivers act in each step
 /// \endcode

@@ -1,3 +1,5 @@
+#include "sim_host/sumo/sumo_session.hpp"
+
 #include <netinet/in.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -6,8 +8,10 @@
 #include <cstring>
 #include <stdexcept>
 #include <thread>
+#include <vector>
 
-#include "sim_host/sumo/sumo_traffic.hpp"
+#include "sim_host/sumo/sumo_routes.hpp"
+#include "sim_host/world/traffic/traffic_flow.hpp"
 
 namespace s4tp::world {
 namespace {
@@ -59,13 +63,66 @@ int connect_to(int port) {
   return connection;
 }
 
+std::vector<std::string> arguments(const Scenario& scenario, const EngineOptions& options) {
+  std::vector<std::string> all{"--net-file", scenario.network_file.string()};
+  if (scenario.route_files.empty()) {
+    all.insert(all.end(), {"--route-files", "/dev/stdin"});
+  } else {
+    const std::size_t file = options.episode % scenario.route_files.size();
+    all.insert(all.end(),
+               {"--route-files", scenario.route_files[file].string(), "--additional-files", "/dev/stdin"});
+  }
+  const std::uint64_t seed = next_seed(options.seed ^ 0x5030) & 0x7FFFFFFFU;
+  all.insert(all.end(), {"--seed",
+                         std::to_string(seed),
+                         "--step-length",
+                         "0.1",
+                         "--default.action-step-length",
+                         "0.1",
+                         "--time-to-teleport",
+                         "-1",
+                         "--collision.check-junctions",
+                         "true",
+                         "--collision.action",
+                         "none",
+                         "--lanechange.duration",
+                         "3.0",
+                         "--tls.all-off",
+                         "true",  // the world's rule: priorities hold, signals do not
+                         "--no-step-log",
+                         "true",
+                         "--no-warnings",
+                         "true",
+                         "--duration-log.disable",
+                         "true",
+                         "--xml-validation",
+                         "never",
+                         "--precision",
+                         "6"});
+  return all;
+}
+
+std::string definitions(const Scenario& scenario, std::uint64_t seed, const std::string& driver) {
+  check_names(scenario);
+  const CarState car;
+  std::string text = ego_definitions(scenario.mission.edges, car.length_m, car.width_m, driver);
+  if (scenario.route_files.empty()) {
+    Random random(seed);
+    text += flow_definitions(scenario.network,
+                             draw_flows(scenario.network, scenario.flows, kDrawnUntil_s, random));
+  }
+  return routes_file(text);
+}
+
 }  // namespace
 
-SumoSession start_sumo(const std::vector<std::string>& arguments, const std::string& input) {
+SumoSession start_sumo(const Scenario& scenario, const EngineOptions& options, const std::string& driver) {
+  const std::vector<std::string> asked = arguments(scenario, options);
+  const std::string input = definitions(scenario, options.seed, driver);
   std::string words;
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     const ReservedPort port;
-    std::vector<std::string> all = arguments;
+    std::vector<std::string> all = asked;
     all.insert(all.end(), {"--remote-port", std::to_string(port.number()), "--num-clients", "1"});
     SumoSession session;
     session.process = std::make_unique<SumoProcess>("sumo", all, input);

@@ -8,7 +8,6 @@
 
 #include "sim_host/sumo/sumo_routes.hpp"
 #include "sim_host/world/traffic/box.hpp"
-#include "sim_host/world/traffic/traffic_flow.hpp"
 
 namespace s4tp::world {
 namespace {
@@ -18,7 +17,6 @@ using traci::Writer;
 
 constexpr double kStep_s = 0.1;
 constexpr int kTicksPerStep = 10;
-constexpr double kDrawnUntil_s = 240.0;
 constexpr double kBesideCentre_m = 0.2;  // further out a car is changing lanes
 constexpr double kStands_mps = 0.1;
 constexpr int kRouteOrNone = 3;  // moveToXY's keepRoute: a lane of its route, or else off the road
@@ -59,57 +57,6 @@ CarState rolled_on(const CarState& car) {
   return after(straight, kStep_s);
 }
 
-std::vector<std::string> arguments(const Scenario& scenario, const EngineOptions& options) {
-  std::vector<std::string> all{"--net-file", scenario.network_file.string()};
-  if (scenario.route_files.empty()) {
-    all.insert(all.end(), {"--route-files", "/dev/stdin"});
-  } else {
-    const std::size_t file = options.episode % scenario.route_files.size();
-    all.insert(all.end(),
-               {"--route-files", scenario.route_files[file].string(), "--additional-files", "/dev/stdin"});
-  }
-  const std::uint64_t seed = next_seed(options.seed ^ 0x5030) & 0x7FFFFFFFU;
-  all.insert(all.end(), {"--seed",
-                         std::to_string(seed),
-                         "--step-length",
-                         "0.1",
-                         "--default.action-step-length",
-                         "0.1",
-                         "--time-to-teleport",
-                         "-1",
-                         "--collision.check-junctions",
-                         "true",
-                         "--collision.action",
-                         "none",
-                         "--lanechange.duration",
-                         "3.0",
-                         "--tls.all-off",
-                         "true",  // the world's rule: priorities hold, signals do not
-                         "--no-step-log",
-                         "true",
-                         "--no-warnings",
-                         "true",
-                         "--duration-log.disable",
-                         "true",
-                         "--xml-validation",
-                         "never",
-                         "--precision",
-                         "6"});
-  return all;
-}
-
-std::string definitions(const Scenario& scenario, std::uint64_t seed, const std::string& driver) {
-  check_names(scenario);
-  const CarState car;
-  std::string text = ego_definitions(scenario.mission.edges, car.length_m, car.width_m, driver);
-  if (scenario.route_files.empty()) {
-    Random random(seed);
-    text += flow_definitions(scenario.network,
-                             draw_flows(scenario.network, scenario.flows, kDrawnUntil_s, random));
-  }
-  return routes_file(text);
-}
-
 const std::vector<std::string>& ids(const traci::Variables& variables, int variable) {
   return std::get<std::vector<std::string>>(variables.at(variable));
 }
@@ -120,7 +67,7 @@ SumoTraffic::SumoTraffic(const Scenario& scenario, const EngineOptions& options,
     : scenario_(scenario),
       options_(options),
       coupling_(coupling),
-      sumo_(start_sumo(arguments(scenario, options), definitions(scenario, options.seed, coupling.driver))) {
+      sumo_(start_sumo(scenario, options, coupling.driver)) {
   for (std::size_t i = 0; i < scenario.network.lanes.size(); ++i) {
     lane_of_[scenario.network.lanes[i].name] = static_cast<LaneId>(i);
   }

@@ -4,8 +4,8 @@
 /// \code
 ///   our ticks    t      t+0.01   ...          t+0.1
 ///   SUMO         A ------ one step, made at t ---- B      cars() lies between A and B
-///   the ego      seen at t; SUMO is told where it will be at t+0.1, so that in B everybody stands at one
-///   time
+///   the ego      seen at t; SUMO is told where it will be at t+0.1, so that in B everybody
+///                stands at one time
 /// \endcode
 
 #include <cstdint>
@@ -15,22 +15,11 @@
 #include <unordered_map>
 #include <vector>
 
-#include "sim_host/sumo/sumo_process.hpp"
-#include "sim_host/sumo/traci_client.hpp"
+#include "sim_host/sumo/sumo_session.hpp"
 #include "sim_host/world/scenario/scenario.hpp"
 #include "sim_host/world/traffic/traffic_engine.hpp"
 
 namespace s4tp::world {
-
-/// A SUMO that has loaded network and routes and waits for its first step.
-struct SumoSession {
-  std::unique_ptr<SumoProcess> process;
-  std::unique_ptr<traci::Client> client;
-};
-
-/// SUMO-003 \throws std::runtime_error with SUMO's own words when it does not come up
-/// \param input  what it finds at /dev/stdin
-[[nodiscard]] SumoSession start_sumo(const std::vector<std::string>& arguments, const std::string& input);
 
 /// How SUMO is told of an ego it does not drive. The defaults are those that touch least
 /// (docs/sumo_coupling.md); the others are there to be measured against.

@@ -112,9 +112,16 @@ std::vector<std::string> names(const Cells& cells, std::string campaign::Cell::*
   return found;
 }
 
-}  // namespace
+/// The three panels of a row, side by side.
+struct Panels {
+  Panel success;
+  Panel time;
+  Panel gap;
 
-std::string outcome_chart(const Cells& cells) {
+  [[nodiscard]] double width_px() const { return gap.left_px + kPanelPx + 16.0; }
+};
+
+Panels panels_for(const Cells& cells) {
   double longest_s = 10.0;
   for (const CellResult* const cell : cells) {
     const std::vector<double> times_s = goal_times(*cell);
@@ -129,57 +136,77 @@ std::string outcome_chart(const Cells& cells) {
                    step_s, "time to goal [s], those that reach it"};
   const Panel gap{time.left_px + kPanelPx + kBetweenPx, kGapShownM, 2.0,
                   format("smallest gap [m], all; %.0f: and more", kGapShownM)};
-  const double width = gap.left_px + kPanelPx + 16.0;
+  return {success, time, gap};
+}
 
+std::string row_of(const CellResult& cell, const Panels& panels, double top_px) {
+  const double middle = top_px + kLinePx / 2;
+  return "<g>" + tooltip(cell) +
+         format("<rect x=\"0\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" fill=\"transparent\"/>\n", top_px,
+                panels.width_px(), kLinePx) +
+         interval_mark(cell, panels.success, middle) +
+         text(panels.success.left_px + kPanelPx + kCountPx, middle + 4.0, "end",
+              format("%d/%d", cell.summary.success.count, cell.summary.episodes),
+              "class=\"soft\" font-size=\"11\"") +
+         box_mark(cell, goal_times(cell), panels.time, middle) +
+         box_mark(cell, gaps(cell), panels.gap, middle) + "</g>\n";
+}
+
+/// Titles, and a line for each step, behind rows from `top_px` to `bottom_px`.
+std::string scales(const Panels& panels, double top_px, double bottom_px) {
+  std::string drawn;
+  for (const Panel& panel : {panels.success, panels.time, panels.gap}) {
+    drawn += text(panel.left_px, top_px - 18.0, "start", panel.title, "class=\"soft\" font-size=\"11\"");
+    for (double value = 0.0; value <= panel.most + 1e-9; value += panel.step) {
+      drawn += line(panel.x(value), top_px - 2.0, panel.x(value), bottom_px, "var(--line)", 1.0);
+      drawn += text(panel.x(value), top_px - 5.0, "middle", format("%.0f", value),
+                    "class=\"soft\" font-size=\"10\"");
+    }
+  }
+  return drawn;
+}
+
+/// One scenario's rows, by planner, guarded ones first. \param y_px  advanced by its height
+std::string scenario_rows(const std::string& scenario, const Cells& cells, const Panels& panels,
+                          double& y_px) {
+  const double top = y_px + kHeadPx;
+  double row = top;
+  std::string marks;
+  for (const std::string& planner : names(cells, &campaign::Cell::planner)) {
+    const double begin = row;
+    for (const bool guarded : {true, false}) {
+      for (const CellResult* const cell : cells) {
+        if (cell->cell.planner != planner || cell->cell.guarded != guarded) continue;
+        marks += row_of(*cell, panels, row);
+        row += kLinePx;
+      }
+    }
+    marks += text(kLabelPx - 12.0, (begin + row) / 2 + 4.0, "end", planner,
+                  planner == "s4tp" ? "font-weight=\"600\"" : "");
+    row += 5.0;
+  }
+  const std::string title = text(0.0, y_px + 14.0, "start", scenario, "font-weight=\"600\" font-size=\"14\"");
+  y_px = row + 14.0;
+  return title + scales(panels, top, row) + marks;
+}
+
+}  // namespace
+
+std::string outcome_chart(const Cells& cells) {
+  const Panels panels = panels_for(cells);
   std::string body;
   double y = 8.0;
   for (const std::string& scenario : names(cells, &campaign::Cell::scenario)) {
     Cells here;
     std::copy_if(cells.begin(), cells.end(), std::back_inserter(here),
                  [&](const CellResult* cell) { return cell->cell.scenario == scenario; });
-    body += text(0.0, y + 14.0, "start", scenario, "font-weight=\"600\" font-size=\"14\"");
-    const double top = y + kHeadPx;
-    const std::vector<std::string> planners = names(here, &campaign::Cell::planner);
-    std::string marks;
-    double row = top;
-    for (const std::string& planner : planners) {
-      const double begin = row;
-      for (const bool guarded : {true, false}) {
-        for (const CellResult* const cell : here) {
-          if (cell->cell.planner != planner || cell->cell.guarded != guarded) continue;
-          const double middle = row + kLinePx / 2;
-          marks += "<g>" + tooltip(*cell) +
-                   format("<rect x=\"0\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" fill=\"transparent\"/>\n",
-                          row, width, kLinePx) +
-                   interval_mark(*cell, success, middle) +
-                   text(success.left_px + kPanelPx + kCountPx, middle + 4.0, "end",
-                        format("%d/%d", cell->summary.success.count, cell->summary.episodes),
-                        "class=\"soft\" font-size=\"11\"") +
-                   box_mark(*cell, goal_times(*cell), time, middle) +
-                   box_mark(*cell, gaps(*cell), gap, middle) + "</g>\n";
-          row += kLinePx;
-        }
-      }
-      marks += text(kLabelPx - 12.0, (begin + row) / 2 + 4.0, "end", planner,
-                    planner == "s4tp" ? "font-weight=\"600\"" : "");
-      row += 5.0;
-    }
-    for (const Panel& panel : {success, time, gap}) {
-      body += text(panel.left_px, top - 18.0, "start", panel.title, "class=\"soft\" font-size=\"11\"");
-      for (double value = 0.0; value <= panel.most + 1e-9; value += panel.step) {
-        body += line(panel.x(value), top - 2.0, panel.x(value), row, "var(--line)", 1.0);
-        body += text(panel.x(value), top - 5.0, "middle", format("%.0f", value),
-                     "class=\"soft\" font-size=\"10\"");
-      }
-    }
-    body += marks;
-    y = row + 14.0;
+    body += scenario_rows(scenario, here, panels, y);
   }
   return format(
              "<svg viewBox=\"0 0 %.0f %.0f\" width=\"%.0f\" font-size=\"12\" role=\"img\" "
              "aria-label=\"success, "
              "time to goal and smallest gap by scenario and planner\">\n",
-             width, y, width) +
+             panels.width_px(), y, panels.width_px()) +
          body + "</svg>\n";
 }
 

@@ -2,21 +2,10 @@
 
 #include <zlib.h>
 
-#include <cstdarg>
-#include <cstdio>
 #include <fstream>
 #include <stdexcept>
 
 namespace s4tp::view {
-
-std::string format(const char* pattern, ...) {
-  char text[400];
-  va_list arguments;
-  va_start(arguments, pattern);
-  std::vsnprintf(text, sizeof text, pattern, arguments);
-  va_end(arguments);
-  return text;
-}
 
 std::string packed(const std::string& text) {
   uLongf size = compressBound(text.size());

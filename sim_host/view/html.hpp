@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sim_host/world/map/escaped.hpp"
+#include "sim_host/world/scenario/format.hpp"
 
 namespace s4tp::view {
 
@@ -22,9 +23,7 @@ extern const char* const kLiveHtml;
 extern const char* const kLiveJs;
 
 using world::escaped;
-
-/// As printf.
-[[nodiscard]] std::string format(const char* pattern, ...) __attribute__((format(printf, 1, 2)));
+using world::format;
 
 /// Deflated (zlib's format), then base64: what a browser's DecompressionStream takes.
 [[nodiscard]] std::string packed(const std::string& text);

@@ -166,7 +166,7 @@ std::string in_words(const campaign::CycleTrace& cycle) {
     words += format(" It counts on %s letting us pass (%.0f %%).", name_of(cycle, e.dominating_track).c_str(),
                     100.0 * e.rests_on.probability);
   }
-  // Behind somebody slower a passenger wonders why he is not passed.
+  // Behind somebody slower a passenger wonders why the car does not pass.
   const bool follows = reason.because == Because::kLeader && reason.doing == Doing::kDriving;
   if (follows && (e.beside.track != kNobody || e.beside.unseen()) && wanted_further(cycle, e.beside)) {
     words += std::string(" No change to the ") + name_of(e.beside.manoeuvre) + ": " +

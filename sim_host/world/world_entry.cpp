@@ -37,7 +37,7 @@ void free_start_zone(const Scenario& scenario, TrafficEngine& traffic) {
 }
 
 /// Nothing of it depends on the ego, so it is driven before it is shown: who is taken out of the start zone
-/// at entry has never been there, or the ECU would still believe in him.
+/// at entry has never been there, or the ECU would still believe in it.
 std::vector<std::vector<CarState>> run_pre_roll(const Scenario& scenario, double pre_roll_s,
                                                 TrafficEngine& traffic) {
   std::vector<std::vector<CarState>> pre_roll;

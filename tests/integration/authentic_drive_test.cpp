@@ -55,7 +55,7 @@ class Drive {
     }
     bus_.fault = &wire;
     ecu_ = baselines::make_ecu("s4tp", true, Parameters{},
-                               {&over(ecu_end, *ecu_port_), nullptr, &cycles_, &watchdog_, &plans}, nullptr);
+                               {&over(ecu_end, *ecu_port_), &cycles_, &watchdog_, &plans}, nullptr);
   }
 
   bool tick() {

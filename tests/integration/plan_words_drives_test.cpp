@@ -99,7 +99,7 @@ TEST(PlanWordsOnDrives, MergeHasToLeaveItsLane) {
   EXPECT_TRUE(says(results, "Changing to the left lane"));
 }
 
-// cruise and overtake: who is slower ahead is the reason, and he is ahead: in front of us and within 60 m.
+// cruise and overtake: who is slower ahead is the reason, and is ahead: in front of us and within 60 m.
 TEST(PlanWordsOnDrives, FollowsWhoIsAhead) {
   int followed = 0;
   for (const char* name : {"cruise", "overtake"}) {

@@ -2,47 +2,25 @@
 #include "sim_host/sumo/sumo_traffic.hpp"
 
 #include <gtest/gtest.h>
-#include <signal.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <set>
-#include <thread>
 
 #include "sim_host/campaign/campaign.hpp"
 #include "sim_host/campaign/episode.hpp"
-#include "sim_host/sumo/coupling_floor.hpp"
-#include "sim_host/world/engine_factory.hpp"
 #include "sim_host/world/traffic/box.hpp"
 #include "sim_host/world/world.hpp"
+#include "tests/support/sumo_scenarios.hpp"
 
 namespace s4tp::world {
 namespace {
 
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
-
-Scenario shipped(const std::string& name) {
-  return load_scenario(fs::path(S4TP_SOURCE_DIR) / "sim_host/scenarios" / name);
-}
-
-EngineOptions without_ego(std::uint64_t seed) {
-  EngineOptions options;
-  options.engine = Engine::kSumo;
-  options.seed = options.episode = seed;
-  options.ego = DrivenBy::kNobody;
-  return options;
-}
-
-void advance(TrafficEngine& traffic, double until_s, const EgoSeen* ego = nullptr) {
-  while (traffic.time_s() < until_s - 1e-6) traffic.step(ego);
-}
 
 EgoSeen standing_at(const Scenario& scenario, LaneId lane, double s_m) {
   const PolylinePose pose = scenario.network.lanes[static_cast<std::size_t>(lane)].centre.at(s_m);
@@ -61,57 +39,6 @@ std::vector<LaneId> way_through(const Scenario& scenario) {
     if (lane_of(way.back()).edge == lane_of(scenario.mission.goal_lane).edge) return way;
   }
   return {};
-}
-
-bool same(const std::vector<CarState>& a, const std::vector<CarState>& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const CarState& x, const CarState& y) {
-    return x.id == y.id && x.centre.x == y.centre.x && x.centre.y == y.centre.y &&
-           x.speed_mps == y.speed_mps && x.heading_rad == y.heading_rad && x.lane == y.lane;
-  });
-}
-
-std::string what_of(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const std::exception& error) {
-    return error.what();
-  }
-  return "nothing";
-}
-
-/// A folder with a program called sumo, first along PATH while this lives.
-class FakeSumo {
- public:
-  explicit FakeSumo(const std::string& script) : before_(std::getenv("PATH")) {
-    fs::create_directories(folder_);
-    const fs::path program = folder_ / "sumo";
-    std::ofstream(program) << "#!/bin/sh\n" << script << '\n';
-    fs::permissions(program, fs::perms::owner_all);
-    setenv("PATH", (folder_.string() + ":" + before_).c_str(), 1);
-  }
-  ~FakeSumo() {
-    setenv("PATH", before_.c_str(), 1);
-    fs::remove_all(folder_);
-  }
-
- private:
-  fs::path folder_ = fs::temp_directory_path() / ("s4tp_fake_sumo_" + std::to_string(getpid()));
-  std::string before_;
-};
-
-/// Running or a zombie whose parent has not looked yet: only the first counts.
-bool runs(pid_t process) {
-  std::ifstream stat("/proc/" + std::to_string(process) + "/stat");
-  std::string id;
-  std::string name;
-  std::string state;
-  return stat >> id >> name >> state && state != "Z" && state != "X";
-}
-
-bool ends_soon(pid_t process) {
-  const auto end = std::chrono::steady_clock::now() + 20s;
-  while (runs(process) && std::chrono::steady_clock::now() < end) std::this_thread::sleep_for(5ms);
-  return !runs(process);
 }
 
 // WORLD-040 One seed, the same cars to the bit; another seed, others.
@@ -283,7 +210,7 @@ TEST(SumoTraffic, ClearsAStretch) {
   EXPECT_EQ(traffic.finished(), finished);
 }
 
-// A user's own route files: the episode takes its number modulo theirs; ids and types are his.
+// A user's own route files: the episode takes its number modulo theirs; ids and types are the user's.
 TEST(SumoTraffic, TakesRouteFilesByEpisode) {
   Scenario scenario = shipped("cruise");
   const fs::path folder = fs::temp_directory_path() / ("s4tp_routes_" + std::to_string(getpid()));
@@ -305,213 +232,6 @@ TEST(SumoTraffic, TakesRouteFilesByEpisode) {
               episode == 0 ? 0 : 1);
   }
   fs::remove_all(folder);
-}
-
-// SUMO dies in the middle of an episode: the next step says so at once.
-TEST(SumoTraffic, SaysThatSumoHasDied) {
-  const Scenario scenario = shipped("cruise");
-  SumoTraffic traffic(scenario, without_ego(5));
-  advance(traffic, 1.0);
-  kill(traffic.process(), SIGKILL);
-  const std::string what = what_of([&] { advance(traffic, 2.0); });
-  EXPECT_NE(what.find("closed the connection"), std::string::npos) << what;
-  EXPECT_NE(what.find("it has ended"), std::string::npos) << what;
-}
-
-// SUMO-003 A SUMO that cannot load its network, cannot have its port, or is not there, is an error in its
-// words.
-TEST(SumoTraffic, SaysWhySumoDoesNotComeUp) {
-  Scenario scenario = shipped("cruise");
-  scenario.network_file = "/nowhere.net.xml";
-  const std::string no_network = what_of([&] { SumoTraffic traffic(scenario, without_ego(5)); });
-  EXPECT_NE(no_network.find("nowhere.net.xml"), std::string::npos) << no_network;
-  {
-    const FakeSumo refused("echo 'Error: Address already in use' >&2; exit 1");
-    const std::string what = what_of([&] { SumoTraffic traffic(scenario, without_ego(5)); });
-    EXPECT_NE(what.find("Address already in use"), std::string::npos) << what;
-  }
-  const std::string missing = what_of([] { SumoProcess("no-such-sumo", {}, ""); });
-  EXPECT_NE(missing.find("apt-get install sumo"), std::string::npos) << missing;
-}
-
-// SUMO-001 The child ends with its object, and when whoever started it is killed.
-TEST(SumoProcess, NeverOutlivesUs) {
-  pid_t child = 0;
-  {
-    const SumoProcess process("sleep", {"1000"}, "");
-    child = process.id();
-    EXPECT_TRUE(runs(child));
-  }
-  EXPECT_FALSE(runs(child));
-
-  int ids[2];
-  ASSERT_EQ(pipe(ids), 0);
-  const pid_t starter = fork();
-  if (starter == 0) {
-    const SumoProcess process("sleep", {"1000"}, "");
-    const pid_t id = process.id();
-    (void)!write(ids[1], &id, sizeof id);
-    pause();
-  }
-  ASSERT_EQ(read(ids[0], &child, sizeof child), static_cast<ssize_t>(sizeof child));
-  EXPECT_TRUE(runs(child));
-  kill(starter, SIGKILL);
-  waitpid(starter, nullptr, 0);
-  EXPECT_TRUE(ends_soon(child));
-}
-
-// SUMO-001 It outlives the thread that made it: the kernel's signal of a parent's death follows the thread
-// that forked.
-TEST(SumoProcess, OutlivesTheThreadThatMadeIt) {
-  std::unique_ptr<SumoProcess> process;
-  std::thread([&] {
-    process = std::make_unique<SumoProcess>("sleep", std::vector<std::string>{"1000"}, "");
-  }).join();
-  std::this_thread::sleep_for(100ms);
-  EXPECT_TRUE(process->lives());
-  const pid_t child = process->id();
-  process.reset();
-  EXPECT_FALSE(runs(child));
-}
-
-/// The programs called sumo whose parent is `process`.
-std::set<pid_t> sumos_of(pid_t process) {
-  std::set<pid_t> found;
-  for (const auto& entry : fs::directory_iterator("/proc")) {
-    std::ifstream stat(entry.path() / "stat");
-    pid_t id = 0;
-    std::string name;
-    std::string state;
-    pid_t parent = 0;
-    if (stat >> id >> name >> state >> parent && parent == process && name == "(sumo)") found.insert(id);
-  }
-  return found;
-}
-
-// SUMO-001 A campaign of two episodes at a time is interrupted, ended or killed while SUMOs run: none is
-// left.
-TEST(SumoProcess, NoneIsLeftOfAnInterruptedCampaign) {
-  const fs::path folder = fs::temp_directory_path() / ("s4tp_sumo_eval_" + std::to_string(getpid()));
-  for (const int signal : {SIGINT, SIGTERM, SIGKILL}) {
-    fs::remove_all(folder);
-    fs::create_directories(folder);
-    const pid_t campaign = fork();
-    if (campaign == 0) {
-      const std::string tool = fs::path(S4TP_BINARY_DIR) / "sim_host" / "s4tp_tool";
-      const std::string out = folder / "out";
-      (void)!freopen((folder / "said").c_str(), "w", stdout);
-      (void)!freopen((folder / "said").c_str(), "w", stderr);
-      execl(tool.c_str(), tool.c_str(), "eval", "--planner", "constant_speed", "--scenarios", "cruise",
-            "--traffic", "sumo", "--episodes", "1000", "--jobs", "2", "--out", out.c_str(), nullptr);
-      _exit(127);
-    }
-    std::set<pid_t> sumos;
-    const auto end = std::chrono::steady_clock::now() + 60s;
-    while (sumos.size() < 2 && runs(campaign) && std::chrono::steady_clock::now() < end) {
-      sumos = sumos_of(campaign);
-    }
-    EXPECT_EQ(sumos.size(), 2U);
-    kill(campaign, signal);
-    int status = 0;
-    waitpid(campaign, &status, 0);
-    if (signal == SIGKILL) {
-      EXPECT_TRUE(WIFSIGNALED(status));
-    } else {
-      EXPECT_EQ(WEXITSTATUS(status), 130);
-    }
-    for (const pid_t sumo : sumos) EXPECT_TRUE(ends_soon(sumo)) << "signal " << signal;
-  }
-  fs::remove_all(folder);
-}
-
-// An episode over CAN frames with SUMO's traffic reaches its goal, twice the same to the bit.
-TEST(SumoTraffic, DrivesAnEpisode) {
-  campaign::EpisodeOptions options;
-  options.seed = 3;
-  options.engine = Engine::kSumo;
-  const Scenario scenario = shipped("left_turn");
-  const Recording one = campaign::run_episode(scenario, options).recording;
-  const Recording again = campaign::run_episode(scenario, options).recording;
-  EXPECT_EQ(one.ending, Ending::kGoal);
-  ASSERT_EQ(one.snapshots.size(), again.snapshots.size());
-  for (std::size_t i = 0; i < one.snapshots.size(); ++i) {
-    EXPECT_TRUE(same(one.snapshots[i].others, again.snapshots[i].others)) << i;
-    EXPECT_TRUE(same({one.snapshots[i].ego}, {again.snapshots[i].ego})) << i;
-  }
-}
-
-// WORLD-041 SUMO's own driver takes the ego from the mission's start at entry speed to its goal; no ECU
-// answers.
-TEST(SumoTraffic, LetsSumoDriveTheEgo) {
-  const Scenario scenario = shipped("merge");
-  WorldOptions options;
-  options.seed = 3;
-  options.engine = Engine::kSumo;
-  options.ego_by_traffic = true;
-  World world(scenario, options);
-  std::vector<wire::Frame> frames;
-  while (!world.finished()) {
-    frames.clear();
-    world.tick(frames);
-    if (world.time_s() >= 0.0 && world.time_s() < 0.005) {
-      EXPECT_DOUBLE_EQ(world.recording().snapshots.back().ego.speed_mps, scenario.mission.start_speed_mps);
-    }
-  }
-  EXPECT_EQ(world.recording().ending, Ending::kGoal);
-  const std::vector<Snapshot>& shots = world.recording().snapshots;
-  for (std::size_t i = 1; i < shots.size(); ++i) {  // no jump: 20 m/s for 0.1 s at most
-    EXPECT_LT(std::hypot(shots[i].ego.centre.x - shots[i - 1].ego.centre.x,
-                         shots[i].ego.centre.y - shots[i - 1].ego.centre.y),
-              2.0);
-  }
-}
-
-// The planner sumo_driver is that driver, from the same start, through the same recording and figures; bare
-// and guarded he is the same, so he has one cell. Nobody drives against SUMO's will: elsewhere he is refused.
-TEST(SumoDriver, IsAPlannerOfTheCampaign) {
-  campaign::CampaignPlan plan;
-  plan.planners = {"constant_speed", "sumo_driver"};
-  plan.scenarios = {"merge", "cruise"};
-  plan.guards = {true, false};
-  plan.episodes = 2;
-  const fs::path scenarios = fs::path(S4TP_SOURCE_DIR) / "sim_host/scenarios";
-  const std::string refused = what_of([&] { (void)campaign::load_campaign(plan, scenarios); });
-  EXPECT_NE(refused.find("sumo_driver drives in SUMO's traffic only: --traffic sumo"), std::string::npos)
-      << refused;
-
-  plan.traffic = {"builtin", "sumo"};
-  campaign::Campaign all = campaign::load_campaign(plan, scenarios);
-  EXPECT_EQ(all.cells.size(), 2U * 2U * 2U + 2U);
-  std::vector<campaign::Job> jobs = campaign::jobs_of(all);
-  std::erase_if(jobs,
-                [&](const campaign::Job& job) { return all.cells[job.cell].cell.planner != "sumo_driver"; });
-  ASSERT_EQ(jobs.size(), 4U);
-  campaign::CampaignOptions options;
-  options.threads = 2;
-  for (const campaign::EpisodeRow& row : campaign::run_campaign(all, jobs, options)) {
-    EXPECT_FALSE(row.cell.guarded);
-    EXPECT_EQ(row.cell.traffic, "sumo");
-    EXPECT_EQ(row.metrics.ending, Ending::kGoal) << row.cell.scenario << " " << row.metrics.seed;
-    EXPECT_GT(row.metrics.duration_s, 5.0);
-    EXPECT_GT(row.metrics.distance_m, 50.0);
-  }
-}
-
-// The built-in traffic drives no ego, and says so.
-TEST(TrafficEngine, OnlySumoDrivesTheEgo) {
-  EngineOptions options;
-  options.ego = DrivenBy::kEngine;
-  EXPECT_THROW((void)make_engine(shipped("cruise"), options), std::invalid_argument);
-  EXPECT_EQ(engine_of("sumo"), Engine::kSumo);
-  EXPECT_THROW((void)engine_of("vissim"), std::invalid_argument);
-}
-
-// One of SUMO's own drives, replayed through the coupling: on an unchanged course nobody touches the ego.
-TEST(SumoCoupling, ReplaysADriveUntouched) {
-  const Scenario scenario = shipped("left_turn");
-  const SumoDrive drive = sumo_drive(scenario, 3);
-  ASSERT_TRUE(drive.arrived && !drive.touched);
-  EXPECT_FALSE(replay(scenario, 3, drive, {}).touched);
 }
 
 }  // namespace

@@ -54,8 +54,8 @@ ThreadedDrive drive_on_two_threads(const world::Scenario& scenario, int late_one
   hal::sim::Bus::Port* const ecu_port = bus.attach();
   hal::sim::NullCycleCounter cycles;
   hal::sim::NullWatchdog watchdog;
-  const auto ecu = baselines::make_ecu("s4tp", true, Parameters{},
-                                       {ecu_port, nullptr, &cycles, &watchdog, nullptr}, nullptr);
+  const auto ecu =
+      baselines::make_ecu("s4tp", true, Parameters{}, {ecu_port, &cycles, &watchdog, nullptr}, nullptr);
   std::atomic<bool> done{false};
   std::atomic<bool> hold{false};
   std::thread planning([&] {

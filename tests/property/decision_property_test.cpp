@@ -14,7 +14,7 @@ struct Scored {
   float risk;
 };
 
-// Leaving out whom open_to() declares beaten before his risk is known changes no shortlist: 24 candidates of
+// Leaving out what open_to() declares beaten before its risk is known changes no shortlist: 24 candidates of
 // 6 decisions, no two scores alike (the 24 differ modulo 32), with and without a decision that must be kept.
 TEST(DecisionProperty, WhoIsBeatenWithoutRiskIsBeaten) {
   EXPECT_TRUE(rc::check([] {

@@ -93,7 +93,7 @@ std::unique_ptr<Driven> in_a_field(unsigned seed) {
 
 }  // namespace
 
-// CAND-019: the field at every third step, against differences of it by each number of the state there.
+// CAND-022: the field at every third step, against differences of it by each number of the state there.
 TEST(RefinementField, KnotSlopesAgreeWithDifferences) {
   const unsigned first = first_seed();
   std::vector<double> errors;
@@ -135,7 +135,7 @@ TEST(RefinementField, KnotSlopesAgreeWithDifferences) {
   EXPECT_LE(at(errors, 0.95), 0.03);
 }
 
-// CAND-019: slopes of cost and field together by the inputs, through motion, knots and residuals, against
+// CAND-022: slopes of cost and field together by the inputs, through motion, knots and residuals, against
 // central differences of what the stage means to lower, along random directions. The optimizer lets the slope
 // run straight from knot to knot, the differences the risk: what is left is that difference. The price of
 // falling behind has a kink in its slope just here, and is left out.
@@ -196,7 +196,7 @@ TEST(RefinementField, ResidualsCostWhatIsFelt) {
 }
 
 // The optimizer's field is near the exact risk, also where somebody drives beside us and the ramp at our
-// own axle takes a tenth of him away; and the field at every third step is near that at every step.
+// own axle takes a tenth of it away; and the field at every third step is near that at every step.
 TEST(RefinementField, SmoothIsNearExact) {
   const unsigned first = first_seed();
   std::vector<double> smooth_errors;
@@ -233,7 +233,7 @@ TEST(RefinementField, SmoothIsNearExact) {
   EXPECT_LE(at(knot_errors, 0.5), 0.08);
 }
 
-// CAND-020: in a field that is evaluated at most three times, refining lowers cost and field together, by the
+// CAND-023: in a field that is evaluated at most three times, refining lowers cost and field together, by the
 // exact risk too: of those that found anything most have less risk.
 TEST(RefinementField, LowersTheExactRisk) {
   const unsigned first = first_seed();

@@ -112,7 +112,7 @@ TEST(RiskProperties, NeverNegative) {
   }));
 }
 
-// CORE-062: whoever is 200 m away is neither in our field nor has us in theirs, wherever he looks.
+// CORE-062: whoever is 200 m away is neither in our field nor has us in theirs, wherever they look.
 TEST(RiskProperties, FarAwayIsNoRisk) {
   EXPECT_TRUE(rc::check([](unsigned seed) {
     auto world = random_world(seed);

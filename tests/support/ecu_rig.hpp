@@ -130,7 +130,7 @@ class BasicRig {
   BasicRig() { map_sender.update(straight_map()); }
 
   Status start(const Parameters& parameters = {}, const hal::FlashBank* weights = nullptr) {
-    return ecu.init(parameters, {ecu_port, nullptr, &cycles, &watchdog, &records, weights});
+    return ecu.init(parameters, {ecu_port, &cycles, &watchdog, &records, weights});
   }
 
   /// One tick: the world's frames, TICK last, the control tick, a planning cycle if due.
@@ -288,5 +288,24 @@ class BasicRig {
 };
 
 using Rig = BasicRig<FakePlanner>;
+
+/// One that has driven for half a second, at 5 m/s, without a fault.
+inline std::unique_ptr<Rig> driving_rig() {
+  auto rig = std::make_unique<Rig>();
+  EXPECT_EQ(rig->start(), Status::kOk);
+  rig->plant.speed_mps = 5.0;
+  EXPECT_TRUE(rig->drive());
+  rig->seconds(0.5);
+  EXPECT_EQ(rig->ecu.mode(), Mode::kDriving);
+  EXPECT_EQ(rig->ecu.faults(), 0);
+  return rig;
+}
+
+inline bool took(const Rig& rig, TransitionId id) {
+  for (const ModeRecord& record : rig.records.modes) {
+    if (record.reason == id) return true;
+  }
+  return false;
+}
 
 }  // namespace s4tp::ecu

@@ -10,6 +10,13 @@
 
 namespace s4tp::hal::linux_host {
 
+inline CanFrame frame_of(std::uint32_t id, std::uint8_t length = 8) {
+  CanFrame frame;
+  frame.id = id;
+  frame.length = length;
+  return frame;
+}
+
 class FakeBus final : public LinuxCan {
  public:
   bool receive(CanFrame& frame) override {

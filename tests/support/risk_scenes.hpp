@@ -10,7 +10,7 @@
 
 namespace s4tp::test {
 
-/// A driver in a turn he can hold, and the box of a car somewhere along his path.
+/// A driver in a turn it can hold, and the box of a car somewhere along its path.
 struct FieldAndBox {
   sadrf::FieldParams params;
   sadrf::DriverState driver;

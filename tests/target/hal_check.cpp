@@ -6,7 +6,9 @@
 #include "hal/mps/timer.hpp"
 #include "hal/mps/uart.hpp"
 #include "hal/mps/watchdog.hpp"
+#include "hal/phase_lock.hpp"
 
+using namespace s4tp::hal;
 using namespace s4tp::hal::mps;
 
 namespace {
@@ -80,6 +82,25 @@ void check_ticks() {
   }
 }
 
+// MPS-013: ticks come 4 ms after motion frames of any phase whose sender's clock is 100 ppm slower. A shift acts a period
+// late, so what is on its way when the lead is reached is overshot, by 1 ms at most; after 60 ticks within 50 us.
+void check_phase_lock() {
+  constexpr std::uint64_t kMotionUs = 10'001;
+  for (std::uint32_t phase_us = 0; phase_us < 10'000; phase_us += 2'500) {
+    std::uint64_t motion_us = timer.now_us() + phase_us;
+    for (int i = 0; i < 90; ++i) {
+      (void)next_interval();
+      const std::uint64_t now_us = timer.now_us();
+      while (motion_us + kMotionUs <= now_us) motion_us += kMotionUs;
+      const auto lead_us = static_cast<std::uint32_t>(now_us - motion_us);
+      demand(i < 60 || (lead_us > 3'950 && lead_us < 4'050),
+             "the tick keeps its distance to the motion frames");
+      timer.adjust(phase_shift_us(motion_us, kTickLeadUs, timer.due_phase_us()));
+    }
+  }
+  timer.adjust(0);
+}
+
 // MPS-012: many readings around several ends of the period.
 void check_clock() {
   std::uint64_t last_us = timer.now_us();
@@ -134,6 +155,7 @@ void image_main() {
   check_stack();
   check_ticks();
   check_clock();
+  check_phase_lock();
   check_uart();
   check_watchdog();
 }

@@ -7,23 +7,28 @@
 #include "hal/mps/slcan_can.hpp"
 #include "hal/mps/startup.hpp"
 #include "hal/mps/timer.hpp"
+#include "hal/phase_lock.hpp"
 
 using namespace s4tp::hal;
 
 namespace {
 
 constexpr std::uint32_t kLastId = 0x7FF;
+constexpr std::uint32_t kWatchedId = 0x123;
 constexpr int kFramesATick = 256;
 
 mps::SlcanCan can;
 mps::Timer timer;
 bool driver_is_silent = false;
+std::uint32_t arrivals = 0;       ///< MPS-043 ticks that found one noted
+std::uint32_t beyond_period = 0;  ///< of them, those that name no time within one
 
 void finish() {
   const CanCounters counters = can.counters();
   s4tp::targets::Text line;
   line << "received " << counters.received << " sent " << counters.sent << " dropped " << counters.dropped
-       << " errors " << counters.errors << " down before start " << (driver_is_silent ? "yes" : "no") << "\n";
+       << " errors " << counters.errors << " arrivals " << arrivals << " elsewhere " << beyond_period
+       << " down before start " << (driver_is_silent ? "yes" : "no") << "\n";
   mps::semihosting::print(line.c_str());
   mps::semihosting::exit(0);
 }
@@ -40,6 +45,11 @@ void systick_handler() {
 }
 
 void pendsv_handler() {
+  std::uint32_t arrival_us = 0;
+  if (can.take_arrival(arrival_us)) {
+    ++arrivals;
+    if (arrival_us >= kTickPeriodUs) ++beyond_period;
+  }
   CanFrame frame;
   for (int i = 0; i < kFramesATick && can.receive(frame); ++i) {
     if (frame.id == kLastId) finish();
@@ -52,6 +62,7 @@ void image_main() {
   CanFrame frame;
   driver_is_silent = can.state() == CanState::kDown && !can.send(frame) && !can.receive(frame);
   mps::start_control_interrupt();
+  can.watch(kWatchedId, timer);
   can.start(kSlcanLeastBaud);
   timer.start();
   for (;;) {  // the background is busy: all happens in interrupts

@@ -51,6 +51,13 @@ class Pages(unittest.TestCase):
         self.write("docs/a.md", "`algo/gone.hpp` and `gone.md`\n")
         self.assertEqual(len(self.found()), 2)
 
+    # A page, and a section of one, that a comment names.
+    def test_what_the_code_cites_is_looked_for(self):
+        self.write("docs/method.md", "# Method\n## 3 Field\n**4.8 Refinement** x\n")
+        self.write("algo/a.hpp", "/// method.md 3 and docs/method.md 4.8, safety.md\nint f();  // method.md 4.9, gone.md\n")
+        self.assertEqual(self.found(), ["algo/a.hpp: cites method.md 4.9: there is no such section",
+                                        "algo/a.hpp: cites gone.md: there is no such page"])
+
     # A word struck out, and one whose name in the code is no more.
     def test_word_without_definition_is_found(self):
         page = (self.root / "docs/glossary.md").read_text(encoding="utf-8")

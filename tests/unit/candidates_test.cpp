@@ -1,4 +1,4 @@
-// Plan start, candidates and their roll-outs on hand-made roads.
+// Candidates and their roll-outs on hand-made roads.
 
 #include "algo/trajectory/candidates.hpp"
 
@@ -9,127 +9,11 @@
 
 #include "algo/core/math.hpp"
 #include "algo/trajectory/bicycle.hpp"
-#include "algo/trajectory/roll_out.hpp"
+#include "tests/support/candidate_roads.hpp"
 #include "tests/support/driving_scenes.hpp"
 
 namespace s4tp::trajectory {
 namespace {
-
-using namespace test;  // NOLINT: the map builders are the language of these tests
-
-constexpr std::uint32_t kNow = 5000;
-
-/// The left turn of the scenario: 50 m straight, 90 degrees on radius 10.7 m in 8 vertices, 80 m straight.
-struct LeftTurn {
-  LaneMap map;
-  scene::LanePath path;
-  LeftTurn() {
-    const LaneIndex before = add_lane(map, {{-50.0F, 0.0F}, {0.0F, 0.0F}});
-    const LaneIndex turn = add_lane(map, arc({0.0F, 0.0F, 0.0F}, 10.7F, 1.57079633F, 8));
-    const Point end = map.lanes[turn].points[7];
-    const LaneIndex after = add_lane(map, {end, {end.x_m, end.y_m + 80.0F}});
-    link(map, turn, after);
-    link(map, before, turn);
-    path = path_of(map, {before, turn, after});
-  }
-};
-
-struct Roads {
-  LaneMap map = straight_road(3, 300.0F);
-  scene::Scene scene;
-  /// In the middle of three lanes.
-  Roads(float s_m, float speed_mps) {
-    add_way(scene, map, path_of(map, {1}));
-    add_way(scene, map, path_of(map, {2}), scene::Manoeuvre::kLeft);
-    add_way(scene, map, path_of(map, {0}), scene::Manoeuvre::kRight);
-    scene.time_ms = kNow;
-    start = state_on(map, scene.ego_paths[0].path, s_m, speed_mps);
-    put_ego(scene, start);
-  }
-  TrajectoryPoint start;
-};
-
-CandidateList generate(const scene::Scene& scene, const TrajectoryPoint& start, const Plan& running = {},
-                       int* left_out = nullptr) {
-  ReferenceLines lines;
-  CandidateList list;
-  int missing = 0;
-  generate_candidates(scene, start, running, kNow, Parameters{}, kMaxCandidates, lines, list, missing);
-  if (left_out != nullptr) *left_out = missing;
-  return list;
-}
-
-Trajectory rolled(const scene::Scene& scene, const Candidate& candidate, const TrajectoryPoint& start,
-                  const Plan& running = {}) {
-  ReferenceLine line;
-  build_reference(*scene.map, scene.ego_paths[candidate.path].path, candidate.start_s_m, start.speed_mps,
-                  Parameters{}, line);
-  line.aside_m = scene.ego_paths[candidate.path].aside_m;
-  Trajectory trajectory;
-  roll_out(line, candidate, start, running, kNow, Parameters{}, trajectory);
-  return trajectory;
-}
-
-const Candidate* find(const CandidateList& list, int path, Intent intent, float acceleration_mps2 = 0.0F) {
-  for (const Candidate& candidate : list) {
-    if (candidate.path != path || candidate.intent != intent) continue;
-    if (intent != Intent::kAccelerate || candidate.acceleration_mps2 == acceleration_mps2) return &candidate;
-  }
-  return nullptr;
-}
-
-const TrajectoryPoint& end_of(const Trajectory& trajectory) {
-  return trajectory.points[kHorizonSteps];
-}
-
-// CAND-007 0.4 m beside and 0.8 m behind the running plan we still go on from it, so that nothing jumps.
-TEST(PlanStart, GoesOnFromTheRunningPlan) {
-  Plan running;
-  running.kind = PlanKind::kDrive;
-  running.start_ms = kNow;
-  for (int i = 0; i < kTrajectoryPoints; ++i) {
-    running.trajectory.points[i].rear_axle.x_m = static_cast<float>(i);
-    running.trajectory.points[i].speed_mps = 10.0F;
-  }
-  EgoState ego;
-  ego.rear_axle = {-0.8F, 0.4F, 0.01F};
-  ego.speed_mps = 9.5F;
-  const TrajectoryPoint start = plan_start(ego, kNow, running, kNow + 100, Parameters{});
-  EXPECT_EQ(start.rear_axle.x_m, 1.0F);
-  EXPECT_EQ(start.rear_axle.y_m, 0.0F);
-  EXPECT_EQ(start.speed_mps, 10.0F);
-}
-
-// CAND-008 Too far from the plan, without one, or past its end: the measured state, 0.1 s and 1 m later.
-TEST(PlanStart, ElseTheMeasuredStateBroughtForward) {
-  Plan running;
-  running.kind = PlanKind::kDrive;
-  running.start_ms = kNow;
-  EgoState ego;
-  ego.rear_axle = {20.0F, 0.6F, 0.0F};
-  ego.speed_mps = 10.0F;
-  for (const Plan& plan : {running, Plan{}}) {
-    const TrajectoryPoint start = plan_start(ego, kNow, plan, kNow + 100, Parameters{});
-    EXPECT_NEAR(start.rear_axle.x_m, 21.0F, 1e-4F);
-    EXPECT_EQ(start.rear_axle.y_m, 0.6F);
-  }
-  ego.rear_axle = {};
-  ego.speed_mps = 0.0F;
-  EXPECT_FALSE(plan_covers(running, kNow + 3000));
-  EXPECT_FALSE(plan_covers(running, kNow - 100));
-  EXPECT_TRUE(plan_covers(running, kNow + 2900));
-}
-
-// CAND-008 At rest with the brake on nothing is brought forward.
-TEST(PlanStart, StandstillStaysWhereItIs) {
-  EgoState ego;
-  ego.rear_axle = {3.0F, 4.0F, 1.0F};
-  ego.acceleration_mps2 = -2.0F;
-  const TrajectoryPoint start = plan_start(ego, kNow, Plan{}, kNow + 200, Parameters{});
-  EXPECT_EQ(start.rear_axle.x_m, 3.0F);
-  EXPECT_EQ(start.speed_mps, 0.0F);
-  EXPECT_EQ(start.acceleration_mps2, 0.0F);
-}
 
 // CAND-009 In the middle of three lanes behind a leader: each way has following and braking; never over 24.
 TEST(Candidates, CoverEveryPathAndIntent) {
@@ -176,21 +60,6 @@ TEST(Candidates, LaneChangeReachesTheOtherCentre) {
     lateral = std::max(lateral, std::fabs(point.curvature_1pm) * point.speed_mps * point.speed_mps);
   }
   EXPECT_LT(lateral, 2.6F);
-}
-
-// CAND-010 Half way through a lane change, the fresh candidate goes on with it: it is there within half its 3
-// s.
-TEST(Candidates, LaneChangeUnderWayGoesOn) {
-  Roads roads(50.0F, 10.0F);
-  const CandidateList first = generate(roads.scene, roads.start);
-  const Trajectory begun = rolled(roads.scene, *find(first, 1, Intent::kAccelerate, 0.0F), roads.start);
-  const TrajectoryPoint half = begun.points[15];
-  put_ego(roads.scene, half);
-  const CandidateList second = generate(roads.scene, half);
-  const Candidate* left = find(second, 1, Intent::kAccelerate, 0.0F);
-  ASSERT_NE(left, nullptr);
-  const Trajectory trajectory = rolled(roads.scene, *left, half);
-  EXPECT_NEAR(trajectory.points[18].rear_axle.y_m, 2.0F * kLaneWidthM, 0.1F);
 }
 
 // CAND-005 At rest braking candidates hold the pose bit for bit; driving off needs no lateral jump.
@@ -357,7 +226,7 @@ TEST(Candidates, FollowSettlesBehindTheLeader) {
 }
 
 // CAND-015 From 13 m/s and 10 m behind: beside a gap at 8 m/s we settle in its place, without braking over
-// comfort; with our own leader at 6 m/s we stay 2.5 + 1.2 * 6 = 9.7 m behind him instead, though the gap goes
+// comfort; with our own leader at 6 m/s we stay 2.5 + 1.2 * 6 = 9.7 m behind it instead, though the gap goes
 // on.
 TEST(Candidates, SettlesBesideAGap) {
   for (const bool leader : {false, true}) {
@@ -401,130 +270,6 @@ TEST(Candidates, SettlesBesideAGap) {
       EXPECT_GE(hardest_mps2, -2.6F);
     }
   }
-}
-
-// CAND-010 The running plan, shifted by one step, is a candidate: its old points to the bit, and one more.
-TEST(Candidates, RunningPlanGoesOn) {
-  Roads roads(50.0F, 10.0F);
-  const CandidateList first = generate(roads.scene, roads.start);
-  Plan running;
-  running.kind = PlanKind::kDrive;
-  running.start_ms = kNow - 100;
-  running.trajectory = rolled(roads.scene, *find(first, 1, Intent::kAccelerate, 0.0F), roads.start);
-  const TrajectoryPoint start = sample(running, kNow);
-  put_ego(roads.scene, start);
-  const CandidateList list = generate(roads.scene, start, running);
-  const Candidate* previous = find(list, 1, Intent::kPrevious);
-  ASSERT_NE(previous, nullptr);
-  EXPECT_EQ(find(list, 0, Intent::kPrevious), nullptr);  // it ends in the left lane, not in ours
-  const Trajectory trajectory = rolled(roads.scene, *previous, start, running);
-  for (int i = 1; i < kHorizonSteps; ++i) {
-    EXPECT_EQ(trajectory.points[i].rear_axle.y_m, running.trajectory.points[i + 1].rear_axle.y_m);
-  }
-  EXPECT_NEAR(end_of(trajectory).rear_axle.x_m, running.trajectory.points[kHorizonSteps].rear_axle.x_m + 1.0F,
-              0.05F);
-  EXPECT_TRUE(feasible(trajectory, Parameters{}));
-}
-
-// CAND-016 A plan at 5 m/s heads for the left lane by 0.2 rad and ends 1.2 m short of its centre. Each cycle
-// adds a step, and a refinement makes it as straight as the one before: 1 m to the side within ten cycles. It
-// comes to the centre all the same, and not past it.
-TEST(Candidates, APlanIsNotCarriedAcrossItsLine) {
-  Roads roads(50.0F, 5.0F);
-  const float line_y_m = roads.start.rear_axle.y_m + kLaneWidthM;
-  Plan running;
-  running.kind = PlanKind::kDrive;
-  running.start_ms = kNow - 100;
-  TrajectoryPoint point = roads.start;
-  point.rear_axle.heading_rad = 0.2F;
-  point.rear_axle.y_m = line_y_m - 1.2F - 15.0F * std::sin(0.2F);
-  for (TrajectoryPoint& planned : running.trajectory.points) {
-    planned = point;
-    point = bicycle_step(point, 0.0F, 0.0F, kStepS);
-  }
-  for (int cycle = 0; cycle < 40; ++cycle) {
-    const TrajectoryPoint start = running.trajectory.points[1];
-    put_ego(roads.scene, start);
-    Candidate previous;
-    previous.path = 1;
-    previous.intent = Intent::kPrevious;
-    previous.start_s_m = start.rear_axle.x_m;
-    previous.lateral_length_m = 14.0F;
-    running.trajectory = rolled(roads.scene, previous, start, running);
-    TrajectoryPoint* points = running.trajectory.points;
-    points[kHorizonSteps] = bicycle_step(points[kHorizonSteps - 1], 0.0F, 0.0F, kStepS);
-    EXPECT_LT(points[kHorizonSteps].rear_axle.y_m, line_y_m + 0.3F) << cycle;
-  }
-  EXPECT_NEAR(end_of(running.trajectory).rear_axle.y_m, line_y_m, 0.3F);
-}
-
-// CAND-018 0.35 m to the left at 8 m/s: a drive settles there within its 3 s, the plan it becomes goes on
-// there a second later, and who is steered comes there too.
-TEST(Candidates, SettleAside) {
-  Roads roads(100.0F, 8.0F);
-  roads.scene.ego_paths[0].aside_m = 0.35F;
-  Candidate drive = *find(generate(roads.scene, roads.start), 0, Intent::kAccelerate);
-  Plan running;
-  running.kind = PlanKind::kDrive;
-  running.trajectory = rolled(roads.scene, drive, roads.start);
-  EXPECT_NEAR(end_of(running.trajectory).rear_axle.y_m, kLaneWidthM + 0.35F, 0.01F);
-  drive.steered = true;
-  EXPECT_NEAR(end_of(rolled(roads.scene, drive, roads.start)).rear_axle.y_m, kLaneWidthM + 0.35F, 0.1F);
-
-  running.start_ms = kNow - 1000;
-  const TrajectoryPoint later = running.trajectory.points[10];
-  put_ego(roads.scene, later);
-  const CandidateList list = generate(roads.scene, later, running);
-  const Candidate* on = find(list, 0, Intent::kPrevious);
-  ASSERT_NE(on, nullptr);
-  const Trajectory going_on = rolled(roads.scene, *on, later, running);
-  EXPECT_NEAR(end_of(going_on).rear_axle.y_m, kLaneWidthM + 0.35F, 0.01F);
-}
-
-// CAND-017 Wheels turned by 0.1 / m to the right, 3.2 m to go to the left: 14 m of quintic turn them back in
-// time; 40 m swing 0.05 * 40^2 * 0.035 - 1 = 1.8 m to the right before.
-TEST(Candidates, ALongQuinticSwingsOut) {
-  Roads roads(50.0F, 1.0F);
-  roads.start.curvature_1pm = -0.1F;
-  ReferenceLine line;
-  build_reference(roads.map, roads.scene.ego_paths[1].path, 50.0F, 1.0F, Parameters{}, line);
-  const ReferenceCoordinates where = locate_on(line, position(roads.start.rear_axle), 50.0F);
-  Candidate candidate;
-  shape_lateral(line, roads.start, where, 14.0F, candidate);
-  EXPECT_FALSE(overshoots(candidate));
-  shape_lateral(line, roads.start, where, 40.0F, candidate);
-  EXPECT_TRUE(overshoots(candidate));
-}
-
-// CAND-017 However our wheels and we are turned when we set off: no candidate swings out, some are steered.
-TEST(Candidates, NobodySwingsOutToTheOtherSide) {
-  int steered = 0;
-  for (const float speed_mps : {0.5F, 2.0F, 6.0F}) {
-    for (const float curvature_1pm : {-0.15F, -0.05F, 0.1F}) {
-      for (const float heading_rad : {-0.15F, 0.0F, 0.1F}) {
-        Roads roads(50.0F, speed_mps);
-        roads.start.curvature_1pm = curvature_1pm;
-        roads.start.rear_axle.heading_rad = heading_rad;
-        put_ego(roads.scene, roads.start);
-        for (const Candidate& candidate : generate(roads.scene, roads.start)) {
-          EXPECT_TRUE(candidate.steered || !overshoots(candidate));
-          steered += candidate.steered ? 1 : 0;
-        }
-      }
-    }
-  }
-  EXPECT_GT(steered, 0);
-}
-
-// CAND-009 Standing 0.3 rad askew and 0.5 m off the centre there still is a feasible way to drive off.
-TEST(Candidates, AskewInTheLane) {
-  Roads roads(50.0F, 3.0F);
-  roads.start.rear_axle.y_m += 0.5F;
-  roads.start.rear_axle.heading_rad = 0.3F;
-  put_ego(roads.scene, roads.start);
-  const CandidateList list = generate(roads.scene, roads.start);
-  EXPECT_NE(find(list, 0, Intent::kAccelerate, 2.0F), nullptr);
-  EXPECT_NE(find(list, 0, Intent::kAccelerate, -3.0F), nullptr);
 }
 
 /// Counts nothing itself.

@@ -7,7 +7,6 @@
 #include "hal/sim/lockstep_tick.hpp"
 #include "hal/sim/memory_flash_bank.hpp"
 #include "hal/sim/null_devices.hpp"
-#include "hal/sim/sim_clock.hpp"
 
 namespace s4tp::hal::sim {
 namespace {
@@ -116,14 +115,6 @@ TEST(LockstepTick, OpensOnTickFrames) {
   EXPECT_FALSE(tick.take());
 }
 
-// HAL-011: 120 ms of vehicle time are 120,000 us; an older stamp changes nothing.
-TEST(SimClock, FollowsVehicleTimeForward) {
-  SimClock clock;
-  clock.follow(120);
-  clock.follow(110);
-  EXPECT_EQ(clock.now_us(), 120000U);
-}
-
 // HAL-012, HAL-013: three kicks count three; the cycle counter never moves.
 TEST(NullDevices, CountKicksAndNoCycles) {
   NullWatchdog watchdog;
@@ -132,7 +123,7 @@ TEST(NullDevices, CountKicksAndNoCycles) {
   EXPECT_EQ(NullCycleCounter().now(), 0U);
 }
 
-// HAL-020, HAL-021: what is written is read back; bits come back to 1 by erasing only; nothing beyond the
+// HAL-030, HAL-031: what is written is read back; bits come back to 1 by erasing only; nothing beyond the
 // end.
 TEST(MemoryFlashBank, BehavesLikeFlash) {
   auto bank = std::make_unique<MemoryFlashBank>();

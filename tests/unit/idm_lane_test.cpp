@@ -33,7 +33,7 @@ TEST(IdmLane, KeepsItsGap) {
   EXPECT_NEAR(idm_behind(kDriver, 10.0F, 2.5F, 30.0F), 0.0F, 1e-5F);
 }
 
-// We would be in the zone from 2 s to 6 s. Where we yield he may come from 7 s on, 1 s after us.
+// We would be in the zone from 2 s to 6 s. Where we yield the other one may come from 7 s on, 1 s after us.
 TEST(IdmLane, AcceptsAndRefusesGaps) {
   EXPECT_TRUE(gap_accepted({7.1F, 9.0F, Priority::kFirstYields, true}, 2.0F, 6.0F, 1.0F));
   EXPECT_FALSE(gap_accepted({6.9F, 9.0F, Priority::kFirstYields, true}, 2.0F, 6.0F, 1.0F));
@@ -42,7 +42,7 @@ TEST(IdmLane, AcceptsAndRefusesGaps) {
   EXPECT_FALSE(gap_accepted({0.5F, 1.8F, Priority::kFirstYields, true}, 2.0F, 6.0F, 1.0F));
 }
 
-// With right of way, or as the first to come, we go, unless he can no longer stop or is there already.
+// With right of way, or as the first to come, we go, unless the other one can no longer stop or is there already.
 TEST(IdmLane, InsistsOnItsRightOfWayOnlyWhereThatIsSafe) {
   EXPECT_TRUE(gap_accepted({3.0F, 5.0F, Priority::kFirstHasPriority, true}, 2.0F, 6.0F, 1.0F));
   EXPECT_FALSE(gap_accepted({3.0F, 5.0F, Priority::kFirstHasPriority, false}, 2.0F, 6.0F, 1.0F));
@@ -51,7 +51,7 @@ TEST(IdmLane, InsistsOnItsRightOfWayOnlyWhereThatIsSafe) {
   EXPECT_FALSE(gap_accepted({1.9F, 5.0F, Priority::kFirstCome, true}, 2.0F, 6.0F, 1.0F));
 }
 
-// At 10 m/s, somebody behind at 15 m/s: s* = 2.5 + 15 + 15 * 5 / 4.561 = 33.95 m. He brakes with 3 m/s^2 at
+// At 10 m/s, somebody behind at 15 m/s: s* = 2.5 + 15 + 15 * 5 / 4.561 = 33.95 m. It brakes with 3 m/s^2 at
 // s* / sqrt(1 + 3 / 2.6) = 23.13 m: a change is accepted above that gap.
 TEST(IdmLane, AsksLittleOfTheOneBehind) {
   const trajectory::Leader nobody;

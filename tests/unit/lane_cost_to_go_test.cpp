@@ -50,9 +50,9 @@ TEST(LaneCostToGo, BuildingUpSpeedCosts) {
   EXPECT_NEAR(road.cost_to_go.delay_s(0, 50.0F, 5.0F), 0.625F, 0.01F);
 }
 
-// Our leader drives 5 m/s, his centre at 60 m now. Our centre is at the target of 170 + 1.5 m when his is 5 m
+// Our leader drives 5 m/s, its centre at 60 m now. Our centre is at the target of 170 + 1.5 m when its is 5 m
 // of lengths, 2.5 m and 1.2 s * 5 m/s further: (171.5 + 13.5 - 75) / 5 = 22 s after the horizon's end. 15 s
-// at the limit: 10 s lost. The lane beside loses none: he is passed long before the way back has to begin.
+// at the limit: 10 s lost. The lane beside loses none: it is passed long before the way back has to begin.
 TEST(LaneCostToGo, OvertakingPays) {
   Road road;
   road.vehicle(0, 60.0F, 5.0F);
@@ -61,9 +61,9 @@ TEST(LaneCostToGo, OvertakingPays) {
   EXPECT_NEAR(road.cost_to_go.delay_s(1, 50.0F, 10.0F), 0.0F, 0.01F);
 }
 
-// One at 9 m/s, 15 m nearer, costs (171.5 + 18.3 - 72) / 9 = 13.1 s: 1.1 s lost. We gain 1 m/s on him: where
+// One at 9 m/s, 15 m nearer, costs (171.5 + 18.3 - 72) / 9 = 13.1 s: 1.1 s lost. We gain 1 m/s on it: where
 // the way back has to begin, 20 m of braking before our front is at 300, we are 2.3 m ahead, centre to
-// centre: not past him. So the lane beside is as slow as ours.
+// centre: not past it. So the lane beside is as slow as ours.
 TEST(LaneCostToGo, NoOvertakingWithoutRoomToReturn) {
   Road road;
   road.vehicle(0, 45.0F, 9.0F);
@@ -101,7 +101,7 @@ TEST(LaneCostToGo, DeadlinesComeBeforeTime) {
 }
 
 // Whom we could pass in time, but who leaves no room behind the one we cannot pass, is not passed either: 15
-// m behind that one, at 57 m at the horizon's end, he costs (171.5 + 18.3 - 57) / 9 = 14.8 s: 2.8 s lost. At
+// m behind that one, at 57 m at the horizon's end, it costs (171.5 + 18.3 - 57) / 9 = 14.8 s: 2.8 s lost. At
 // 25 m there is room: 5 + 5 m of lengths, 1 + 81/10 - 81/16 in front, 1 + 0.2 * 9 behind, 0.4 m to spare
 // are 17.2 m.
 TEST(LaneCostToGo, NoReturnIntoATightColumn) {
@@ -118,7 +118,7 @@ TEST(LaneCostToGo, NoReturnIntoATightColumn) {
   EXPECT_NEAR(delays_s[1], 1.1F, 0.05F);
 }
 
-// One abreast at our speed, the limit: we can only fall back behind him, 15.37 m behind his centre (see
+// One abreast at our speed, the limit: we can only fall back behind it, 15.37 m behind its centre (see
 // lane_gap_test.cpp) and 1 m more: 22 - 16.37 m. From 50 m at the horizon's end 13.37 m have to be lost: 5.48
 // s.
 TEST(LaneCostToGo, GapsAreAimedAt) {

@@ -48,7 +48,7 @@ TEST(LaneGap, TheForemostThatTakesUs) {
 }
 
 // GAP-004 A column 26.5 m apart now: the second is 0.3 m/s faster, which would cost it 0.9 m of the 26.15 m
-// needed by the horizon's end; but he keeps his distance. One who is 1 m/s faster comes nearer.
+// needed by the horizon's end; but it keeps its distance. One who is 1 m/s faster comes nearer.
 TEST(LaneGap, AColumnKeepsItsDistances) {
   for (const float faster_mps : {0.3F, 1.0F}) {
     LaneVehicles vehicles;

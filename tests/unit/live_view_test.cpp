@@ -193,7 +193,7 @@ TEST(LiveDrive, IsTheSameDrive) {
   EXPECT_LT(middle - begin, took);
 }
 
-// VIEW-020 Only our port under a name that no stranger can give himself; on any address, addresses in digits.
+// VIEW-020 Only our port under a name that no stranger can take; on any address, addresses in digits.
 TEST(WebAccess, TakesOwnHostsOnly) {
   const WebAccess here("127.0.0.1", 8470);
   for (const char* const host : {"127.0.0.1:8470", "localhost:8470", "LocalHost:8470", "[::1]:8470"})

@@ -70,7 +70,7 @@ TEST(PlanWords, NamesWhoIsNotToldOf) {
   EXPECT_EQ(in_words(cycle), "Waiting: somebody we are not told of may stand ahead.");
 }
 
-// Giving way: who, when he can be there, and how long we would need.
+// Giving way: to whom, when they can be there, and how long we would need.
 TEST(PlanWords, WaitingForACrossingCar) {
   campaign::CycleTrace cycle = plan(0.0F, 0.0F);
   add_track(cycle, 7, {15.0F, 20.0F, kFromLeft});
@@ -133,7 +133,7 @@ TEST(PlanWords, HardlyFurtherIsNoReason) {
   EXPECT_EQ(in_words(cycle), "Driving on.");
 }
 
-// Following somebody slower: how far he is, and why he is not passed.
+// Following somebody slower: how far away, and why we do not pass.
 TEST(PlanWords, FollowingAndNotPassing) {
   campaign::CycleTrace cycle = plan(8.0F, 8.0F);
   add_track(cycle, 7, {20.0F, 0.0F, 0.0F});

@@ -185,15 +185,15 @@ TEST(Risk, FollowingAtTwoSecondsHeadway) {
   for (int i = 0; i < kHorizonSteps; ++i) {
     EXPECT_GE(profile.obstacle[i], 20000.0F);
     EXPECT_LE(profile.obstacle[i], 30000.0F);
-    EXPECT_EQ(profile.social[i], 0.0F);  // he does not see us: we are behind him
+    EXPECT_EQ(profile.social[i], 0.0F);  // it does not see us: we are behind it
   }
 }
 
 // CORE-062: the car behind us at 2 s headway perceives us as we perceive the one ahead: the same number, on
-// the other side. His box's own width sets c, his length his rear axle: equal cars are chosen.
+// the other side. Its box's own width sets c, its length its rear axle: equal cars are chosen.
 TEST(Risk, SocialSideIsTheFollowersView) {
   const auto stage = stage_with_straight_drive(13.89F);
-  // Our box centre is 1.5 m ahead of our rear axle; his rear axle 1.5 m behind his centre.
+  // Our box centre is 1.5 m ahead of our rear axle; its rear axle 1.5 m behind its centre.
   stage->add_car({1.5F - 5.0F - 2.0F * 13.89F, 0.0F, 0.0F}, 13.89F);
   const RiskProfile behind = stage->exact();
   const auto other = stage_with_straight_drive(13.89F);
@@ -275,7 +275,7 @@ TEST(Risk, AgreesWithTheGridOfTheWholeScene) {
   EXPECT_NEAR(stage->exact().obstacle[kStep], expected, 0.02F * expected);
 }
 
-// The nearer of two leaders in our lane dominates, when the gap is smallest: he drives slower, so at the last
+// The nearer of two leaders in our lane dominates, when the gap is smallest: it drives slower, so at the last
 // step at which the growing risk outweighs the shrinking look-ahead.
 TEST(Risk, NamesTheDominatingVehicle) {
   const auto stage = stage_with_straight_drive(12.0F);

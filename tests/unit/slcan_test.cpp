@@ -121,5 +121,22 @@ TEST(Slcan, HalfALineIsNothingYet) {
   EXPECT_EQ(frame.id, 0x123U);
 }
 
+// SLCAN-008 Of many lines only those of the id asked for end one, in capitals or not, and of these all; what an adapter's
+// no cuts off, another id that begins alike, and the id inside another line do not count.
+TEST(Slcan, WatchSeesTheEndOfItsLines) {
+  const auto ends = [](std::uint32_t id, const std::string& stream) {
+    SlcanWatch watch(id);
+    std::vector<std::size_t> found;
+    for (std::size_t i = 0; i < stream.size(); ++i) {
+      if (watch.take(stream[i])) found.push_back(i);
+    }
+    return found;
+  };
+  EXPECT_EQ(ends(0x010, "t0100\rt0110\r\rz\rt0102BEEF\r"), (std::vector<std::size_t>{5, 24}));
+  EXPECT_EQ(ends(0x2AF, "t2af0\rt2AF0\r\nt2AF0\r"), (std::vector<std::size_t>{5, 11, 18}));
+  EXPECT_EQ(ends(0x010, "t010\a0\rt01\rT000000101000\rxt0100\rr0100\rt1108t0100000\r"),
+            std::vector<std::size_t>{});
+}
+
 }  // namespace
 }  // namespace s4tp::hal

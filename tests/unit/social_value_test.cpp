@@ -97,7 +97,7 @@ int lane_changes(const std::vector<FlowGroup>& flows, double until_s) {
 }
 
 // MOBIL's incentive: behind a car of 6 m/s with the other lane empty, 3 s behind, the next one changes;
-// behind one as fast as himself he has nothing to gain.
+// behind one as fast there is nothing to gain.
 TEST(Mobil, ChangesWhereItPays) {
   EXPECT_EQ(lane_changes({flow(0, 6.0, 0.0, 0.0), flow(0, 55.0, 3.0, 0.0)}, 15.0), 1);
   EXPECT_EQ(lane_changes({flow(0, 13.0, 0.0, 0.0), flow(0, 55.0, 6.0, 0.0)}, 15.0), 0);

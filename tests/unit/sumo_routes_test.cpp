@@ -80,7 +80,7 @@ TEST(SumoRoutes, SocialDriversDifferAsOursDo) {
   EXPECT_NEAR(number(prosocial, "lcCooperative"), 1.0, 1e-12);
 }
 
-// A car has the size it has in the built-in traffic, and who keeps his lane has no wish to leave it.
+// A car has the size it has in the built-in traffic, and who keeps the lane has no wish to leave it.
 TEST(SumoRoutes, SizeAndLaneKeeping) {
   DriverModel keeping;
   keeping.lane_keeping = true;

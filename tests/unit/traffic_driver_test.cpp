@@ -129,7 +129,7 @@ TEST(Traffic, StopsBehindTheEgo) {
   EXPECT_GT(traffic.cars().size(), 5U);
 }
 
-// A standing ego that appears 12 m ahead of a car's bumper at about 13 m/s is hit: nobody brakes within his
+// A standing ego that appears 12 m ahead of a car's bumper at about 13 m/s is hit: nobody brakes within the
 // reaction time of 0.5 s, and even 9 m/s^2 needs 9.4 m after the 6.5 m driven until then.
 TEST(Traffic, IsNotSuperhuman) {
   const Network network = straight_road();

@@ -86,7 +86,7 @@ class LeftTurnFromNorth : public testing::Test {
 };
 
 // A left turner waits for a car that comes straight from the opposite arm, 8 m before its line and 2 m/s
-// fast; but not for one that stands behind somebody who stands: it cannot come before him.
+// fast; but not for one that stands behind somebody who stands: it cannot come first.
 TEST_F(LeftTurnFromNorth, DoesNotWaitForAQueue) {
   const Actor self = actor(1, "north_in_0", left_, 0.4, 0.0);
   const Actor standing_ego = actor(0, "south_in_0", ego_, 0.4, 0.0);
@@ -97,7 +97,7 @@ TEST_F(LeftTurnFromNorth, DoesNotWaitForAQueue) {
   EXPECT_FALSE(choice({self, standing_ego, second}).stop);
 }
 
-// Who stands in a queue says so, who stands first in line names those he waits for.
+// Who stands in a queue says so, who stands first in line names those waited for.
 TEST_F(LeftTurnFromNorth, TellsQueueFromLine) {
   const Actor self = actor(1, "north_in_0", left_, 0.4, 0.0);
   const Actor coming = actor(2, "south_in_0", straight_, 8.0, 2.0);
@@ -115,7 +115,7 @@ TEST_F(LeftTurnFromNorth, TellsQueueFromLine) {
 }
 
 // Seeds whose cars touched: a driver in a queue who had eyes only for somebody merging before the one ahead
-// of him (21, 190, 352), a left turner who committed himself in the moment in which somebody appeared (213).
+// of it (21, 190, 352), a left turner that was committed in the moment in which somebody appeared (213).
 TEST(TrafficJunction, HasNoTouchesThatItHad) {
   for (const auto& [name, seed] : std::vector<std::pair<std::string, std::uint64_t>>{
            {"left_turn", 21}, {"left_turn", 213}, {"left_turn_t", 190}, {"left_turn_t", 352}}) {

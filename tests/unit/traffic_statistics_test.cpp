@@ -104,7 +104,7 @@ TEST(TrafficStatistics, GapsAtAJunction) {
   EXPECT_NEAR(samples.waits_s.at(Manoeuvre::kStraight).at(0), 9.3, 1e-6);
 }
 
-// The second leaves the shared ground at 8 + 6 / 10 = 8.6 s, he enters it at 11.2 s: 2.6 s; he leaves it
+// The second leaves the shared ground at 8 + 6 / 10 = 8.6 s, the other one enters it at 11.2 s: 2.6 s, and leaves it
 // at 12.4 s, the third enters it at 14 s: 1.6 s. Two of the same lane are no encroachment.
 TEST(TrafficStatistics, PostEncroachmentTime) {
   const TrafficSamples samples = observe_traffic(
@@ -125,8 +125,8 @@ TEST(TrafficStatistics, Headways) {
   EXPECT_NEAR(samples.headways_s[1], 3.0, 1e-6);
 }
 
-// 20 m from centre to centre, cars of 5 m, 10 m/s: 15 m are 1.5 s. One who drives 2 m/s slower than his
-// leader does not follow him.
+// 20 m from centre to centre, cars of 5 m, 10 m/s: 15 m are 1.5 s. One that drives 2 m/s slower than its
+// leader does not follow it.
 TEST(TrafficStatistics, TimeGapWhileFollowing) {
   const auto at = [](double x_m, double speed_mps) {
     return [=](double, CarState& car) {
@@ -175,8 +175,8 @@ Network lane_drop() {
 }
 
 // At 10 m/s 25 m apart the cars on lane 1 leave 20 m = 2 s between bumpers; the second passes the one who
-// stands at x = 50 on lane 0 at 4 s. Behind it the gap is 40 - 5 = 35 m = 3.5 s: he takes it at 5 s, when the
-// next one is at x = 20, 25 m or 2.5 s behind his bumper, and the one before him at x = 60, 5 m ahead.
+// stands at x = 50 on lane 0 at 4 s. Behind it the gap is 40 - 5 = 35 m = 3.5 s: it is taken at 5 s, when the
+// next one is at x = 20, 25 m or 2.5 s behind its bumper, and the one before it at x = 60, 5 m ahead.
 TEST(TrafficStatistics, GapsWhereALaneEnds) {
   const auto on_lane_1 = [](double start_m) {
     return [=](double time_s, CarState& car) {

@@ -9,7 +9,6 @@
 namespace s4tp::world {
 namespace {
 
-constexpr double kDecision_s = 0.1;
 constexpr double kGain_mps2 = 2.0;   // law.gain_mps2 of the firmware's defaults
 constexpr double kOverLimit = 1.1;   // law.over_limit
 constexpr double kStands_s = 3.0;    // without a reason, no longer ...

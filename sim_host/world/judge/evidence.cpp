@@ -5,14 +5,11 @@
 #include <stdexcept>
 #include <string>
 
+#include "sim_host/world/map/lane_of.hpp"
 #include "sim_host/world/traffic/box.hpp"
 
 namespace s4tp::world {
 namespace {
-
-const NetworkLane& lane_of(const Network& network, LaneId id) {
-  return network.lanes[static_cast<std::size_t>(id)];
-}
 
 bool within(const NetworkLane& lane, Vec2 point) {
   return std::abs(lane.centre.project(point).d_m) <= 0.5 * lane.width_m;

@@ -3,16 +3,14 @@
 #include <algorithm>
 #include <map>
 
+#include "sim_host/world/map/lane_of.hpp"
+
 namespace s4tp::world {
 namespace {
 
 constexpr std::size_t kChainMax = 4;  // lanes passed in 0.1 s: seams between edges are 1 m long
 constexpr double kAhead_m = 100.0;
 constexpr double kStep_s = 0.1;
-
-const NetworkLane& lane_of(const Network& network, LaneId id) {
-  return network.lanes[static_cast<std::size_t>(id)];
-}
 
 /// Lanes from `from` to `to` going forward, both included; empty: not within reach.
 std::vector<LaneId> chain(const Network& network, LaneId from, LaneId to, std::size_t most) {

@@ -164,42 +164,51 @@ Rule seen_from_the_other(Rule rule) {
   return Rule::kFirstCome;
 }
 
+/// Where the boxes of vehicles on two links of a junction touch.
+Found touches(const std::vector<NetworkLane>& lanes, const std::vector<Place>& first,
+              const std::vector<Place>& second, Rule rule, double spare_m) {
+  Found found;
+  for (const Place& a : first) {
+    for (std::size_t k = 0; k < second.size(); k += 1 + steps_apart(a.box, second[k].box)) {
+      const Place& b = second[k];
+      if (!touch(a.box, b.box, spare_m) || joined(lanes, a.lane, b.lane) ||
+          !(lane_at(lanes, a.lane).in_junction || lane_at(lanes, b.lane).in_junction)) {
+        continue;
+      }
+      a.lane < b.lane ? add_touch(found, a, b, rule) : add_touch(found, b, a, seen_from_the_other(rule));
+    }
+  }
+  return found;
+}
+
+void add_conflicts(Found& all, const std::vector<NetworkLane>& lanes, const Junction& junction) {
+  std::vector<std::vector<Place>> places;
+  for (const Link& link : junction.links) {
+    places.push_back(link.from == kNoLane ? std::vector<Place>{} : places_along(lanes, link));
+  }
+  for (std::size_t i = 0; i < junction.links.size(); ++i) {
+    for (std::size_t j = i + 1; j < junction.links.size(); ++j) {
+      const Link& first = junction.links[i];
+      const Link& second = junction.links[j];
+      if (places[i].empty() || places[j].empty() || follow_or_accompany(lanes, first, second)) {
+        continue;
+      }
+      const Rule rule =
+          junction.first_come ? Rule::kFirstCome : rule_of(first, i, second, j, junction.signals);
+      // Ways that merely graze each other with room to spare are no conflict unless the network says so.
+      const double spare_m = foes(first, j) || foes(second, i) ? kSpare_m : 0.0;
+      merge_into(all, touches(lanes, places[i], places[j], rule, spare_m));
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<NetworkConflict> find_conflicts(const std::vector<NetworkLane>& lanes,
                                             const std::vector<Junction>& junctions) {
   Found all;
   for (const Junction& junction : junctions) {
-    std::vector<std::vector<Place>> places;
-    for (const Link& link : junction.links) {
-      places.push_back(link.from == kNoLane ? std::vector<Place>{} : places_along(lanes, link));
-    }
-    for (std::size_t i = 0; i < junction.links.size(); ++i) {
-      for (std::size_t j = i + 1; j < junction.links.size(); ++j) {
-        const Link& first = junction.links[i];
-        const Link& second = junction.links[j];
-        if (places[i].empty() || places[j].empty() || follow_or_accompany(lanes, first, second)) {
-          continue;
-        }
-        const Rule rule =
-            junction.first_come ? Rule::kFirstCome : rule_of(first, i, second, j, junction.signals);
-        // Ways that merely graze each other with room to spare are no conflict unless the network says so.
-        const double spare_m = foes(first, j) || foes(second, i) ? kSpare_m : 0.0;
-        Found of_pair;
-        for (const Place& a : places[i]) {
-          for (std::size_t k = 0; k < places[j].size(); k += 1 + steps_apart(a.box, places[j][k].box)) {
-            const Place& b = places[j][k];
-            if (!touch(a.box, b.box, spare_m) || joined(lanes, a.lane, b.lane) ||
-                !(lane_at(lanes, a.lane).in_junction || lane_at(lanes, b.lane).in_junction)) {
-              continue;
-            }
-            a.lane < b.lane ? add_touch(of_pair, a, b, rule)
-                            : add_touch(of_pair, b, a, seen_from_the_other(rule));
-          }
-        }
-        merge_into(all, of_pair);
-      }
-    }
+    add_conflicts(all, lanes, junction);
   }
   std::vector<NetworkConflict> conflicts;
   for (const auto& entry : all) {

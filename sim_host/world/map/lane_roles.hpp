@@ -1,6 +1,6 @@
 #pragma once
-/// What the lanes of a network mean to one who drives a route: which are his to drive on, which matter most,
-/// and where he must be ready to stop.
+/// What the lanes of a network mean to whoever drives a route: which to drive on, which matter most,
+/// and where to be ready to stop.
 
 #include <vector>
 

@@ -153,6 +153,9 @@ double TomlTable::number_of(const std::string& key, const toml::value& value, do
 }
 
 toml::value parse_toml(const std::filesystem::path& file) {
+  if (!std::filesystem::exists(file)) {
+    throw std::runtime_error(file.string() + ": there is no such file");
+  }
   try {
     std::ifstream stream(file, std::ios::binary);
     if (!std::filesystem::is_regular_file(file) || !stream) {

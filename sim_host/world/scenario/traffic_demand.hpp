@@ -27,7 +27,7 @@ struct DriverModel {
   double speed_factor_mean = 1.0;
   double speed_factor_deviation = 0.1;
   double max_speed_mps = 55.0;
-  double svo_rad = 0.0;       ///< social value orientation: 0 his own gain only, pi/4 that of others as much
+  double svo_rad = 0.0;       ///< social value orientation: 0 its own gain only, pi/4 that of others as much
   bool lane_keeping = false;  ///< never changes lane by its own wish
   double length_m = 5.0;
   double width_m = 1.8;

@@ -1,7 +1,7 @@
 #pragma once
-/// From a driver's social value orientation to the numbers he drives by.
+/// From a driver's social value orientation to the numbers it drives by.
 ///
-/// The orientation is an angle phi: he weighs own gain by cos(phi), that of others by sin(phi) (Liebrand
+/// The orientation is an angle phi: the driver weighs own gain by cos(phi), that of others by sin(phi) (Liebrand
 /// 1984; Murphy, Ackermann, Handgraaf 2011; in traffic: Schwarting et al. 2019, PNAS 116:24972). 0 is SUMO's
 /// default driver, so that a flavour without orientations is SUMO's traffic; below 0 is competitive, pi/4
 /// prosocial.

@@ -46,7 +46,7 @@ struct TrafficCar {
   int lets_go = kNoCar;
   bool queues = false;  ///< this and the next: JunctionChoice's
   std::vector<int> waits_for;
-  int known_leader = kNoCar;  ///< whom he follows
+  int known_leader = kNoCar;  ///< whom it follows
   double known_gap_m = 0.0;
   int surprise = kNoCar;  ///< who appeared unexpectedly, and since when
   double surprise_since_s = 0.0;
@@ -59,7 +59,7 @@ struct TrafficCar {
 class Traffic : public TrafficEngine {
  public:
   /// WORLD-021 The same network, groups and seed give the same traffic to the bit. WORLD-022 Whoever enters
-  /// late shifts nobody else's id, order or draws: who does not meet him drives on to the bit.
+  /// late shifts nobody else's id, order or draws: who does not meet it drives on to the bit.
   Traffic(const Network& network, const std::vector<FlowGroup>& groups, std::uint64_t seed);
   /// \param episode  chooses among the scenario's route files
   Traffic(const Scenario& scenario, std::uint64_t episode, std::uint64_t seed);
@@ -75,6 +75,10 @@ class Traffic : public TrafficEngine {
   [[nodiscard]] const std::vector<TrafficCar>& details() const { return cars_; }
 
  protected:
+  static constexpr int kDecisionTicks = 10;
+  static constexpr double kDecision_s = kTick_s * kDecisionTicks;
+  static constexpr double kNear_m = 8.0;  ///< of the line: waiting time counts
+
   /// What everybody does in the next 0.1 s. \param ego  null: not there
   virtual void decide(const Actor* ego);
   /// Whether a driver who wants to change into a lane does. \param beside  the lane, from the car's place on
@@ -98,6 +102,10 @@ class Traffic : public TrafficEngine {
   [[nodiscard]] double wanted_speed_mps(const TrafficCar& car, const std::vector<WayPart>& way) const;
   [[nodiscard]] double follow(TrafficCar& car, const Actor& self, const TrafficView& view,
                               const Leader& leader, double wanted_mps);
+  // What each of these asks for at most [m/s^2]; infinity: nothing. The car remembers what it decided.
+  [[nodiscard]] double for_lane_end(const TrafficCar& car, const Actor& self, double wanted_mps) const;
+  [[nodiscard]] double for_junction(TrafficCar& car, const JunctionChoice& choice, double wanted_mps) const;
+  [[nodiscard]] double for_hazard(TrafficCar& car, const JunctionChoice& choice, double wanted_mps) const;
   [[nodiscard]] double towards_merging(const TrafficCar& car, const Actor& self, const TrafficView& view,
                                        const Leader& leader, double wanted_mps, double result) const;
   [[nodiscard]] double lane_change_gain(const TrafficCar& car, const TrafficView& view,
@@ -107,6 +115,8 @@ class Traffic : public TrafficEngine {
   void watch_ego(const Actor& ego, const TrafficView& view);
   [[nodiscard]] const Driver& driver_of(int id) const;
   [[nodiscard]] bool somebody_comes(const TrafficView& view, const TrafficCar& car) const;
+  [[nodiscard]] std::optional<double> entry_speed_mps(const TrafficView& view, const TrafficCar& car,
+                                                      const Departure& departure) const;
   void move(TrafficCar& car);
 
   std::vector<std::deque<std::size_t>> waiting_;  ///< departures, by lane

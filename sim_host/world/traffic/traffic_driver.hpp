@@ -1,5 +1,5 @@
 #pragma once
-/// One driver as data, and the laws he drives by: car following, imperfection, gap acceptance.
+/// One driver as data, and the laws it drives by: car following, imperfection, gap acceptance.
 
 #include <cstdint>
 
@@ -7,6 +7,9 @@
 #include "sim_host/world/traffic/random.hpp"
 
 namespace s4tp::world {
+
+/// Braking asked of oneself, and of others, where nothing presses.
+inline constexpr double kComfortableBraking_mps2 = 2.0;
 
 /// Drawn once a car from its flow's DriverModel. A social mix of drivers differs in these values only.
 struct Driver {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "sim_host/world/traffic/traffic.hpp"
@@ -9,8 +10,7 @@
 namespace s4tp::world {
 namespace {
 
-constexpr double kMinimumBehind_m = 2.5;          // to somebody before whom a car appears
-constexpr double kComfortableBraking_mps2 = 2.0;  // asked of whoever is behind, and of oneself
+constexpr double kMinimumBehind_m = 2.5;  // to somebody before whom a car appears
 
 }  // namespace
 
@@ -22,6 +22,35 @@ bool Traffic::somebody_comes(const TrafficView& view, const TrafficCar& car) con
                                                                           (2.0 * kComfortableBraking_mps2);
 }
 
+/// The speed at which a car comes in, or nothing: there is no room for it now.
+std::optional<double> Traffic::entry_speed_mps(const TrafficView& view, const TrafficCar& car,
+                                               const Departure& departure) const {
+  if (departure.s_m >= 0.0 && somebody_comes(view, car)) {
+    return std::nullopt;
+  }
+  const std::vector<WayPart> way = view.way_from(car.lane, car.s_m, &plan_->ways[car.way].guide);
+  if (surprises_at_junction(view, way)) {
+    return std::nullopt;
+  }
+  double wanted = wanted_speed_mps(car, way);
+  const auto junction =
+      std::find_if(way.begin(), way.end(), [&](const WayPart& part) { return lane(part.lane).in_junction; });
+  if (junction != way.end()) {  // slow enough to stop at its line
+    wanted = std::min(wanted, std::sqrt(2.0 * 2.5 * std::max(0.1, junction->start_m - 0.5 * car.length_m)));
+  }
+  const double speed_mps = std::min(wanted, departure.speed_mps);
+  const Leader leader = view.leader(way, -1, car.length_m);
+  if (leader.actor == nullptr) {
+    return speed_mps;
+  }
+  const double behind_mps =
+      leader.gap_m < 40.0 ? std::min(speed_mps, std::max(leader.actor->speed_mps, 1.0)) : speed_mps;
+  const bool room = leader.gap_m >= car.driver.min_gap_m + 0.5 * car.driver.headway_s * behind_mps &&
+                    following_acceleration_mps2(car.driver, behind_mps, wanted, leader.gap_m,
+                                                leader.actor->speed_mps) >= -kComfortableBraking_mps2;
+  return room ? std::optional(behind_mps) : std::nullopt;
+}
+
 void Traffic::insert_waiting(const Actor* ego) {
   while (next_departure_ < plan_->departures.size() &&
          plan_->departures[next_departure_].time_s <= time_s()) {
@@ -31,7 +60,7 @@ void Traffic::insert_waiting(const Actor* ego) {
   if (std::all_of(waiting_.begin(), waiting_.end(), [](const auto& lane) { return lane.empty(); })) {
     return;
   }
-  const TrafficView view(*road_, actors(ego));  // who has just committed himself must not be surprised
+  const TrafficView view(*road_, actors(ego));  // whoever is committed must not be surprised
   for (std::size_t id = 0; id < waiting_.size(); ++id) {
     if (waiting_[id].empty()) {
       continue;
@@ -45,34 +74,12 @@ void Traffic::insert_waiting(const Actor* ego) {
     car.lane = static_cast<LaneId>(id);
     car.length_m = departure.length_m;
     car.width_m = departure.width_m;
-    const bool at_start = departure.s_m < 0.0;
-    car.s_m = at_start ? 0.5 * car.length_m + 0.1 : departure.s_m;
-    if (!at_start && somebody_comes(view, car)) {
+    car.s_m = departure.s_m < 0.0 ? 0.5 * car.length_m + 0.1 : departure.s_m;
+    const std::optional<double> speed_mps = entry_speed_mps(view, car, departure);
+    if (!speed_mps) {
       continue;
     }
-    const std::vector<WayPart> way = view.way_from(car.lane, car.s_m, &plan_->ways[car.way].guide);
-    double wanted = wanted_speed_mps(car, way);
-    for (const WayPart& part : way) {  // slow enough to stop at a junction's line
-      if (lane(part.lane).in_junction) {
-        wanted = std::min(wanted, std::sqrt(2.0 * 2.5 * std::max(0.1, part.start_m - 0.5 * car.length_m)));
-        break;
-      }
-    }
-    if (surprises_at_junction(view, way)) {
-      continue;
-    }
-    const Leader leader = view.leader(way, -1, car.length_m);
-    car.speed_mps = std::min(wanted, departure.speed_mps);
-    if (leader.actor != nullptr) {
-      if (leader.gap_m < 40.0) {
-        car.speed_mps = std::min(car.speed_mps, std::max(leader.actor->speed_mps, 1.0));
-      }
-      if (leader.gap_m < car.driver.min_gap_m + 0.5 * car.driver.headway_s * car.speed_mps ||
-          following_acceleration_mps2(car.driver, car.speed_mps, wanted, leader.gap_m,
-                                      leader.actor->speed_mps) < -kComfortableBraking_mps2) {
-        continue;
-      }
-    }
+    car.speed_mps = *speed_mps;
     car.known_leader = car.hazard = TrafficCar::kLooking;  // nothing there at the start is a surprise
     car.next_change_s = time_s() + 1.0;
     const auto place =

@@ -31,6 +31,9 @@ struct Departure {
   double speed_mps = std::numeric_limits<double>::infinity();  ///< no more than that, and than is safe
 };
 
+/// Traffic time until which the streams of a scenario are drawn: longer than its episodes last.
+inline constexpr double kDrawnUntil_s = 240.0;
+
 struct FlowPlan {
   std::vector<FlowRoute> ways;
   std::vector<Departure> departures;  ///< by time

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <optional>
 
 namespace s4tp::world {
 namespace {
@@ -19,7 +19,7 @@ constexpr double kPatience_s = 5.0;  // then somebody who stands is more and mor
 constexpr double kLineRoom_m = 0.3;
 constexpr double kDeadlock_s = 2.0;       // until somebody takes heart
 constexpr double kCourteous = 0.5;        // from here on drivers let somebody go who has waited
-constexpr double kCourtesyAfter_s = 5.0;  // he has waited
+constexpr double kCourtesyAfter_s = 5.0;  // of waiting
 constexpr double kCourtesyLasts_s = 5.0;  // then they go themselves
 constexpr double kCourtesy_mps2 = 2.0;    // braking they take upon themselves for it
 
@@ -34,7 +34,7 @@ struct Occupation {
 Occupation occupation_of(const TrafficView& view, const Actor& actor, const Meeting& meeting) {
   Occupation occupation;
   if (actor.queues) {
-    return occupation;  // he cannot come before the one ahead of him has gone
+    return occupation;  // it cannot come before the one ahead of it has gone
   }
   for (const WayPart& part : actor.way) {
     if (part.lane != meeting.other) {
@@ -47,7 +47,7 @@ Occupation occupation_of(const TrafficView& view, const Actor& actor, const Meet
     }
     const double limit_mps = view.road().lane(part.lane).speed_limit_mps;
     occupation.coming = true;
-    // Who stands inside the junction, but short of the ground shared, waits there: nobody waits for him.
+    // One that stands inside the junction, but short of the ground shared, waits there: nobody waits for it.
     const bool under_way = view.road().lane(actor.lane).in_junction && actor.speed_mps > kStanding_mps;
     occupation.inside_junction = under_way || in_m <= 0.0;
     occupation.from_s =
@@ -101,12 +101,12 @@ bool must_wait(const Approach& approach, const Meeting& meeting, const OwnTimes&
   return they_first && !gap_accepted(approach, meeting.rule, own, other, theirs);
 }
 
-/// Whether the other one, who is inside though he should have waited, will be there when we are.
+/// Whether the other one, inside though it should have waited, will be there when we are.
 bool in_the_way(const OwnTimes& own, const Occupation& theirs) {
   return theirs.inside_junction && theirs.from_s < own.out_s && own.in_s < theirs.until_s;
 }
 
-/// Whether a driver with right of way stops for somebody who has waited, and lets him finish what he began.
+/// Whether a driver with right of way stops for somebody who has waited, and goes on doing so.
 bool courteous(const Approach& approach, const Meeting& meeting, const Actor& other, double line_m) {
   if (meeting.rule != Rule::kFirstHasPriority || approach.committed || line_m < -0.5) {
     return false;
@@ -166,6 +166,73 @@ bool no_room_behind(const Approach& approach, double junction_end_m) {
          leader.gap_m + 0.5 * leader.actor->length_m > 0.0;
 }
 
+/// The next junction on a way: its lanes are way[first] to way[after - 1].
+struct JunctionAhead {
+  std::size_t first = 0;
+  std::size_t after = 0;
+};
+
+/// \return nothing: none within sight, or inside one already
+std::optional<JunctionAhead> junction_ahead(const TrafficView& view, const std::vector<WayPart>& way) {
+  const auto inside = [&](const WayPart& part) { return view.road().lane(part.lane).in_junction; };
+  const auto first = std::find_if(way.begin(), way.end(), inside);
+  if (first == way.begin() || first == way.end() || first->start_m > kLook_m) {
+    return std::nullopt;
+  }
+  const auto after = std::find_if_not(first, way.end(), inside);
+  return JunctionAhead{static_cast<std::size_t>(first - way.begin()),
+                       static_cast<std::size_t>(after - way.begin())};
+}
+
+/// Ground on the way that another lane shares, from the box centre.
+struct SharedGround {
+  const Meeting& meeting;
+  double in_m;
+  double out_m;
+  bool before_line;  ///< begins before the stop line
+};
+
+/// What one vehicle that comes over shared ground adds to the choice: somebody to let go, to wait for, or to brake for.
+void heed_vehicle(const Approach& approach, const SharedGround& ground, const OwnTimes& own,
+                  const Actor& other, const Occupation& theirs, JunctionChoice& choice) {
+  if (courteous(approach, ground.meeting, other, choice.line_m)) {
+    choice.stop = true;
+    choice.lets_go = other.id;
+  }
+  const double room_m = ground.in_m - kLineRoom_m;
+  if (!approach.committed && must_wait(approach, ground.meeting, own, other, theirs)) {
+    choice.stop = true;
+    choice.waits_for.push_back(other.id);
+    if (ground.before_line) {
+      choice.line_m = std::min(choice.line_m, room_m);
+    }
+    return;
+  }
+  const bool nearest = choice.hazard == kNoCar || room_m < choice.hazard_m;
+  if (!ground.meeting.merging && ground.in_m > 0.0 && nearest && in_the_way(own, theirs)) {
+    choice.hazard = other.id;
+    choice.hazard_m = room_m;
+  }
+}
+
+/// The same for all vehicles that come over it.
+void heed_meeting(const TrafficView& view, const Approach& approach, const SharedGround& ground,
+                  JunctionChoice& choice) {
+  if (ground.out_m <= 0.0) {
+    return;
+  }
+  const OwnTimes own = own_times(approach, ground.in_m, ground.out_m);
+  for (const Actor& other : view.actors()) {
+    if (other.id == approach.self->id || other.way.empty()) {
+      continue;
+    }
+    const Occupation theirs = occupation_of(view, other, ground.meeting);
+    if (theirs.coming) {
+      heed_vehicle(approach, ground, own, other, theirs, choice);
+    }
+  }
+}
+
 }  // namespace
 
 bool surprises_at_junction(const TrafficView& view, const std::vector<WayPart>& way) {
@@ -188,64 +255,25 @@ bool surprises_at_junction(const TrafficView& view, const std::vector<WayPart>& 
 JunctionChoice choose_at_junction(const TrafficView& view, const Approach& approach) {
   JunctionChoice choice;
   const std::vector<WayPart>& way = approach.self->way;
-  const auto inside = [&](std::size_t i) { return view.road().lane(way[i].lane).in_junction; };
-  if (way.empty() || inside(0)) {
+  const std::optional<JunctionAhead> junction = junction_ahead(view, way);
+  if (!junction) {
     return choice;
   }
-  std::size_t first = 1;
-  while (first < way.size() && !inside(first)) {
-    ++first;
-  }
-  if (first >= way.size() || way[first].start_m > kLook_m) {
-    return choice;
-  }
-  std::size_t after = first;
-  while (after < way.size() && inside(after)) {
-    ++after;
-  }
-  const double half_m = 0.5 * approach.self->length_m;
   choice.near = true;
-  choice.line_m = way[first].start_m - half_m - kLineRoom_m;
-  double hazard_m = std::numeric_limits<double>::infinity();
-  for (std::size_t i = first - 1; i < std::min(after + 1, way.size()); ++i) {
+  choice.line_m = way[junction->first].start_m - 0.5 * approach.self->length_m - kLineRoom_m;
+  for (std::size_t i = junction->first - 1; i < std::min(junction->after + 1, way.size()); ++i) {
     for (const Meeting& meeting : view.road().meetings(way[i].lane)) {
-      const double in_m = way[i].start_m + meeting.entry_m;
-      const double out_m = way[i].start_m + meeting.exit_m;
-      if (out_m <= 0.0) {
-        continue;
-      }
-      const OwnTimes own = own_times(approach, in_m, out_m);
-      for (const Actor& other : view.actors()) {
-        if (other.id == approach.self->id || other.way.empty()) {
-          continue;
-        }
-        const Occupation theirs = occupation_of(view, other, meeting);
-        if (!theirs.coming) {
-          continue;
-        }
-        if (courteous(approach, meeting, other, choice.line_m)) {
-          choice.stop = true;
-          choice.lets_go = other.id;
-        }
-        if (!approach.committed && must_wait(approach, meeting, own, other, theirs)) {
-          choice.stop = true;
-          choice.waits_for.push_back(other.id);
-          if (i < first) {  // shared ground begins before the line
-            choice.line_m = std::min(choice.line_m, in_m - kLineRoom_m);
-          }
-        } else if (!meeting.merging && in_m > 0.0 && in_m < hazard_m && in_the_way(own, theirs)) {
-          hazard_m = in_m;
-          choice.hazard = other.id;
-          choice.hazard_m = in_m - kLineRoom_m;
-        }
-      }
+      heed_meeting(
+          view, approach,
+          {meeting, way[i].start_m + meeting.entry_m, way[i].start_m + meeting.exit_m, i < junction->first},
+          choice);
     }
   }
   choice.queues = approach.leader.gap_m < choice.line_m && approach.self->speed_mps < kStanding_mps &&
                   approach.leader.actor->speed_mps < kStanding_mps;
   const bool ends_it = !choice.queues && ends_deadlock(view, *approach.self, choice.waits_for);
   choice.stop = ends_it ? choice.lets_go != kNoCar : choice.stop;
-  const double end_m = after < way.size() ? way[after].start_m : way.back().start_m;
+  const double end_m = junction->after < way.size() ? way[junction->after].start_m : way.back().start_m;
   choice.stop = choice.stop || (!approach.committed && no_room_behind(approach, end_m));
   choice.goes_first = ends_it && !choice.stop;
   return choice;

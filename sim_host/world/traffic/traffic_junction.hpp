@@ -1,20 +1,20 @@
 #pragma once
-/// How a driver gets through a junction: whose way he waits for, and for whom he brakes late.
+/// How a driver gets through a junction: whom it waits for, and for whom it brakes late.
 ///
 /// \code
-///   other one                            what he does
+///   the other one                        what the driver does
 ///   -----------------------------------  ------------------------------------------------------------
-///   has right of way                     goes through a gap in time with his margin only, else stops
+///   has right of way                     goes through a gap in time with its margin only, else stops
 ///                                        at the line
-///   the same, and lets him go            goes
-///   yields, still before his line        trusts him; who stands waits until he is gone if he has begun
+///   the same, and lets it go             goes
+///   yields, still before its line        trusts it; from rest, waits until it is gone if it has begun
 ///   the same, and has waited long        a courteous one stops for some seconds, where comfortable
-///   yields, but is inside, in the way    brakes before the shared ground after his reaction time
-///   first come, first served             lets him go if he is inside or will be there first
-///   all who stand wait for each other    goes if he has waited longest
-///   stands in a queue before his line    does not wait for him
+///   yields, but is inside, in the way    brakes before the shared ground after its reaction time
+///   first come, first served             lets it go if it is inside or will be there first
+///   all who stand wait for each other    goes if it has waited longest
+///   stands in a queue before its line    does not wait for it
 ///   no room behind the junction          does not enter
-///   he himself is inside                 goes on
+///   the driver is inside itself          goes on
 /// \endcode
 
 #include "sim_host/world/traffic/traffic_driver.hpp"
@@ -39,11 +39,11 @@ struct JunctionChoice {
   double line_m = 0.0;         ///< from the bumper to the stop line
   bool stop = false;           ///< before the line
   bool queues = false;         ///< stands behind somebody who stands before the line
-  std::vector<int> waits_for;  ///< whose way he waits for
-  bool goes_first = false;     ///< all wait for each other, he the longest
-  int lets_go = kNoCar;        ///< id of somebody waiting, for whom he stops out of courtesy
+  std::vector<int> waits_for;  ///< whom it waits for
+  bool goes_first = false;     ///< all wait for each other, this one the longest
+  int lets_go = kNoCar;        ///< id of somebody waiting, for whom it stops out of courtesy
   int hazard = kNoCar;         ///< id of somebody who should not be in the way
-  double hazard_m = 0.0;       ///< from the bumper to where the ground shared with him begins
+  double hazard_m = 0.0;       ///< from the bumper to where the ground shared with it begins
 };
 
 /// Whether a car that appeared at the start of this way would surprise somebody who has accepted a gap in a

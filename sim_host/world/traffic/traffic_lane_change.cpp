@@ -16,10 +16,10 @@ constexpr double kLookAgain_s = 0.5;
 constexpr double kRoomPerSpeed_s = 1.5;  // lane left ahead that a change needs
 constexpr double kRoom_m = 10.0;
 constexpr double kMergingAhead_m = 40.0;    // who wants in is let in, or kept out, from here on
-constexpr double kLetIn_mps2 = 2.0;         // comfortable braking, which a courteous driver takes on him
+constexpr double kLetIn_mps2 = 2.0;         // comfortable braking, which a courteous driver takes upon itself
 constexpr double kLetInAbove_mps = 3.0;     // and does not stop for it
-constexpr double kRivalHeadwayShare = 0.5;  // of his headway a rival gives up to keep somebody out
-constexpr double kRivalSpeedShare = 0.08;   // by which he drives faster
+constexpr double kRivalHeadwayShare = 0.5;  // of its headway a rival gives up to keep somebody out
+constexpr double kRivalSpeedShare = 0.08;   // by which it drives faster
 constexpr double kRivalBehind_m = 5.0;
 
 /// As following, `nobody` ahead being no leader.
@@ -71,7 +71,7 @@ double Traffic::lane_change_gain(const TrafficCar& car, const TrafficView& view,
 
   Actor self;
   self.speed_mps = car.speed_mps;
-  /// What a follower gains when `before` is his leader no more but `after`.
+  /// What a follower gains when `before` is its leader no more but `after`.
   const auto gain_of = [&](const Leader& follower, const Leader& before, const Leader& after) {
     const Driver& driver = driver_of(follower.actor->id);
     const double speed = follower.actor->speed_mps;
@@ -135,12 +135,12 @@ void Traffic::consider_lane_change(TrafficCar& car, const Actor& self, const Tra
   car.s_m = there.s_m;
   car.change_from_m = there.d_m;
   car.change_done = 0.0;
-  car.known_leader = TrafficCar::kLooking;  // he has looked
+  car.known_leader = TrafficCar::kLooking;  // it has looked
   car.next_change_s = time_s() + kPause_s;
 }
 
-/// Beside a lane that ends: the next one behind somebody on it lets him in, or closes up. \param result  what
-/// he would do otherwise
+/// Beside a lane that ends: the next one behind somebody on it lets that one in, or closes up. \param result  what
+/// it would do otherwise
 double Traffic::towards_merging(const TrafficCar& car, const Actor& self, const TrafficView& view,
                                 const Leader& leader, double wanted_mps, double result) const {
   const NetworkLane& here = lane(car.lane);

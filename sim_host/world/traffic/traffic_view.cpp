@@ -113,8 +113,8 @@ Leader TrafficView::leader(const std::vector<WayPart>& way, int self, double len
   return nearest;
 }
 
-/// Who is already inside the junction and reaches the common lane before us is followed at the distance he
-/// will have; but a driver inside a junction himself has no eyes for the ego coming from the side.
+/// One that is inside the junction already and reaches the common lane before us is followed at the distance it
+/// will have; but a driver inside a junction has no eyes for the ego coming from the side.
 void TrafficView::merging_leader(const WayPart& part, int self, int unseen, bool inside, double length_m,
                                  Leader& nearest) const {
   const double own_end_m = part.start_m + road_.lane(part.lane).centre.length_m();

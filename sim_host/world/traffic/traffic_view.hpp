@@ -1,5 +1,5 @@
 #pragma once
-/// What a driver sees of road and others at one instant: who is ahead on his way, who meets him in a
+/// What a driver sees of road and others at one instant: who is ahead on its way, who meets it in a
 /// junction.
 
 #include <cstddef>
@@ -12,7 +12,7 @@ namespace s4tp::world {
 
 inline constexpr int kNoCar = -1;  ///< no car's id
 
-/// A lane of somebody's way; `start_m` is the distance from his box centre to its start (negative: behind).
+/// A lane of somebody's way; `start_m` is the distance from the box centre to its start (negative: behind).
 struct WayPart {
   LaneId lane = kNoLane;
   double start_m = 0.0;
@@ -28,9 +28,9 @@ struct Actor {
   const RouteGuide* guide = nullptr;
   bool committed = false;      ///< to the junction ahead: has accepted a gap and cannot well stop any more
   double waited_s = 0.0;       ///< standing near a stop line so far
-  int lets_go = kNoCar;        ///< id of somebody waiting whom he lets go before himself
+  int lets_go = kNoCar;        ///< id of somebody waiting whom it lets go first
   bool queues = false;         ///< stands behind somebody who stands before the junction
-  std::vector<int> waits_for;  ///< if he stands, it is for these
+  std::vector<int> waits_for;  ///< when standing: for whom
   std::vector<WayPart> also;   ///< further lanes it is in now, changing or straying; `start_m` = -s there
   std::vector<WayPart> way;    ///< filled in by TrafficView: from its lane onwards
 };

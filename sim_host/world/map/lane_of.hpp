@@ -1,0 +1,15 @@
+#pragma once
+/// A lane of a network by its id.
+
+#include <cstddef>
+
+#include "sim_host/world/map/network.hpp"
+
+namespace s4tp::world {
+
+/// \pre id is one of the network's
+[[nodiscard]] inline const NetworkLane& lane_of(const Network& network, LaneId id) {
+  return network.lanes[static_cast<std::size_t>(id)];
+}
+
+}  // namespace s4tp::world

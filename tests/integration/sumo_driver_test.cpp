@@ -1,0 +1,114 @@
+// These need Debian's sumo and fail without it.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+
+#include "sim_host/campaign/campaign.hpp"
+#include "sim_host/campaign/episode.hpp"
+#include "sim_host/sumo/coupling_floor.hpp"
+#include "sim_host/sumo/sumo_traffic.hpp"
+#include "sim_host/world/engine_factory.hpp"
+#include "sim_host/world/traffic/box.hpp"
+#include "sim_host/world/world.hpp"
+#include "tests/support/sumo_scenarios.hpp"
+
+namespace s4tp::world {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace std::chrono_literals;
+
+// An episode over CAN frames with SUMO's traffic reaches its goal, twice the same to the bit.
+TEST(SumoTraffic, DrivesAnEpisode) {
+  campaign::EpisodeOptions options;
+  options.seed = 3;
+  options.engine = Engine::kSumo;
+  const Scenario scenario = shipped("left_turn");
+  const Recording one = campaign::run_episode(scenario, options).recording;
+  const Recording again = campaign::run_episode(scenario, options).recording;
+  EXPECT_EQ(one.ending, Ending::kGoal);
+  ASSERT_EQ(one.snapshots.size(), again.snapshots.size());
+  for (std::size_t i = 0; i < one.snapshots.size(); ++i) {
+    EXPECT_TRUE(same(one.snapshots[i].others, again.snapshots[i].others)) << i;
+    EXPECT_TRUE(same({one.snapshots[i].ego}, {again.snapshots[i].ego})) << i;
+  }
+}
+
+// WORLD-041 SUMO's own driver takes the ego from the mission's start at entry speed to its goal; no ECU
+// answers.
+TEST(SumoTraffic, LetsSumoDriveTheEgo) {
+  const Scenario scenario = shipped("merge");
+  WorldOptions options;
+  options.seed = 3;
+  options.engine = Engine::kSumo;
+  options.ego_by_traffic = true;
+  World world(scenario, options);
+  std::vector<wire::Frame> frames;
+  while (!world.finished()) {
+    frames.clear();
+    world.tick(frames);
+    if (world.time_s() >= 0.0 && world.time_s() < 0.005) {
+      EXPECT_DOUBLE_EQ(world.recording().snapshots.back().ego.speed_mps, scenario.mission.start_speed_mps);
+    }
+  }
+  EXPECT_EQ(world.recording().ending, Ending::kGoal);
+  const std::vector<Snapshot>& shots = world.recording().snapshots;
+  for (std::size_t i = 1; i < shots.size(); ++i) {  // no jump: 20 m/s for 0.1 s at most
+    EXPECT_LT(std::hypot(shots[i].ego.centre.x - shots[i - 1].ego.centre.x,
+                         shots[i].ego.centre.y - shots[i - 1].ego.centre.y),
+              2.0);
+  }
+}
+
+// The planner sumo_driver is that driver, from the same start, through the same recording and figures; bare
+// and guarded it is the same, so it has one cell. Nobody drives against SUMO's will: elsewhere it is refused.
+TEST(SumoDriver, IsAPlannerOfTheCampaign) {
+  campaign::CampaignPlan plan;
+  plan.planners = {"constant_speed", "sumo_driver"};
+  plan.scenarios = {"merge", "cruise"};
+  plan.guards = {true, false};
+  plan.episodes = 2;
+  const fs::path scenarios = fs::path(S4TP_SOURCE_DIR) / "sim_host/scenarios";
+  const std::string refused = what_of([&] { (void)campaign::load_campaign(plan, scenarios); });
+  EXPECT_NE(refused.find("sumo_driver drives in SUMO's traffic only: --traffic sumo"), std::string::npos)
+      << refused;
+
+  plan.traffic = {"builtin", "sumo"};
+  campaign::Campaign all = campaign::load_campaign(plan, scenarios);
+  EXPECT_EQ(all.cells.size(), 2U * 2U * 2U + 2U);
+  std::vector<campaign::Job> jobs = campaign::jobs_of(all);
+  std::erase_if(jobs,
+                [&](const campaign::Job& job) { return all.cells[job.cell].cell.planner != "sumo_driver"; });
+  ASSERT_EQ(jobs.size(), 4U);
+  campaign::CampaignOptions options;
+  options.threads = 2;
+  for (const campaign::EpisodeRow& row : campaign::run_campaign(all, jobs, options)) {
+    EXPECT_FALSE(row.cell.guarded);
+    EXPECT_EQ(row.cell.traffic, "sumo");
+    EXPECT_EQ(row.metrics.ending, Ending::kGoal) << row.cell.scenario << " " << row.metrics.seed;
+    EXPECT_GT(row.metrics.duration_s, 5.0);
+    EXPECT_GT(row.metrics.distance_m, 50.0);
+  }
+}
+
+// The built-in traffic drives no ego, and says so.
+TEST(TrafficEngine, OnlySumoDrivesTheEgo) {
+  EngineOptions options;
+  options.ego = DrivenBy::kEngine;
+  EXPECT_THROW((void)make_engine(shipped("cruise"), options), std::invalid_argument);
+  EXPECT_EQ(engine_of("sumo"), Engine::kSumo);
+  EXPECT_THROW((void)engine_of("vissim"), std::invalid_argument);
+}
+
+// One of SUMO's own drives, replayed through the coupling: on an unchanged course nobody touches the ego.
+TEST(SumoCoupling, ReplaysADriveUntouched) {
+  const Scenario scenario = shipped("left_turn");
+  const SumoDrive drive = sumo_drive(scenario, 3);
+  ASSERT_TRUE(drive.arrived && !drive.touched);
+  EXPECT_FALSE(replay(scenario, 3, drive, {}).touched);
+}
+
+}  // namespace
+}  // namespace s4tp::world
