@@ -13,6 +13,8 @@ constexpr int kRankMiddle = 1;  // of three steps: their sum is three times it t
 constexpr int kRankSteps = kHorizonSteps / kRankStride;
 static_assert(kRankSteps * kRankStride == kHorizonSteps);
 
+constexpr std::int32_t kProfileWork = 200;  // WorkMeter's units, beside what the steps and the road take
+
 float instant(float obstacle, float road, float social, const Parameters& parameters) {
   return obstacle + road + parameters.risk.weight_social * social +
          parameters.scoring.risk_excess * max(obstacle - parameters.risk.threshold, 0.0F);
@@ -55,6 +57,7 @@ void exact_risk(const scene::Scene& scene, const DrivableArea& area, const satp:
   const Futures futures = all_modes(scene, prediction, others);
   const std::int32_t least = least_work(futures.size());
   work.reserve = kRankSteps * least;
+  work.spend(kProfileWork);
   road_risk(area, trajectory, parameters, 1, 1, profile.road, work);
   const StepInputs inputs = step_inputs(scene, futures, trajectory, parameters, Precision::kSlices);
   CostBoxes boxes;
