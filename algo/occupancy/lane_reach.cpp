@@ -15,7 +15,7 @@ constexpr int kMostRounds = 12;      // lanes of a way, changes included
 // Work (WorkMeter's units).
 constexpr int kReachWork = 12;
 constexpr int kTwoLooksWork = 5;  // of two lanes followed
-constexpr int kLedIntoWork = 300;
+constexpr int kLedIntoWork = 290;
 
 bool has_lane(const LaneMap& map, LaneIndex lane) {
   return lane >= 0 && lane < kMaxLanes && map.lanes[lane].present;

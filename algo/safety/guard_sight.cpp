@@ -19,7 +19,7 @@ constexpr int kCapSamples = 4;
 constexpr float kStandingMps = 0.3F;
 
 // Work (WorkMeter's units).
-constexpr int kMostWork = 20'000;  // beyond, the next path is not looked at any more
+constexpr int kMostWork = 15'000;  // beyond, the next path is not looked at any more
 constexpr int kLookWork = 10;
 constexpr int kPathWork = 20;
 constexpr int kGroupWork = 50;

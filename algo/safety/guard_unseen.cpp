@@ -15,7 +15,7 @@ constexpr float kLengthM = 2.0F * scene::kUsualHalfLengthM;  // of whom we expec
 // Work (WorkMeter's units).
 constexpr int kMostWork = 10'000;  // beyond, somebody is expected everywhere
 constexpr int kEdgesWork = 20;     // of a lane
-constexpr int kLedIntoWork = 300;
+constexpr int kLedIntoWork = 290;
 constexpr int kExpectWork = 30;
 constexpr int kZoneWork = 8;  // and ...
 constexpr int kHeldWork = 1;  // ... of each vehicle there

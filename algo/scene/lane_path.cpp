@@ -232,11 +232,15 @@ bool usable(const Lane& lane) {
 }
 
 void find_led_into(const LaneMap& map, bool (&led_into)[kMaxLanes]) {
-  for (bool& led : led_into) led = false;
-  for (const Lane& lane : map.lanes) {
-    if (!usable(lane)) continue;
-    for (const LaneIndex next : lane.successors) {
-      if (next >= 0 && next < kMaxLanes && usable(map.lanes[next])) led_into[next] = true;
+  bool is_usable[kMaxLanes];
+  for (int i = 0; i < kMaxLanes; ++i) {
+    is_usable[i] = usable(map.lanes[i]);
+    led_into[i] = false;
+  }
+  for (int i = 0; i < kMaxLanes; ++i) {
+    if (!is_usable[i]) continue;
+    for (const LaneIndex next : map.lanes[i].successors) {
+      if (next >= 0 && next < kMaxLanes && is_usable[next]) led_into[next] = true;
     }
   }
 }
