@@ -13,7 +13,7 @@ constexpr int kRankMiddle = 1;  // of three steps: their sum is three times it t
 constexpr int kRankSteps = kHorizonSteps / kRankStride;
 static_assert(kRankSteps * kRankStride == kHorizonSteps);
 
-constexpr std::int32_t kProfileWork = 200;  // WorkMeter's units, beside what the steps and the road take
+constexpr std::int32_t kProfileWork = 300;  // WorkMeter's units, beside what the steps and the road take
 
 float instant(float obstacle, float road, float social, const Parameters& parameters) {
   return obstacle + road + parameters.risk.weight_social * social +
