@@ -364,7 +364,8 @@ const trajectory::RefinementProblem* PlanningCycle::last_refinement() const {
 }
 
 void PlanningCycle::refine(const trajectory::Candidate& candidate, Explanation& explanation) {
-  const std::int32_t affordable_passes = (work_.left() - work::kRefinement - judge_work()) / kPassWork;
+  // The last one may take as much as two: trials that fail.
+  const std::int32_t affordable_passes = (work_.left() - work::kRefinement - judge_work()) / kPassWork - 1;
   const int most =
       affordable_passes < allowance.optimizer_iterations ? affordable_passes : allowance.optimizer_iterations;
   const int passes = most > 0 ? to_int(parameters_.refinement.passes, 0, most) : 0;

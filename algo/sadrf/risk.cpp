@@ -69,7 +69,12 @@ void exact_risk(const scene::Scene& scene, const DrivableArea& area, const satp:
     for (int agent = 0; agent < scene.agents.size(); ++agent) dominating.take(risk.share[agent], agent, i);
   };
   for (int i = kRankMiddle; i < kHorizonSteps; i += kRankStride) {
-    look(i);
+    if (i == kRankMiddle || work.left >= least) {
+      look(i);
+    } else {
+      profile.obstacle[i] = profile.obstacle[i - kRankStride];
+      profile.social[i] = profile.social[i - kRankStride];
+    }
     work.reserve -= least;
   }
   work.reserve = least;
