@@ -21,7 +21,7 @@ inline constexpr std::int32_t kPassWork = 1'400;         ///< for a pass of the 
 namespace work {
 inline constexpr std::int32_t kBetween = 400;  ///< the start, and the minimum-risk manoeuvre
 inline constexpr std::int32_t kExplain = 30;
-inline constexpr std::int32_t kEncode = 2'400;         ///< by the network, ...
+inline constexpr std::int32_t kEncode = 2'550;         ///< by the network, ...
 inline constexpr std::int32_t kEncodeWatched = 1'950;  ///< ... of each vehicle it watches, and ...
 inline constexpr std::int32_t kEncodePath = 1'100;     ///< ... of each way that one may take
 inline constexpr std::int32_t kGoesOn = 180;           ///< of any vehicle, that it keeps its speed
@@ -29,7 +29,7 @@ inline constexpr std::int32_t kDecode = 100;           ///< of all vehicles, and
 inline constexpr std::int32_t kDecodeAgent = 3'300;    ///< ... of each by the network
 inline constexpr std::int32_t kDecodeStep = 8;  ///< of the network's modes and the kinematic predictor's
 inline constexpr std::int32_t kCandidates = 60;
-inline constexpr std::int32_t kVisit = 40;          ///< to see which decision a candidate is
+inline constexpr std::int32_t kVisit = 60;          ///< to see which decision a candidate is
 inline constexpr std::int32_t kMostScore = 1'500;   ///< to judge and score it
 inline constexpr std::int32_t kTouches = 900;       ///< to count them with one exact risk, at most
 inline constexpr std::int32_t kRefinement = 6'500;  ///< to state the optimizer's problem

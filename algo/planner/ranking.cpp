@@ -167,6 +167,7 @@ void PlanningCycle::rank(bool careful, Explanation& explanation) {
     for (int path = 0; path < scene_.ego_paths.size(); ++path) leaders_[path] = ranking.leaders[path];
   }
   const StageScope scope(probe, Stage::kRank);
+  work_.spend(Stage::kRank, work::kVisit);
   decisions_.shortlist(affordable(), keeps_plan_, plan_key_);
 }
 
