@@ -5,7 +5,8 @@
     budget.py --target m7|m55 --scenes FILE [--uncapped]      kept scenes, the dearest that were found
     budget.py --target m7|m55 --scenes FILE --search SEED EVALUATIONS [--keep]      looks for dearer ones from there on
 
-A file of scenes has a line each, `scene GENOME`. --keep writes the dearest of each stage back to it.
+A file of scenes has a line each, `scene GENOME`. --keep writes back to it the dearest of each stage, and those that took
+the most beyond what they were charged. On m7, whose instructions the charges are, nothing may take more than its charge.
 
 QEMU knows neither caches nor wait states: these are instructions, and the milliseconds rest on the assumed cycles per
 instruction. They are no execution times and no worst case.
@@ -21,6 +22,7 @@ import tempfile
 
 # SysTick counts per instruction at one instruction per 64 ns: 25 MHz and 32 MHz.
 COUNTS_PER_INSTRUCTION = {"m7": 1.6, "m55": 2.048}
+INSTRUCTIONS_PER_UNIT = 100  # algo/core/work_meter.hpp
 CYCLES_PER_INSTRUCTION = 1.5
 CLOCK_MHZ = 480
 # The budget of a cycle, docs/budget.md [million instructions].
@@ -50,35 +52,38 @@ def rows_of_log(arguments):
 
 
 def rows_of_scenes(arguments):
-    """The most of any scene; with --search of those found, too."""
-    script = arguments.scenes.read_text(encoding="utf-8")
-    if arguments.fresh:
-        script = ""
-    kept = len(re.findall("^scene", script, re.MULTILINE))
-    if arguments.uncapped:
-        script = "uncapped\n" + script
+    """(rows as table() gives them, exit code, {stage: most beyond its charge [million instructions]}): of any scene; with
+    --search of those found, too."""
+    kept = [] if arguments.fresh else arguments.scenes.read_text(encoding="utf-8").splitlines()
+    counts = COUNTS_PER_INSTRUCTION[arguments.target]
+    script = [f"unit {round(INSTRUCTIONS_PER_UNIT * counts)}", *(["uncapped"] if arguments.uncapped else []), *kept]
     if arguments.search:
-        script += f"search {arguments.search[0]} {arguments.search[1]}\n"
+        script.append(f"search {arguments.search[0]} {arguments.search[1]}")
     with tempfile.NamedTemporaryFile("w", suffix=".txt") as file:
-        file.write(script)
+        file.write("\n".join(script) + "\n")
         file.flush()
         run = run_image(arguments, "cycle_cost", file.name)
-    per_instruction = COUNTS_PER_INSTRUCTION[arguments.target] * 1e6
-    costs = [[int(count) for count in line.split()] for line in re.findall(r"^cost ([\d ]+)$", run.stdout, re.MULTILINE)]
-    best = {name: (int(count), genome)
-            for name, count, genome in re.findall(r"^best (\w+) (\d+) of \d+ (\w+)$", run.stdout, re.MULTILINE)}
-    if run.returncode or len(costs) != kept or bool(best) != bool(arguments.search):
+    costs = [[int(count) for count in line.split()] for line in re.findall(r"^cost ([-\d ]+)$", run.stdout, re.MULTILINE)]
+    best = {(kind, name): (int(count), genome) for kind, name, count, genome in
+            re.findall(r"^(best|short) (\w+) (-?\d+) of \d+ (\w+)$", run.stdout, re.MULTILINE)}
+    scenes = sum(line.startswith("scene") for line in kept)
+    if run.returncode or len(costs) != scenes or bool(best) != bool(arguments.search):
         print(run.stdout + run.stderr)
-        return [], 2
-    rows = []
+        return [], 2, {}
+    rows, beyond = [], {}
     for i, name in enumerate(BUDGET):
-        counts = [cost[i] for cost in costs] + ([best[name][0]] if best else [])
-        rows.append((name, len(counts), sum(counts) / len(counts) / per_instruction, max(counts) / per_instruction))
+        took = [cost[i] / counts / 1e6 for cost in costs]
+        short = [cost[len(BUDGET) + i] / counts / 1e6 for cost in costs]
+        if best:
+            took.append(best["best", name][0] / counts / 1e6)
+            short.append(best["short", name][0] / counts / 1e6)
+        rows.append((name, len(took), sum(took) / len(took), max(took)))
+        beyond[name] = max(short)
     if arguments.keep:
-        comments = [line for line in script.splitlines() if line.startswith("#")]
+        comments = [line for line in kept if line.startswith("#")]
         genomes = dict.fromkeys(genome for _, genome in best.values())
         arguments.scenes.write_text("\n".join(comments + [f"scene {genome}" for genome in genomes]) + "\n", encoding="utf-8")
-    return rows, 0
+    return rows, 0, beyond
 
 
 def main():
@@ -93,23 +98,28 @@ def main():
     parser.add_argument("--keep", action="store_true", help="write the dearest scenes of each row to the file")
     parser.add_argument("--build", type=pathlib.Path)
     arguments = parser.parse_args()
-    rows, code = rows_of_log(arguments) if arguments.log else rows_of_scenes(arguments)
+    rows, code, beyond = (*rows_of_log(arguments), {}) if arguments.log else rows_of_scenes(arguments)
     print(f"{arguments.target}: million instructions a planning cycle")
-    print(f"{'stage':12s}{'cycles' if arguments.log else 'scenes':>8s}{'mean':>9s}{'max':>9s}{'budget':>9s}")
+    print(f"{'stage':12s}{'cycles' if arguments.log else 'scenes':>8s}{'mean':>9s}{'max':>9s}{'budget':>9s}"
+          + (f"{'beyond its charge':>19s}" if beyond else ""))
     over = []
     for name, cycles, mean, most in rows:
-        print(f"{name:12s}{cycles:8d}{mean:9.3f}{most:9.3f}{BUDGET[name]:9.1f}")
+        print(f"{name:12s}{cycles:8d}{mean:9.3f}{most:9.3f}{BUDGET[name]:9.1f}"
+              + (f"{beyond[name]:19.3f}" if beyond else ""))
         if most > BUDGET[name]:
             over.append(name)
+    undercharged = [name for name, most in beyond.items() if most > 0 and arguments.target == "m7"]
     if rows:
         milliseconds = rows[-1][3] * CYCLES_PER_INSTRUCTION / CLOCK_MHZ * 1e3
         print(f"largest cycle: {milliseconds:.1f} ms at {CLOCK_MHZ} MHz, assuming {CYCLES_PER_INSTRUCTION} cycles an "
               "instruction")
     if over:
         print(f"over budget: {', '.join(over)}")
+    if undercharged:
+        print(f"charged too little: {', '.join(undercharged)}")
     if code or not rows:
         return 2
-    return 1 if over else 0
+    return 1 if over or undercharged else 0
 
 
 if __name__ == "__main__":

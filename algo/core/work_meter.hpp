@@ -5,7 +5,7 @@
 
 namespace s4tp {
 
-/// Units of about a hundred instructions of a Cortex-M7; what is charged is an upper bound of what it takes
+/// Units of a hundred instructions of a Cortex-M7, or less; what is charged is an upper bound of what it takes
 /// (docs/budget.md).
 struct WorkMeter {
   std::int32_t left = 0;

@@ -12,6 +12,11 @@ constexpr std::int16_t kNoWayCm = 30000;
 constexpr float kHorizonM = 160.0F;  // the map's own, and a little
 constexpr int kMostRounds = 12;      // lanes of a way, changes included
 
+// Work (WorkMeter's units).
+constexpr int kReachWork = 12;
+constexpr int kTwoLooksWork = 5;  // of two lanes followed
+constexpr int kLedIntoWork = 290;
+
 bool has_lane(const LaneMap& map, LaneIndex lane) {
   return lane >= 0 && lane < kMaxLanes && map.lanes[lane].present;
 }
@@ -22,8 +27,9 @@ float LaneReach::to_start_m(LaneIndex lane) const {
   return kMPerCm * static_cast<float>(to_start_cm_[lane]);
 }
 
-void LaneReach::measure(const LaneMap& map, const scene::Agent& agent, bool changes) {
+int LaneReach::measure(const LaneMap& map, const scene::Agent& agent, bool changes) {
   for (std::int16_t& way_cm : to_start_cm_) way_cm = kNoWayCm;
+  int work = kReachWork;
   LaneIndex front[kMaxLanes];  // lanes whose neighbours are still to be looked at
   int count = 0;
   bool waiting[kMaxLanes] = {};
@@ -43,6 +49,7 @@ void LaneReach::measure(const LaneMap& map, const scene::Agent& agent, bool chan
       offer(part.lane, part.start_s_m - agent.frenet[i].s_m);
   }
   if (agent.paths.empty() && map.lanes_left_out > 0) {
+    work += kLedIntoWork;
     bool led_into[kMaxLanes];
     scene::find_led_into(map, led_into);
     for (LaneIndex lane = 0; lane < kMaxLanes; ++lane) {
@@ -53,6 +60,7 @@ void LaneReach::measure(const LaneMap& map, const scene::Agent& agent, bool chan
   for (int round = 0; round < kMostRounds && count > 0; ++round) {
     LaneIndex now[kMaxLanes];
     const int waiting_now = count;
+    work += 1 + kTwoLooksWork * waiting_now / 2;
     for (int i = 0; i < waiting_now; ++i) {
       now[i] = front[i];
       waiting[now[i]] = false;
@@ -70,6 +78,7 @@ void LaneReach::measure(const LaneMap& map, const scene::Agent& agent, bool chan
       offer(lane.right, start_m);
     }
   }
+  return work;
 }
 
 }  // namespace s4tp::occupancy

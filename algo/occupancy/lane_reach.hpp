@@ -24,7 +24,8 @@ class LaneReach {
   /// or what OCC-004 says.
   /// \note bounded work: each of the map's lanes is looked at a few times
   /// \param changes  false: without lane changes, along the lanes it is in or changes to already
-  void measure(const LaneMap& map, const scene::Agent& agent, bool changes = true);
+  /// \return what it took [WorkMeter's units]
+  int measure(const LaneMap& map, const scene::Agent& agent, bool changes = true);
 
   /// Way from the vehicle's centre to the start of the lane; negative on the lane, kNoWayM when no way leads
   /// there. \pre lane is an index of the map

@@ -6,43 +6,39 @@
 
 #include "algo/core/work_meter.hpp"
 #include "algo/planner/explanation.hpp"
+#include "algo/trajectory/candidates.hpp"
 
 namespace s4tp::planner {
 
-/// A cycle: 15.4 million instructions, with 1.3 % for what is charged too little (docs/budget.md).
-inline constexpr std::int32_t kCycleWork = 152'000;
-inline constexpr std::int32_t kRankWork = 14'000;       ///< of it, at most, for the risks of the ranking
-inline constexpr std::int32_t kExactWork = 12'000;      ///< for one exact risk, and ...
-inline constexpr std::int32_t kLeastExactWork = 7'000;  ///< ... at least; fewer decisions before less
-inline constexpr std::int32_t kPassWork = 1'400;        ///< for a pass of the optimizer
+inline constexpr std::int32_t kCycleWork = 154'000;      ///< 15.4 million instructions
+inline constexpr std::int32_t kCandidatesWork = 23'000;  ///< of it, at most, for the candidates, ...
+inline constexpr std::int32_t kRankWork = 16'000;        ///< ... for the risks of the ranking, ...
+inline constexpr std::int32_t kExactWork = 12'000;       ///< ... for one exact risk, and ...
+inline constexpr std::int32_t kLeastExactWork = 7'000;   ///< ... at least; fewer decisions before less
+inline constexpr std::int32_t kPassWork = 1'400;         ///< for a pass of the optimizer
 
-/// What is charged for steps that are not cut.
+/// What is charged for steps whose work is known by sizes; others tell what they took.
 namespace work {
-inline constexpr std::int32_t kScene = 1'000;
-inline constexpr std::int32_t kSceneAgent = 350;
-inline constexpr std::int32_t kOffsetTried = 4;        ///< a place of our box tried (lateral_offset.hpp)
-inline constexpr std::int32_t kEncode = 2'100;         ///< by the network, ...
-inline constexpr std::int32_t kEncodeWatched = 1'900;  ///< ... of each vehicle it watches, and ...
+inline constexpr std::int32_t kBetween = 400;  ///< the start, and the minimum-risk manoeuvre
+inline constexpr std::int32_t kExplain = 30;
+inline constexpr std::int32_t kEncode = 2'550;         ///< by the network, ...
+inline constexpr std::int32_t kEncodeWatched = 1'950;  ///< ... of each vehicle it watches, and ...
 inline constexpr std::int32_t kEncodePath = 1'100;     ///< ... of each way that one may take
-inline constexpr std::int32_t kGoesOn = 150;           ///< of any vehicle, that it keeps its speed
+inline constexpr std::int32_t kGoesOn = 180;           ///< of any vehicle, that it keeps its speed
 inline constexpr std::int32_t kDecode = 100;           ///< of all vehicles, and ...
-inline constexpr std::int32_t kDecodeAgent = 3'260;    ///< ... of each by the network
-inline constexpr std::int32_t kDecodeStep = 7;  ///< of the network's modes and the kinematic predictor's
-inline constexpr std::int32_t kCandidates = 700;
-inline constexpr std::int32_t kCandidatesAgent = 230;
-inline constexpr std::int32_t kRollOut = 200;
-inline constexpr std::int32_t kScore = 160;
+inline constexpr std::int32_t kDecodeAgent = 3'300;    ///< ... of each by the network
+inline constexpr std::int32_t kDecodeStep = 8;  ///< of the network's modes and the kinematic predictor's
+inline constexpr std::int32_t kCandidates = 60;
+inline constexpr std::int32_t kVisit = 60;          ///< to see which decision a candidate is
+inline constexpr std::int32_t kMostScore = 1'500;   ///< to judge and score it
 inline constexpr std::int32_t kTouches = 900;       ///< to count them with one exact risk, at most
-inline constexpr std::int32_t kRefinement = 3'800;  ///< to state the optimizer's problem
-inline constexpr std::int32_t kEnd = 1'500;         ///< the explanation
-inline constexpr std::int32_t kGuardAgent = 190;
-inline constexpr std::int32_t kAgentPath = 150;  ///< where a vehicle is along one of our paths, whoever asks
+inline constexpr std::int32_t kRefinement = 6'500;  ///< to state the optimizer's problem
 }  // namespace work
 
 class CycleWork {
  public:
   void begin(std::int32_t units) {
-    left_ = units - work::kEnd;
+    left_ = units - work::kBetween;
     for (std::int32_t& spent : spent_) spent = 0;
   }
   void spend(Stage stage, std::int32_t units) {

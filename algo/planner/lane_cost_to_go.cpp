@@ -14,6 +14,13 @@ constexpr float kCrawlMps = 3.0F;  // who stands or crawls will not do so all th
 constexpr float kRoomM = 60.0F;    // for each lane change left to do; with no more, nothing else counts
 constexpr float kInsideM = 1.0F;   // aimed at within a gap that has room for it
 
+// Work (WorkMeter's units).
+constexpr int kLaneWork = 20;   // of a lane, and of each vehicle that counts there: ...
+constexpr int kGapWork = 8;     // ... to find the gaps, ...
+constexpr int kAskingWork = 2;  // ... to ask how long it delays us, ...
+constexpr int kAskingLaneWork = 6;
+constexpr int kOtherWork = 2;  // ... to see that it does not count
+
 /// Time over `way_m` from `speed_mps`, accelerating to the limit.
 float driving_time_s(float way_m, float speed_mps, float limit_mps, float acceleration_mps2) {
   if (way_m <= 0.0F) return 0.0F;
@@ -33,12 +40,13 @@ float lane_end_s_m(const scene::Scene& scene, const scene::EgoPath& path, const 
 
 }  // namespace
 
-void LaneCostToGo::look(const scene::Scene& scene, const satp::KinematicSet& constant_velocity, float lead_s,
-                        const Parameters& parameters) {
+int LaneCostToGo::look(const scene::Scene& scene, const satp::KinematicSet& constant_velocity, float lead_s,
+                       const Parameters& parameters) {
   lanes_.clear();
   parameters_ = &parameters;
   centre_m_ = trajectory::rear_axle_to_centre_m(parameters);
-  if (scene.ego_paths.empty()) return;
+  if (scene.ego_paths.empty()) return 0;
+  int work = 0;
   const scene::EgoPath& own = scene.ego_paths[0];
   const int changes = own.changes_needed < 0 ? -own.changes_needed : own.changes_needed;
   const float spare_m = own.route_end_s_m - own.frenet.s_m - kRoomM * static_cast<float>(changes);
@@ -58,7 +66,7 @@ void LaneCostToGo::look(const scene::Scene& scene, const satp::KinematicSet& con
       const Track& track = scene.agents[i].track;
       const Pose& then = constant_velocity.agents[i].steps[kHorizonSteps - 1];
       const scene::Frenet frenet =
-          scene::project(*scene.map, path.path, position(then), path.frenet.s_m, -1.0F);
+          scene::project(*scene.map, path.path, position(then), path.frenet.s_m, -1.0F, work);
       const float along = cos(wrap_angle(then.heading_rad - frenet.heading_rad));
       if (along < 0.7F) continue;  // crossing and oncoming traffic is no matter of lanes
       const bool in_lane = abs(frenet.d_m) <= half_lane_m;
@@ -68,10 +76,18 @@ void LaneCostToGo::look(const scene::Scene& scene, const satp::KinematicSet& con
       (void)lane.seen.push({frenet.s_m, track.length_m, along * track.speed_mps, in_lane});
       lane.returns = lane.returns || !in_lane;
     }
+    work += kLaneWork + kOtherWork * count + kGapWork * lane.seen.size();
     put_in_order(lane.seen, parameters);
     (void)lanes_.push(lane);
   }
   find_gaps(scene, lead_s);
+  return work;
+}
+
+int LaneCostToGo::asking_work() const {
+  int work = 0;
+  for (const Lane& lane : lanes_) work += kAskingLaneWork + kAskingWork * lane.seen.size();
+  return work;
 }
 
 void LaneCostToGo::find_gaps(const scene::Scene& scene, float lead_s) {

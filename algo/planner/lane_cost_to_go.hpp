@@ -15,9 +15,9 @@ namespace s4tp::planner {
 class LaneCostToGo {
  public:
   /// Looks at every path of the scene, once a cycle. \param constant_velocity  where the others are meanwhile, from
-  /// plan start, `lead_s` after the scene's time
-  void look(const scene::Scene& scene, const satp::KinematicSet& constant_velocity, float lead_s,
-            const Parameters& parameters);
+  /// plan start, `lead_s` after the scene's time \return what it took [WorkMeter's units]
+  int look(const scene::Scene& scene, const satp::KinematicSet& constant_velocity, float lead_s,
+           const Parameters& parameters);
 
   /// Time lost [s] against driving at the limit, until the goal or 150 m from here, by whoever is at `s_m`
   /// with `speed_mps` at the horizon's end and then stays in the lane of `path`: behind the slower ones in
@@ -28,6 +28,9 @@ class LaneCostToGo {
   /// Time [s] from the horizon's end until who is at `s_m` of `path` with `speed_mps` then is in the gap
   /// there that we can meet; 0 when there is none, or no need of one.
   [[nodiscard]] float time_to_gap_s(int path, float s_m, float speed_mps) const;
+
+  /// What asking for the delay and the gap of every path takes [WorkMeter's units].
+  [[nodiscard]] int asking_work() const;
 
   /// Where to be for the gap of `path` that we can meet, along the keep path at plan start.
   [[nodiscard]] trajectory::MergeTarget merge_target(const scene::Scene& scene, int path) const;

@@ -129,23 +129,24 @@ Status PlanningCycle::plan(const PlannerInput& input, Plan& plan, Explanation& e
       status = scene_builder_.build(input.now_ms, input.ego, input.tracks, input.tracks_ms, input.map,
                                     parameters_, scene_);
       believe(scene_);
-      sadrf::build_drivable(input.map, drivable_);
-      const int tried = trajectory::set_lateral_offsets(parameters_, scene_);
+      const int drivable_work = sadrf::build_drivable(input.map, drivable_);
+      const int aside_work = trajectory::set_lateral_offsets(parameters_, scene_);
       explanation.id_clashes = scene_.id_clashes;
       explanation.tracks_left_out = scene_.known.left_out;
       explanation.lanes_left_out = input.map != nullptr ? input.map->lanes_left_out : std::uint8_t{0};
       count(explanation, Stage::kScene, scene_.agents.size());
-      work_.spend(Stage::kScene,
-                  work::kScene + work::kSceneAgent * scene_.agents.size() + work::kOffsetTried * tried);
+      work_.spend(Stage::kScene, scene_.work + drivable_work + aside_work);
     }
     start_ = trajectory::plan_start(input.ego, input.now_ms, running_, start_ms_, parameters_);
     if (status == Status::kOk && scene_.list_refused) status = Status::kStaleTracks;
     if (status == Status::kOk) {
       {
         const StageScope scope(probe, Stage::kCheck);
-        guard_.look(scene_, start_, 0.001F * static_cast<float>(start_ms_ - scene_.time_ms), parameters_);
-        work_.spend(Stage::kCheck,
-                    (work::kGuardAgent + work::kAgentPath * scene_.ego_paths.size()) * scene_.agents.size());
+        const int look_work =
+            guard_.look(scene_, start_, 0.001F * static_cast<float>(start_ms_ - scene_.time_ms), parameters_);
+        // What comes last is paid for first.
+        work_.spend(Stage::kCheck, look_work + judge_work() + guard_.commit_work());
+        work_.spend(Stage::kExplain, work::kExplain);
       }
       predict(explanation);
       rank(input.degraded != 0, explanation);
@@ -291,7 +292,7 @@ Status PlanningCycle::choose(Explanation& explanation) {
   }
   const scene::EgoPath& path = scene_.ego_paths[candidates_[best].path];
   explanation.manoeuvre = path.manoeuvre;
-  const trajectory::Leader leader = trajectory::find_leader(scene_, path, path.frenet.s_m, parameters_);
+  const trajectory::Leader& leader = leaders_[candidates_[best].path];
   explanation.leader_track = track_id(leader.agent);
   explanation.leader_gap_m = leader.gap_m;
   return Status::kOk;
@@ -300,6 +301,7 @@ Status PlanningCycle::choose(Explanation& explanation) {
 void PlanningCycle::roll_out(int index) {
   const StageScope scope(probe, Stage::kCandidates);
   const trajectory::Candidate& candidate = candidates_[index];
+  work_.spend(Stage::kCandidates, candidate.steered ? trajectory::kSteeredWork : trajectory::kRollOutWork);
   trajectory::roll_out(lines_[candidate.path], candidate, start_, running_, start_ms_, parameters_, chosen_);
 }
 
@@ -316,6 +318,7 @@ bool PlanningCycle::hold(int index, Explanation& explanation) {
   {
     const StageScope scope(probe, Stage::kCheck);
     count(explanation, Stage::kCheck, 1);
+    work_.spend(Stage::kCheck, guard_.judge_work(candidates_[index].path));
     if (!verify(candidates_[index].path, chosen_).safe()) {
       explanation.rejections[index] = trajectory::Rejection::kRefused;
       return false;
@@ -333,7 +336,8 @@ void PlanningCycle::evaluate_risk(const satp::PredictionSet& prediction, const T
                                   Explanation& explanation, sadrf::RiskProfile& profile) {
   // The others to come get as much.
   const int to_come = decisions_to_come_ > 1 ? decisions_to_come_ : 1;
-  const std::int32_t left = work_.left() - (to_come - 1) * decode_work() - to_come * work::kTouches;
+  const std::int32_t left =
+      work_.left() - (to_come - 1) * decision_work() - work::kTouches - trajectory::kSteeredWork;
   const std::int32_t share = left / to_come;
   WorkMeter meter{share < allowance.exact_risk ? share : allowance.exact_risk};
   const std::int32_t before = meter.left;
@@ -360,30 +364,31 @@ const trajectory::RefinementProblem* PlanningCycle::last_refinement() const {
 }
 
 void PlanningCycle::refine(const trajectory::Candidate& candidate, Explanation& explanation) {
-  const std::int32_t affordable_passes = (work_.left() - work::kRefinement) / kPassWork;
+  // The last one may take as much as two: trials that fail.
+  const std::int32_t affordable_passes = (work_.left() - work::kRefinement - judge_work()) / kPassWork - 1;
   const int most =
       affordable_passes < allowance.optimizer_iterations ? affordable_passes : allowance.optimizer_iterations;
   const int passes = most > 0 ? to_int(parameters_.refinement.passes, 0, most) : 0;
   // In the field the exact risk decides.
   const bool can_decide = can_evaluate_risk(explanation);
   const int evaluations = can_decide && parameters_.scoring.risk > 0.0F ? allowance.field_evaluations : 0;
+  if (passes == 0) return;
   trajectory::RefinementResult result;
   {
     const StageScope scope(probe, Stage::kOptimize);
     new (&arena_.optimizer) trajectory::Optimizer;
-    refining_ = passes > 0;
+    refining_ = true;
     result = arena_.optimizer.refine(lines_[candidate.path], candidate.start_s_m, surroundings(), parameters_,
                                      {passes, evaluations}, chosen_, refined_);
     count(explanation, Stage::kOptimize, result.passes);
-    work_.spend(Stage::kOptimize,
-                passes > 0 ? work::kRefinement +
-                                 kPassWork * trajectory::passes_spent(result.passes, result.failed_trials)
-                           : 0);
+    work_.spend(Stage::kOptimize, work::kRefinement + kPassWork * trajectory::passes_spent(
+                                                                      result.passes, result.failed_trials));
   }
   if (!result.improved) return;
   {
     const StageScope scope(probe, Stage::kCheck);
     count(explanation, Stage::kCheck, 1);
+    work_.spend(Stage::kCheck, guard_.judge_work(candidate.path));
     // A refinement that does not pass is dropped: what it started from has passed.
     const bool passes_check = verify(candidate.path, refined_).safe();
     // A start is not postponed: the next cycle would begin at rest again, for ever.

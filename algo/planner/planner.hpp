@@ -124,7 +124,9 @@ class PlanningCycle {
   [[nodiscard]] int shortlisted() const;  ///< decisions that get a prediction of their own
   /// So many of them that there is work left for each one's prediction and exact risk.
   [[nodiscard]] int affordable() const;
-  [[nodiscard]] std::int32_t decode_work() const;  ///< of one of them
+  [[nodiscard]] std::int32_t decode_work() const;    ///< of one of them
+  [[nodiscard]] std::int32_t decision_work() const;  ///< and of all else it takes, but for its exact risk
+  [[nodiscard]] std::int32_t judge_work() const;     ///< of a plan on any path
   [[nodiscard]] std::uint8_t track_id(int agent) const;
   void explain_risk(Status status, Explanation& explanation);
   [[nodiscard]] bool can_evaluate_risk(const Explanation& explanation) const;
@@ -164,6 +166,7 @@ class PlanningCycle {
   satp::KinematicSet constant_velocity_;
   trajectory::ReferenceLines lines_;
   trajectory::CandidateList candidates_;
+  trajectory::Leader leaders_[decltype(scene::Scene::ego_paths)::kCapacity];  ///< along each path
   CostBreakdown costs_[kMaxCandidates];
   float hard_[kMaxCandidates] = {};  ///< price of what can only be given up by braking hard
   DecisionList decisions_;

@@ -17,10 +17,15 @@ class PlanningCycle::Ranking final : public trajectory::CandidateVisitor {
         planner_(planner),
         careful_(careful),
         explanation_(explanation),
-        work_{planner.allowance.ranking} {
+        risk_work_{planner.allowance.ranking},
+        kept_(planner.decision_work() + kLeastExactWork + kCandidatesWork +
+              sadrf::least_rank_work(planner.scene_)) {
     const std::int32_t lead_ms = static_cast<std::int32_t>(planner.start_ms_ - planner.scene_.time_ms);
-    cost_to_go_.look(planner.scene_, planner.constant_velocity_, 0.001F * static_cast<float>(lead_ms),
-                     planner.parameters_);
+    const std::int32_t left = planner.work_.left() - (kept_ - kCandidatesWork);
+    given_ = meter.left = left < kCandidatesWork ? left : kCandidatesWork;
+    const int look_work = cost_to_go_.look(planner.scene_, planner.constant_velocity_,
+                                           0.001F * static_cast<float>(lead_ms), planner.parameters_);
+    meter.spend(work::kCandidates + look_work + cost_to_go_.asking_work());
   }
 
   /// The gap beside worth a candidate of its own.
@@ -28,18 +33,21 @@ class PlanningCycle::Ranking final : public trajectory::CandidateVisitor {
     return merge_target_of(planner_.scene_, cost_to_go_, planner_.parameters_);
   }
 
+  /// On the candidates themselves.
+  [[nodiscard]] std::int32_t spent() const { return given_ - meter.left; }
+
   void visit(int index) override {
     const InnerStageScope scope(planner_.probe, Stage::kCandidates, Stage::kRank);
     const trajectory::Candidate& candidate = planner_.candidates_[index];
-    planner_.work_.spend(Stage::kRank, work::kScore);
     const bool previous = candidate.intent == trajectory::Intent::kPrevious;
     if (previous && index == 0) plan_path_ = candidate.path;
     const bool leaves_lane = planner_.scene_.ego_paths[candidate.path].manoeuvre != scene::Manoeuvre::kKeep;
     trajectory::Rejection& rejection = explanation_.rejections[index];
-    if (careful_ && leaves_lane && !previous) {
+    if (free() < work::kMostScore || (careful_ && leaves_lane && !previous)) {
       rejection = trajectory::Rejection::kLeftOut;
       return;
     }
+    planner_.work_.spend(Stage::kRank, planner_.guard_.judge_work(candidate.path));
     const safety::Verdict verdict = planner_.verify(candidate.path, rolled_out);
     rejection = verdict.safe() ? trajectory::Rejection::kNone : trajectory::Rejection::kRefused;
     planner_.hard_[index] = verdict.hard ? kHardStopCost : 0.0F;
@@ -51,14 +59,19 @@ class PlanningCycle::Ranking final : public trajectory::CandidateVisitor {
   }
 
  private:
+  /// What may be spent on the candidate at hand.
+  [[nodiscard]] std::int32_t free() const { return planner_.work_.left() - kept_; }
+
   void score(int index, const trajectory::Candidate& candidate, bool previous) {
     const scene::Scene& scene = planner_.scene_;
     const Parameters& parameters = planner_.parameters_;
     DecisionList& decisions = planner_.decisions_;
     CostBreakdown& cost = planner_.costs_[index];
     const bool other_lane = candidate.path != plan_path_;
+    int took = work::kVisit;
     cost = score_motion(scene, cost_to_go_, candidate.path, planner_.guard_.start_s_m(candidate.path),
-                        rolled_out, other_lane, careful_, parameters);
+                        rolled_out, other_lane, careful_, parameters, took);
+    planner_.work_.spend(Stage::kRank, took);
     count(explanation_, Stage::kRank, 1);
     const DecisionKey key = decision_key(scene, candidate.path, rolled_out, planner_.marginal_);
     if (previous) {
@@ -72,20 +85,21 @@ class PlanningCycle::Ranking final : public trajectory::CandidateVisitor {
     if (!decisions.open_to(key, cost.total(), places)) return;
     cost.risk = planner_.crash_cost(planner_.marginal_, Stage::kRank) + planner_.hard_[index];
     if (!decisions.open_to(key, cost.total(), places)) return;
-    if (work_.left <= 0) {
+    if (risk_work_.left > free()) risk_work_.left = free();
+    if (risk_work_.left <= 0) {
       explanation_.rejections[index] = trajectory::Rejection::kLeftOut;
       return;
     }
-    const std::int32_t before = work_.left;
+    const std::int32_t before = risk_work_.left;
     cost.risk += parameters.scoring.risk * sadrf::rank_risk_of_vehicles(scene, planner_.marginal_,
                                                                         planner_.constant_velocity_,
-                                                                        rolled_out, parameters, work_);
+                                                                        rolled_out, parameters, risk_work_);
     if (decisions.open_to(key, cost.total(), places)) {
       cost.risk += parameters.scoring.risk *
-                   sadrf::rank_risk_of_road(planner_.drivable_, rolled_out, parameters, work_);
+                   sadrf::rank_risk_of_road(planner_.drivable_, rolled_out, parameters, risk_work_);
       decisions.offer(key, index, cost.total());
     }
-    planner_.work_.spend(Stage::kRank, before - work_.left);
+    planner_.work_.spend(Stage::kRank, before - risk_work_.left);
   }
 
   void note_held_up(int path, const safety::Verdict& verdict) {
@@ -101,7 +115,9 @@ class PlanningCycle::Ranking final : public trajectory::CandidateVisitor {
   PlanningCycle& planner_;
   const bool careful_;
   Explanation& explanation_;
-  WorkMeter work_;  ///< of the risks
+  WorkMeter risk_work_;
+  std::int32_t kept_;       ///< for one decision, and for what the candidates still take
+  std::int32_t given_ = 0;  ///< to the candidates themselves
   LaneCostToGo cost_to_go_;
   int plan_path_ = 0;  ///< where the running plan leads, as far as it can go on; our own lane's path else
 };
@@ -115,9 +131,23 @@ std::int32_t PlanningCycle::decode_work() const {
   return work::kDecode + marginal_work_;
 }
 
+std::int32_t PlanningCycle::judge_work() const {
+  std::int32_t most = 0;
+  for (int path = 0; path < scene_.ego_paths.size(); ++path) {
+    const std::int32_t one = guard_.judge_work(path);
+    if (one > most) most = one;
+  }
+  return most;
+}
+
+std::int32_t PlanningCycle::decision_work() const {
+  return decode_work() + work::kTouches + trajectory::kSteeredWork + judge_work();
+}
+
 int PlanningCycle::affordable() const {
   int count = shortlisted();
-  while (count > 1 && work_.left() < count * (decode_work() + kLeastExactWork + work::kTouches)) --count;
+  const std::int32_t one = decision_work() + kLeastExactWork;
+  while (count > 1 && work_.left() < count * one + trajectory::kSteeredWork) --count;
   return count;
 }
 
@@ -133,10 +163,11 @@ void PlanningCycle::rank(bool careful, Explanation& explanation) {
     explanation.left_out = static_cast<std::uint8_t>(to_int(static_cast<float>(left_out), 0, 255));
     explanation.candidate_count = static_cast<std::uint8_t>(candidates_.size());
     count(explanation, Stage::kCandidates, candidates_.size());
-    work_.spend(Stage::kCandidates, work::kCandidates + work::kCandidatesAgent * scene_.agents.size() +
-                                        work::kRollOut * ranking.roll_outs);
+    work_.spend(Stage::kCandidates, ranking.spent());
+    for (int path = 0; path < scene_.ego_paths.size(); ++path) leaders_[path] = ranking.leaders[path];
   }
   const StageScope scope(probe, Stage::kRank);
+  work_.spend(Stage::kRank, work::kVisit);
   decisions_.shortlist(affordable(), keeps_plan_, plan_key_);
 }
 

@@ -7,6 +7,7 @@
 namespace s4tp::planner {
 namespace {
 
+constexpr int kMotionWork = 40;             // WorkMeter's units
 constexpr float kCarefulSpeedShare = 0.6F;  // of the limit, while a source of ours is stale
 constexpr float kChangeRoomM = 60.0F;  // a lane change left to do starts to press when its room is this short
 constexpr float kGapShare = 0.5F;      // of what the lane beside gains, for each second until its gap is met
@@ -106,7 +107,8 @@ trajectory::MergeTarget merge_target_of(const scene::Scene& scene, const LaneCos
 
 CostBreakdown score_motion(const scene::Scene& scene, const LaneCostToGo& cost_to_go, int path_index,
                            float start_s_m, const Trajectory& trajectory, bool other_lane, bool careful,
-                           const Parameters& parameters) {
+                           const Parameters& parameters, int& work) {
+  work += kMotionWork + cost_to_go.asking_work();
   const scene::EgoPath& path = scene.ego_paths[path_index];
   float s_m = start_s_m;
   float speed_sum = 0.0F;
@@ -130,7 +132,7 @@ CostBreakdown score_motion(const scene::Scene& scene, const LaneCostToGo& cost_t
     if (i % 5 != 0) continue;  // lane data change slowly: every half second is enough
     scene::PathPoint centre;
     const scene::Frenet frenet =
-        scene::project(*scene.map, path.path, position(point.rear_axle), s_m, 5.0F, centre);
+        scene::project(*scene.map, path.path, position(point.rear_axle), s_m, 5.0F, centre, work);
     float wanted_mps = centre.speed_limit_mps;
     const float bend = abs(centre.curvature_1pm);
     if (bend * wanted_mps * wanted_mps > parameters.comfort.lateral_mps2) {

@@ -13,7 +13,12 @@ constexpr std::int32_t kSectionWork = 2;      // of a cross-section
 constexpr std::int32_t kStripsPerUnit = 4;    // lanes that are not here
 constexpr std::int32_t kSegmentsPerUnit = 2;  // segments that are not
 constexpr std::int32_t kHullWork = 8;
-constexpr std::int32_t kCoveredWork = 2;
+constexpr std::int32_t kCoveredWork = 3;
+constexpr int kDrivableWork = 20;
+constexpr int kStripWork = 5;       // to find the bounds of a lane
+constexpr int kHullLanesWork = 3;   // to see whether a lane belongs to a junction
+constexpr int kHullVertexWork = 5;  // of a vertex of one that does
+constexpr int kHullDirectionsWork = 40;
 
 bool apart(const Bounds& a, const Bounds& b, float margin_m) {
   return a.low_x_m > b.high_x_m + margin_m || b.low_x_m > a.high_x_m + margin_m ||
@@ -70,15 +75,19 @@ struct Extreme {
   float reach_m = -1e9F;
 };
 
-/// Extreme points of the lanes' borders in 16 directions: vertices of the convex hull, in order.
-void find_hull(const LaneMap& map, DrivableArea::Junction& junction) {
+/// Extreme points of the lanes' borders in 16 directions: vertices of the convex hull, in order. \return what it took
+int find_hull(const LaneMap& map, DrivableArea::Junction& junction) {
+  int work = kHullDirectionsWork;
   Extreme extremes[kMaxHullVertices];
   for (int k = 0; k < kMaxHullVertices; ++k) {
     const float turns = (static_cast<float>(k) + 0.5F) / static_cast<float>(kMaxHullVertices);
     extremes[k].towards = direction(wrap_angle(kTwoPi * turns));
   }
   for (const Lane& lane : map.lanes) {
-    if (!junction_lane(lane) || apart(bounds_of(lane), junction.bounds, 0.0F)) continue;
+    if (!junction_lane(lane)) continue;
+    work += kHullLanesWork;
+    if (apart(bounds_of(lane), junction.bounds, 0.0F)) continue;
+    work += kHullVertexWork * lane.point_count;
     for (int i = 0; i < lane.point_count; ++i) {
       const Point half = (0.5F * lane.width_m) * left_of(lane, i);
       const Point borders[] = {lane.points[i] + half, lane.points[i] - half};
@@ -98,8 +107,9 @@ void find_hull(const LaneMap& map, DrivableArea::Junction& junction) {
     const bool known = !junction.hull.empty() &&
                        (distance(extreme.point, junction.hull[junction.hull.size() - 1]) < kSameM ||
                         distance(extreme.point, junction.hull[0]) < kSameM);
-    if (!known && !junction.hull.push(extreme.point)) return;
+    if (!known && !junction.hull.push(extreme.point)) break;
   }
+  return work;
 }
 
 /// Keeps the part of the interval where low <= value + slope * offset <= high.
@@ -171,19 +181,22 @@ void include(Bounds& bounds, Point point) {
   bounds.high_y_m = max(bounds.high_y_m, point.y_m);
 }
 
-void build_drivable(const LaneMap* map, DrivableArea& area) {
+int build_drivable(const LaneMap* map, DrivableArea& area) {
   area.map = map;
   area.strips.clear();
   area.junctions.clear();
-  if (map == nullptr) return;
+  if (map == nullptr) return 0;
+  int work = kDrivableWork;
   for (int i = 0; i < kMaxLanes; ++i) {
     const Lane& lane = map->lanes[i];
+    if (lane.present) work += junction_lane(lane) ? 2 * kStripWork : kStripWork;
     const bool charged = lane.kind == LaneKind::kOpposite && !lane.in_junction;
     if (!lane.present || lane.point_count < 2 || lane.kind == LaneKind::kShoulder) continue;
     if (!area.strips.push({static_cast<LaneIndex>(i), !charged, bounds_of(lane)})) break;
   }
   find_junctions(*map, area);
-  for (DrivableArea::Junction& junction : area.junctions) find_hull(*map, junction);
+  for (DrivableArea::Junction& junction : area.junctions) work += find_hull(*map, junction);
+  return work;
 }
 
 void near_strips(const DrivableArea& area, const Bounds& path, float reach_m, NearStrips& near) {

@@ -61,7 +61,8 @@ struct DrivableArea {
 };
 
 /// \param map  must outlive `area`; may be null
-void build_drivable(const LaneMap* map, DrivableArea& area);
+/// \return what it took [WorkMeter's units]
+int build_drivable(const LaneMap* map, DrivableArea& area);
 
 /// The strips near a path, by index into DrivableArea::strips.
 using NearStrips = BoundedVector<std::uint8_t, kMaxLanes>;

@@ -13,6 +13,8 @@ constexpr int kRankMiddle = 1;  // of three steps: their sum is three times it t
 constexpr int kRankSteps = kHorizonSteps / kRankStride;
 static_assert(kRankSteps * kRankStride == kHorizonSteps);
 
+constexpr std::int32_t kProfileWork = 300;  // WorkMeter's units, beside what the steps and the road take
+
 float instant(float obstacle, float road, float social, const Parameters& parameters) {
   return obstacle + road + parameters.risk.weight_social * social +
          parameters.scoring.risk_excess * max(obstacle - parameters.risk.threshold, 0.0F);
@@ -55,6 +57,7 @@ void exact_risk(const scene::Scene& scene, const DrivableArea& area, const satp:
   const Futures futures = all_modes(scene, prediction, others);
   const std::int32_t least = least_work(futures.size());
   work.reserve = kRankSteps * least;
+  work.spend(kProfileWork);
   road_risk(area, trajectory, parameters, 1, 1, profile.road, work);
   const StepInputs inputs = step_inputs(scene, futures, trajectory, parameters, Precision::kSlices);
   CostBoxes boxes;
@@ -66,7 +69,12 @@ void exact_risk(const scene::Scene& scene, const DrivableArea& area, const satp:
     for (int agent = 0; agent < scene.agents.size(); ++agent) dominating.take(risk.share[agent], agent, i);
   };
   for (int i = kRankMiddle; i < kHorizonSteps; i += kRankStride) {
-    look(i);
+    if (i == kRankMiddle || work.left >= least) {
+      look(i);
+    } else {
+      profile.obstacle[i] = profile.obstacle[i - kRankStride];
+      profile.social[i] = profile.social[i - kRankStride];
+    }
     work.reserve -= least;
   }
   work.reserve = least;

@@ -16,7 +16,8 @@ static_assert(kHorizonSteps % kSpacing == 0);
 // Work (WorkMeter's units).
 constexpr std::int32_t kPlacingWork = 25;  // stations, and the strips near them
 constexpr std::int32_t kAlongWork = 3;     // for a point of the trajectory
-constexpr std::int32_t kAcrossWork = 6;    // to integrate a cross-section twice
+constexpr std::int32_t kAcrossWork = 2;    // to integrate a cross-section twice, and ...
+constexpr std::int32_t kIntervalWork = 4;  // ... of each interval of it
 constexpr std::int32_t kMostSectionWork = 600;
 
 /// A place on the path with what the road costs across it, for a field as narrow as at its car and as wide as
@@ -144,7 +145,8 @@ void road_risk(const DrivableArea& area, const Trajectory& trajectory, const Par
       continue;
     }
     cross_section(area, near, station.pose, reach_m, section, work);
-    work.spend(kAcrossWork);
+    work.spend(kAcrossWork +
+               kIntervalWork * (section.ours.size() + (section.opposite ? section.drivable.size() : 0)));
     if (section.ours.size() == 1 && section.ours[0].left_m - section.ours[0].right_m >= 2.0F * reach_m)
       continue;
     station.narrow_cost = cost_across(section, narrow_m, parameters);

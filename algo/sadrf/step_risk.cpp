@@ -13,9 +13,9 @@ constexpr float kWorthSlope = 20.0F;  // for a second, a hundredth of a metre of
 
 // Work (WorkMeter's units).
 constexpr std::int32_t kUnbounded = 1'000'000'000;  // evaluations of the field are counted (WorkAllowance)
-constexpr std::int32_t kStepWork = 10;              // our field and box
+constexpr std::int32_t kStepWork = 8;               // our field and box
 constexpr std::int32_t kFutureWork = 2;             // to see that it is out of reach on both sides
-constexpr std::int32_t kLinesWork = 6;              // a field over a box by lines
+constexpr std::int32_t kLinesWork = 9;              // a field over a box by lines
 constexpr std::int32_t kTheirFieldWork = 4;         // to make another's field
 constexpr std::int32_t kSliceWork = 6;              // a field over a slice of a box
 constexpr std::int32_t kMostSlicesWork = kSliceWork * kMaxSlices;

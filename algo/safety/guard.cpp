@@ -30,6 +30,13 @@ constexpr float kEndRoundingM = 0.01F;
 constexpr float kRoundingS = 0.5F * kStepS;  // plans are looked at in steps
 constexpr float kLateS = 0.3F;               // so much later, who has let us go still waits
 
+// Work (WorkMeter's units).
+constexpr int kJudgeWork = 16;
+constexpr int kGroupWork = 12;
+constexpr int kThreatWork = 14;
+constexpr int kFollowerWork = 90;
+constexpr int kLatchWork = 2;
+
 }  // namespace
 
 /// A plan seen along its path.
@@ -69,6 +76,19 @@ struct Guard::Own {
     return s_m[to_int(time_s / kStepS, 0, kHorizonSteps)];
   }
 };
+
+int Guard::judge_work(int path) const {
+  const Sight& sight = sights_[path];
+  return kJudgeWork + kGroupWork * sight.groups.size() + kThreatWork * sight.threats.size() +
+         kFollowerWork * sight.behind.size();
+}
+
+int Guard::commit_work() const {
+  int zones = 0;
+  for (const scene::EgoPath& path : scene_->ego_paths)
+    zones = path.zones.size() > zones ? path.zones.size() : zones;
+  return kJudgeWork + kLatchWork * zones * scene_->agents.size();
+}
 
 bool Guard::is_latched(std::uint8_t track, LaneIndex lane) const {
   for (const Latch& latch : latched_) {
@@ -272,8 +292,7 @@ bool Guard::stops_short(const scene::EgoPath& path, const Sight& sight, const Zo
 
 Verdict Guard::judge(int path_index, const Trajectory& trajectory) const {
   Verdict verdict;
-  if (scene_ == nullptr || scene_->map == nullptr || path_index < 0 ||
-      path_index >= scene_->ego_paths.size()) {
+  if (!looked_ || scene_->map == nullptr || path_index < 0 || path_index >= scene_->ego_paths.size()) {
     verdict.cause = Cause::kNoPath;
     return verdict;
   }

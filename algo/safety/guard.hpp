@@ -16,7 +16,8 @@
 /// before we were to be gone, where nobody comes who cannot stop for it and nobody has let us go.
 /// GUARD-012 Beyond the known ground (scene.hpp) there may be anybody: on each lane that leads in from there
 /// somebody comes at the limit's speed, in a lane we change into as well; on our way out of it somebody
-/// stands. Whoever is nearer in that lane and stays out of a zone, leads us, or follows us, is in its way.
+/// stands. Where there are more such lanes than can be followed, somebody is everywhere. Whoever is nearer in that
+/// lane and stays out of a zone, leads us, or follows us, is in its way.
 ///
 /// \code
 ///   plan    ----+------------------------>
@@ -77,17 +78,23 @@ struct ZoneGroup {
 class Guard {
  public:
   /// Looks at the scene once a cycle. \param start  where plans begin, `lead_s` after the scene's time.
-  /// The scene must outlive the judging.
-  void look(const scene::Scene& scene, const TrajectoryPoint& start, float lead_s,
-            const Parameters& parameters);
+  /// The scene must outlive the judging. Where looking takes too long nothing passes. \return what it took [WorkMeter's
+  /// units]
+  int look(const scene::Scene& scene, const TrajectoryPoint& start, float lead_s,
+           const Parameters& parameters);
 
   /// \param path_index  of the ego path the trajectory follows \pre look() was called this cycle
   /// \note bounded work: steps + vehicles at the path's zones
   [[nodiscard]] Verdict judge(int path_index, const Trajectory& trajectory) const;
 
+  /// What judging a plan on `path` takes at most [WorkMeter's units].
+  [[nodiscard]] int judge_work(int path) const;
+
   /// Where plans on `path` begin: of our rear axle, along it.
   [[nodiscard]] float start_s_m(int path) const { return sights_[path].start_s_m; }
 
+  /// What commit() takes at most [WorkMeter's units].
+  [[nodiscard]] int commit_work() const;
   /// Says which plan is in force from now on. While it goes through a group, whoever was to stay out of it
   /// when we entered still is: a licence used is not withdrawn half way.
   void commit(int path, const Verdict& verdict);
@@ -143,10 +150,11 @@ class Guard {
   void look_at_path(int path_index);
   void find_groups(const scene::EgoPath& path, Sight& sight) const;
   void find_threats(const scene::EgoPath& path, const occupancy::LaneReach (&reach)[kMaxTracks],
-                    Sight& sight) const;
+                    Sight& sight);
   // guard_unseen.cpp
   void look_beyond(const occupancy::LaneReach (&reach)[kMaxTracks]);
   void expect_from(LaneIndex lane, float s_m, const occupancy::LaneReach (&reach)[kMaxTracks]);
+  void expect_everywhere();  ///< in every zone, and beside us
   void expect_ahead(const scene::EgoPath& path, Sight& sight) const;
   [[nodiscard]] bool held_back(const Sight& sight, int zone, const scene::ConflictZone& ground,
                                const occupancy::LaneReach& straight_on,
@@ -171,6 +179,8 @@ class Guard {
 
   const scene::Scene* scene_ = nullptr;
   const Parameters* parameters_ = nullptr;
+  bool looked_ = false;
+  int work_ = 0;  ///< of the look
   TrajectoryPoint start_;
   float lead_s_ = 0.0F;
   float centre_m_ = 0.0F;  ///< from our rear axle

@@ -1,4 +1,6 @@
 // What the guard sees of a scene before it judges plans: leader, followers, groups of zones, who may be in them.
+#include <new>
+
 #include "algo/core/inline.hpp"
 #include "algo/core/standing.hpp"
 #include "algo/safety/change_gaps.hpp"
@@ -16,34 +18,46 @@ constexpr float kClearOfZoneM = 0.7F;  // before it
 constexpr float kCurvesMps2 = 3.0F;
 constexpr int kCapSamples = 4;
 
+// Work (WorkMeter's units).
+constexpr int kMostWork = 15'000;  // beyond, the next path is not looked at any more
+constexpr int kLookWork = 10;
+constexpr int kPathWork = 20;
+constexpr int kGroupWork = 50;
+constexpr int kThreatWork = 5;  // whether a vehicle may be in a zone
+
 }  // namespace
 
-void Guard::look(const scene::Scene& scene, const TrajectoryPoint& start, float lead_s,
-                 const Parameters& parameters) {
+int Guard::look(const scene::Scene& scene, const TrajectoryPoint& start, float lead_s,
+                const Parameters& parameters) {
   scene_ = &scene;
   parameters_ = &parameters;
   start_ = start;
   lead_s_ = lead_s;
+  looked_ = false;
   // A licence is used by going: who has come to a stand asks anew.
   if (start.speed_mps < kStandingMps) latched_.clear();
   centre_m_ = trajectory::rear_axle_to_centre_m(parameters);
   front_m_ = trajectory::rear_axle_to_front_m(parameters);
-  if (scene.map == nullptr) return;
+  work_ = kLookWork;
+  if (scene.map == nullptr) return work_;
   occupancy::LaneReach reach[kMaxTracks];
-  for (int i = 0; i < scene.agents.size(); ++i) reach[i].measure(*scene.map, scene.agents[i]);
+  for (int i = 0; i < scene.agents.size(); ++i) work_ += reach[i].measure(*scene.map, scene.agents[i]);
   for (int path = 0; path < scene.ego_paths.size(); ++path) {
+    if (work_ > kMostWork) return work_;
     look_at_path(path);
     find_threats(scene.ego_paths[path], reach, sights_[path]);
   }
   if (scene.known.left_out > 0) look_beyond(reach);
+  looked_ = true;
+  return work_;
 }
 
 void Guard::look_at_path(int path_index) {
   const scene::EgoPath& path = scene_->ego_paths[path_index];
   Sight& sight = sights_[path_index];
-  sight = Sight{};
+  new (&sight) Sight;  // assigned, it would be made on the stack first
   sight.start_s_m =
-      scene::project(*scene_->map, path.path, position(start_.rear_axle), path.frenet.s_m, 15.0F).s_m;
+      scene::project(*scene_->map, path.path, position(start_.rear_axle), path.frenet.s_m, 15.0F, work_).s_m;
   sight.stop_s_m = sight.start_s_m + centre_m_ + parameters_->guard.takeover_s * start_.speed_mps +
                    occupancy::stopping_way_m(start_.speed_mps, parameters_->guard.braking_mps2);
   sight.end_s_m = trajectory::dead_end_s_m(*scene_, path);
@@ -51,6 +65,7 @@ void Guard::look_at_path(int path_index) {
   sight.beside_s_m = trajectory::kNoDeadEndM;
   const float half_lane_m = 0.5F * scene::path_point(*scene_->map, path.path, path.frenet.s_m).width_m;
   sight.changes = path.manoeuvre != scene::Manoeuvre::kKeep;
+  work_ += kPathWork;
   sight.half_over = abs(path.frenet.d_m) < half_lane_m;
   const float centre_s_m = path.frenet.s_m + centre_m_;
   for (int i = 0; i < scene_->agents.size(); ++i) {
@@ -59,6 +74,7 @@ void Guard::look_at_path(int path_index) {
     const bool joining = trajectory::joins(*scene_, path, agent);
     const trajectory::OnPath seen =
         trajectory::see_on_path(*scene_, path, agent, *parameters_, joining, known);
+    work_ += seen.work;
     if (!known || !(seen.overlaps || joining) || seen.crossing) continue;
     const float along_mps = max(0.0F, seen.along_mps);
     if (seen.centre_s_m > centre_s_m) {
@@ -93,6 +109,7 @@ void Guard::look_at_path(int path_index) {
     }
   }
   find_groups(path, sight);
+  work_ += kGroupWork * sight.groups.size();
 }
 
 void Guard::find_groups(const scene::EgoPath& path, Sight& sight) const {
@@ -130,8 +147,15 @@ void Guard::find_groups(const scene::EgoPath& path, Sight& sight) const {
 }
 
 void Guard::find_threats(const scene::EgoPath& path, const occupancy::LaneReach (&reach)[kMaxTracks],
-                         Sight& sight) const {
+                         Sight& sight) {
   const int count = scene_->agents.size();
+  work_ += kThreatWork * count * path.zones.size();
+  bool merging = false;
+  for (const scene::ConflictZone& zone : path.zones) merging = merging || zone.merging;
+  // D3: whoever changes into the lane we merge into leaves us our distances.
+  occupancy::LaneReach straight_on[kMaxTracks];
+  for (int i = 0; i < count && merging; ++i)
+    work_ += straight_on[i].measure(*scene_->map, scene_->agents[i], false);
   for (int z = 0; z < path.zones.size(); ++z) {
     ZoneOccupancy when[kMaxTracks];
     const auto expect = [&](int i, bool licensed) {
@@ -143,11 +167,8 @@ void Guard::find_threats(const scene::EgoPath& path, const occupancy::LaneReach 
     const bool bound = sight.stop_s_m > path.zones[z].entry_s_m;
     for (int i = 0; i < count; ++i) {
       const scene::Agent& agent = scene_->agents[i];
-      // D3: whoever changes into the lane we merge into leaves us our distances.
-      occupancy::LaneReach straight_on;
-      if (path.zones[z].merging) straight_on.measure(*scene_->map, agent, false);
-      when[i] = zone_occupancy(*scene_, agent, path.zones[z].merging ? straight_on : reach[i], path.zones[z],
-                               lead_s_, *parameters_);
+      when[i] = zone_occupancy(*scene_, agent, path.zones[z].merging ? straight_on[i] : reach[i],
+                               path.zones[z], lead_s_, *parameters_);
       const bool latched =
           bound && when[i].to_entry_m > 0.0F && is_latched(agent.track.id, path.zones[z].other_lane);
       if (when[i].claim == Claim::kMayCome && latched) {

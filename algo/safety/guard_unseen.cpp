@@ -12,6 +12,14 @@ using occupancy::LaneReach;
 
 constexpr float kLengthM = 2.0F * scene::kUsualHalfLengthM;  // of whom we expect
 
+// Work (WorkMeter's units).
+constexpr int kMostWork = 10'000;  // beyond, somebody is expected everywhere
+constexpr int kEdgesWork = 20;     // of a lane
+constexpr int kLedIntoWork = 290;
+constexpr int kExpectWork = 30;
+constexpr int kZoneWork = 8;  // and ...
+constexpr int kHeldWork = 1;  // ... of each vehicle there
+
 bool is_known(const scene::KnownGround& known, Point place) {
   return distance(place, known.centre) < known.radius_m;
 }
@@ -40,9 +48,12 @@ void Guard::look_beyond(const LaneReach (&reach)[kMaxTracks]) {
   const LaneMap& map = *scene_->map;
   for (int path = 0; path < scene_->ego_paths.size(); ++path)
     expect_ahead(scene_->ego_paths[path], sights_[path]);
+  const int most = work_ + kMostWork;
   for (LaneIndex index = 0; index < kMaxLanes; ++index) {
     const Lane& lane = map.lanes[index];
     if (!scene::usable(lane)) continue;
+    if (work_ > most) return expect_everywhere();
+    work_ += kEdgesWork;
     float start_m = 0.0F;
     for (int i = 1; i < lane.point_count; ++i) {
       const Point from = lane.points[i - 1];
@@ -65,13 +76,23 @@ void Guard::look_beyond(const LaneReach (&reach)[kMaxTracks]) {
     }
   }
   if (map.lanes_left_out == 0) return;
+  work_ += kLedIntoWork;
   bool led_into[kMaxLanes];
   scene::find_led_into(map, led_into);
   for (LaneIndex index = 0; index < kMaxLanes; ++index) {
     const Lane& lane = map.lanes[index];
+    if (work_ > most) return expect_everywhere();
     if (led_into[index] || !scene::usable(lane) || !is_known(known, lane.points[0])) continue;
     // By a lane we do not know, straight from the edge.
     expect_from(index, distance(lane.points[0], known.centre) - known.radius_m, reach);
+  }
+}
+
+void Guard::expect_everywhere() {
+  for (Sight& sight : sights_) {
+    sight.too_many = true;
+    sight.behind.clear();
+    (void)sight.behind.push({kUnseen, sight.start_s_m + front_m_, start_.speed_mps});
   }
 }
 
@@ -88,11 +109,12 @@ void Guard::expect_from(LaneIndex lane, float s_m, const LaneReach (&reach)[kMax
   somebody.frenet[0].s_m = s_m;
   LaneReach anyhow;
   LaneReach straight_on;
-  anyhow.measure(*scene_->map, somebody);
-  straight_on.measure(*scene_->map, somebody, false);
+  work_ += kExpectWork + anyhow.measure(*scene_->map, somebody) +
+           straight_on.measure(*scene_->map, somebody, false);
   for (int p = 0; p < scene_->ego_paths.size(); ++p) {
     const scene::EgoPath& path = scene_->ego_paths[p];
     Sight& sight = sights_[p];
+    work_ += (kZoneWork + kHeldWork * scene_->agents.size()) * path.zones.size();
     for (int z = 0; z < path.zones.size(); ++z) {
       const scene::ConflictZone& zone = path.zones[z];
       Threat threat{static_cast<std::uint8_t>(z), kUnseen, lane, false,

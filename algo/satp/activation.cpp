@@ -53,9 +53,10 @@ constexpr Table table_of(double (*function)(int)) {
   return table;
 }
 
-constexpr Table kSigmoid = table_of(sigmoid_at);
-constexpr Table kTanh = table_of(tanh_at);
-constexpr Table kExp = table_of(exp_minus_at);
+// Beside the weights that they are used with: on a board the code's flash has no room to spare, the weights' bank has.
+[[gnu::section(".weights")]] constexpr Table kSigmoid = table_of(sigmoid_at);
+[[gnu::section(".weights")]] constexpr Table kTanh = table_of(tanh_at);
+[[gnu::section(".weights")]] constexpr Table kExp = table_of(exp_minus_at);
 
 }  // namespace
 

@@ -25,6 +25,11 @@ constexpr float kChangeLateralMps = 0.4F;  // a clear lateral speed
 constexpr float kChangeOffsetM = 0.8F;     // where it leads within a second
 constexpr int kSteps = 3 * kMaxPathLanes;  // each step closes a chain or makes one longer
 
+// Work (WorkMeter's units).
+constexpr int kPathsWork = 40;
+constexpr int kStepWork = 3;    // of a step, and ...
+constexpr int kBranchWork = 8;  // ... of each branch there
+
 // A chain under construction; its likelihood is relative to the others'.
 struct LaneChain {
   LanePath path;
@@ -132,6 +137,7 @@ void extend(const LaneTable& table, const Situation& situation, LaneChains& chai
     }
   }
   if (shortest < 0) return;
+  table.spend(kStepWork);
   const LaneChain trunk = chains[shortest];
   chains[shortest].open = false;
   const float distance_m = trunk.path.length_m - trunk.start_s_m;
@@ -146,6 +152,7 @@ void extend(const LaneTable& table, const Situation& situation, LaneChains& chai
   const LaneIndex end = trunk.path.lanes[trunk.path.lanes.size() - 1].lane;
   for (LaneIndex successor : table.lane(end).successors) {
     if (!table.valid(successor)) continue;
+    table.spend(kBranchWork);
     const Branch branch{successor, branch_weight(table.bend(successor), table.lane(end).speed_limit_mps,
                                                  distance_m, situation)};
     sum += branch.weight;
@@ -181,7 +188,9 @@ void build_agent_paths(const LaneTable& table, bool hindered, Agent& agent) {
 
   LaneChains chains;
   start_chain(table, agent.lane, fits[0].fix.s_m, 1.0F, chains);
-  const Frenet here = project(table.map(), chains[0].path, position(track.centre), fits[0].fix.s_m, 5.0F);
+  int work = kPathsWork;
+  const Frenet here =
+      project(table.map(), chains[0].path, position(track.centre), fits[0].fix.s_m, 5.0F, work);
   // Others in front explain all, a stop line part: it may be there for who turns.
   const float candour = hindered ? 0.0F : (table.lane(agent.lane).stop_line_m >= 0.0F ? 0.5F : 1.0F);
   const Situation situation{track, wrap_angle(track.centre.heading_rad - here.heading_rad), here.d_m,
@@ -216,8 +225,9 @@ void build_agent_paths(const LaneTable& table, bool hindered, Agent& agent) {
     agent.path_probability[i] = chains[i].weight / sum;
     constexpr float kReachM = 15.0F;
     agent.frenet[i] =
-        project(table.map(), chains[i].path, position(track.centre), chains[i].start_s_m, kReachM);
+        project(table.map(), chains[i].path, position(track.centre), chains[i].start_s_m, kReachM, work);
   }
+  table.spend(work);
 }
 
 void bring_forward(const LaneMap* map, float seconds, Agent& agent) {

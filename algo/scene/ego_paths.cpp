@@ -14,6 +14,10 @@ constexpr float kPassedLineM = 0.5F;     // a stop line this far behind our fron
 constexpr float kJunctionReachM = 8.0F;  // zones this close behind a junction still belong to it
 constexpr float kStraightRad = 0.05F;    // turns that differ by less are equally straight
 
+// Work (WorkMeter's units).
+constexpr int kPathWork = 110;
+constexpr int kZoneWork = 4;
+
 // Whether the route asks for `a` rather than `b`.
 bool better_successor(const LaneTable& table, LaneIndex a, LaneIndex b) {
   const Lane& lane_a = table.lane(a);
@@ -97,6 +101,7 @@ void find_zones(const LaneTable& table, const Parameters& parameters, EgoPath& e
     if (!sound(conflict) || !table.valid(conflict.first) || !table.valid(conflict.second)) continue;
     const bool second_ours = place[conflict.second] >= 0;
     if ((place[conflict.first] >= 0) == second_ours) continue;  // none of our business, or our own way
+    table.spend(kZoneWork);
     const ConflictView view = view_from(conflict, second_ours);
     const int index = place[view.own];
     const float start_s_m = path.lanes[index].start_s_m;
@@ -151,7 +156,9 @@ void add_path(const LaneTable& table, Manoeuvre manoeuvre, LaneIndex lane, const
   ego_path.manoeuvre = manoeuvre;
   ego_path.path = path_from(table, lane, here_s_m + kAheadM);
   constexpr float kReachM = 30.0F;  // beyond the ends of the lane
-  ego_path.frenet = project(table.map(), ego_path.path, rear_axle, here_s_m, kReachM);
+  int work = kPathWork;
+  ego_path.frenet = project(table.map(), ego_path.path, rear_axle, here_s_m, kReachM, work);
+  table.spend(work);
   const bool beside = ego_path.frenet.s_m > -kBehindStartM && ego_path.frenet.s_m < ego_path.path.length_m;
   if (manoeuvre != Manoeuvre::kKeep && !beside) return;
   follow_route(table, ego_path);

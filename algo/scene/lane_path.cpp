@@ -14,6 +14,10 @@ constexpr float kHeadingLimitRad = 1.05F;  // 60 degrees
 constexpr float kCoordinateMaxM = 1e5F;    // beyond it float has no centimetres
 constexpr int kCorrections = 3;
 
+// Work (WorkMeter's units), beside kSeekWork.
+constexpr int kProjectWork = 12;
+constexpr int kVerticesPerUnit = 2;
+
 // How much of the bend between two stretches lies on the side of the one of length `own`: by length, as on a
 // circle; a much longer stretch is the straight before or after the curve and joins it along its tangent.
 float bend_share(float own_m, float other_m) {
@@ -89,6 +93,7 @@ PathCursor::PathCursor(const LaneMap& map, const LanePath& path) : map_(map), pa
 }
 
 void PathCursor::seek(float s_m) {
+  ++seeks_;
   lane_ = 0;
   for (int i = 1; i < path_.lanes.size(); ++i) {
     if (path_.lanes[i].start_s_m <= s_m) lane_ = i;
@@ -142,24 +147,32 @@ PathPoint path_point(const LaneMap& map, const LanePath& path, float s_m) {
 }
 
 Frenet project(const LaneMap& map, const LanePath& path, Point point, float guess_s_m, float reach_m) {
-  PathPoint foot;
-  return project(map, path, point, guess_s_m, reach_m, foot);
+  int work = 0;
+  return project(map, path, point, guess_s_m, reach_m, work);
 }
 
 Frenet project(const LaneMap& map, const LanePath& path, Point point, float guess_s_m, float reach_m,
-               PathPoint& foot) {
+               int& work) {
+  PathPoint foot;
+  return project(map, path, point, guess_s_m, reach_m, foot, work);
+}
+
+Frenet project(const LaneMap& map, const LanePath& path, Point point, float guess_s_m, float reach_m,
+               PathPoint& foot, int& work) {
   const bool whole = reach_m < 0.0F;
   const float low_s_m = whole ? -1e6F : guess_s_m - reach_m;
   const float high_s_m = whole ? 1e6F : guess_s_m + reach_m;
   float best_s_m = clamp(guess_s_m, low_s_m, high_s_m);
   float best_square = 1e30F;
   const int lane_count = path.lanes.size();
+  int vertices = 0;
   for (int i = 0; i < lane_count; ++i) {
     const bool last_lane = i + 1 == lane_count;
     float start_s_m = path.lanes[i].start_s_m;
     if (i > 0 && start_s_m > high_s_m) break;
     if (!last_lane && path.lanes[i + 1].start_s_m < low_s_m) continue;
     const Lane& lane = map.lanes[path.lanes[i].lane];
+    vertices += lane.point_count;
     for (int k = 0; k + 1 < lane.point_count; ++k) {
       const Point chord = lane.points[k + 1] - lane.points[k];
       const float length_m = norm(chord);
@@ -193,6 +206,7 @@ Frenet project(const LaneMap& map, const LanePath& path, Point point, float gues
     foot = cursor.at(best_s_m);
     local = to_local(foot.pose, point);
   }
+  work += kProjectWork + vertices / kVerticesPerUnit + kSeekWork * cursor.seeks();
   return {best_s_m, local.y_m, foot.pose.heading_rad};
 }
 
@@ -218,11 +232,15 @@ bool usable(const Lane& lane) {
 }
 
 void find_led_into(const LaneMap& map, bool (&led_into)[kMaxLanes]) {
-  for (bool& led : led_into) led = false;
-  for (const Lane& lane : map.lanes) {
-    if (!usable(lane)) continue;
-    for (const LaneIndex next : lane.successors) {
-      if (next >= 0 && next < kMaxLanes && usable(map.lanes[next])) led_into[next] = true;
+  bool is_usable[kMaxLanes];
+  for (int i = 0; i < kMaxLanes; ++i) {
+    is_usable[i] = usable(map.lanes[i]);
+    led_into[i] = false;
+  }
+  for (int i = 0; i < kMaxLanes; ++i) {
+    if (!is_usable[i]) continue;
+    for (const LaneIndex next : map.lanes[i].successors) {
+      if (next >= 0 && next < kMaxLanes && is_usable[next]) led_into[next] = true;
     }
   }
 }

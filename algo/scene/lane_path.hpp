@@ -56,12 +56,16 @@ struct LaneSegment {
 /// Stretch `index` of `lane`. \pre 0 <= index < lane.point_count - 1
 [[nodiscard]] LaneSegment lane_segment(const Lane& lane, int index);
 
+inline constexpr int kSeekWork = 10;  ///< for a cursor to find a segment [WorkMeter's units]
+
 /// Walks along a path: the same answers as path_point, cheaper while s stays within one segment.
 /// Map and path must outlive it. \pre the path has at least one lane
 class PathCursor {
  public:
   PathCursor(const LaneMap& map, const LanePath& path);
   [[nodiscard]] PathPoint at(float s_m);
+  /// How often it had to look for a segment: what it costs, kSeekWork each.
+  [[nodiscard]] int seeks() const { return seeks_; }
 
  private:
   void seek(float s_m);
@@ -69,8 +73,9 @@ class PathCursor {
   const LaneMap& map_;
   const LanePath& path_;
   LaneSegment segment_;
-  Point chord_;            ///< its unit vector
-  int lane_ = 0;           ///< index into path_.lanes
+  Point chord_;   ///< its unit vector
+  int lane_ = 0;  ///< index into path_.lanes
+  int seeks_ = 0;
   float from_s_m_ = 0.0F;  ///< the loaded segment answers for [from, to)
   float to_s_m_ = -1.0F;
   float start_s_m_ = 0.0F;  ///< where it begins
@@ -86,9 +91,12 @@ class PathCursor {
 /// Bounded: one pass over the segments in reach and three corrections. \pre as path_point
 [[nodiscard]] Frenet project(const LaneMap& map, const LanePath& path, Point point, float guess_s_m,
                              float reach_m);
+/// The same. \param work  what it took is added [WorkMeter's units]
+[[nodiscard]] Frenet project(const LaneMap& map, const LanePath& path, Point point, float guess_s_m,
+                             float reach_m, int& work);
 /// The same, with the centre line there. \param foot  receives path_point at the result's s_m
 [[nodiscard]] Frenet project(const LaneMap& map, const LanePath& path, Point point, float guess_s_m,
-                             float reach_m, PathPoint& foot);
+                             float reach_m, PathPoint& foot, int& work);
 
 /// Sum of the chords of a centre line [m].
 [[nodiscard]] float centre_line_length(const Lane& lane);

@@ -16,6 +16,11 @@ constexpr float kGoOnM = 0.3F;          // the same for a successor of the previ
 constexpr float kOffRouteM = 1.0F;
 constexpr float kNotOursM = 2.0F;
 
+// Work (WorkMeter's units).
+constexpr int kTableWork = 60;
+constexpr int kFitWork = 12;  // to see which lanes are near, and ...
+constexpr int kNearWork = 5;  // ... of each that is
+
 LaneFacts work_out(const Lane& lane) {
   LaneFacts facts;
   facts.usable = usable(lane);
@@ -46,7 +51,12 @@ bool follows(const Lane& before, LaneIndex lane) {
 
 LaneTable::LaneTable(const LaneMap* map) : map_(map) {
   if (map == nullptr) return;
-  for (int i = 0; i < kMaxLanes; ++i) facts_[i] = work_out(map->lanes[i]);
+  int vertices = 0;
+  for (int i = 0; i < kMaxLanes; ++i) {
+    facts_[i] = work_out(map->lanes[i]);
+    vertices += facts_[i].usable ? map->lanes[i].point_count : 0;
+  }
+  spend(kTableWork + vertices);
 }
 
 Bend LaneTable::bend(LaneIndex index) const {
@@ -68,6 +78,7 @@ bool LaneTable::valid(LaneIndex index) const {
 
 void LaneTable::fit(const Pose& pose, const LaneHint& hint, Fits& fits) const {
   fits.clear();
+  spend(kFitWork);
   for (int i = 0; i < kMaxLanes; ++i) {
     const LaneFacts& facts = facts_[i];
     if (!facts.usable) continue;
@@ -77,6 +88,7 @@ void LaneTable::fit(const Pose& pose, const LaneHint& hint, Fits& fits) const {
         pose.y_m < facts.low.y_m - limit_m || pose.y_m > facts.high.y_m + limit_m) {
       continue;
     }
+    spend(kNearWork);
     LaneFit found;
     found.lane = static_cast<LaneIndex>(i);
     found.fix = nearest_on_lane(lane, position(pose));

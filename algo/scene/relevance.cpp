@@ -10,6 +10,12 @@ constexpr float kSlowestMps = 2.0F;    // who stands may start: times are taken 
 constexpr float kElsewhereS = 100.0F;  // who shares neither zone nor lane comes after all who do
 constexpr float kOtherWayS = 1.0F;     // handicap of what concerns only a lane we are not on yet
 
+// Work (WorkMeter's units).
+constexpr int kRankWork = 6;       // of a vehicle, ...
+constexpr int kMoveWork = 8;       // ... when its place in the list changes, ...
+constexpr int kMeetWork = 4;       // ... with one of our paths, ...
+constexpr int kPairsPerUnit = 25;  // ... lanes of its ways beside lanes and zones of ours
+
 // Where our path begins on the agent's, when our first lane lies ahead of it.
 bool leads_to_us(const EgoPath& ego_path, const LanePath& path, float& start_s_m) {
   const LaneIndex first = ego_path.path.lanes[0].lane;
@@ -67,17 +73,28 @@ float interaction_time_s(const Scene& scene, const Agent& agent) {
   return time_s;
 }
 
+int interaction_work(const Scene& scene, const Agent& agent) {
+  int lanes = 0;
+  for (const LanePath& path : agent.paths) lanes += path.lanes.size();
+  int work = kRankWork;
+  for (const EgoPath& ego_path : scene.ego_paths)
+    work += kMeetWork + lanes * (ego_path.path.lanes.size() + ego_path.zones.size()) / kPairsPerUnit;
+  return work;
+}
+
 }  // namespace
 
-void rank_agents(Relevance relevance, const Parameters& parameters, Scene& scene) {
+int rank_agents(Relevance relevance, const Parameters& parameters, Scene& scene) {
   const float ahead_m = 0.5F * parameters.vehicle.length_m - parameters.vehicle.rear_overhang_m;
   const Point centre = offset_point(scene.ego.rear_axle, ahead_m, 0.0F);
   const int count = scene.agents.size();
   float key[kMaxTracks] = {};
+  int work = 0;
   for (int i = 0; i < count; ++i) {
     const Agent& agent = scene.agents[i];
     key[i] = relevance == Relevance::kNearest ? distance(centre, position(agent.track.centre))
                                               : interaction_time_s(scene, agent);
+    work += interaction_work(scene, agent);
   }
   scene.watched = count < kMaxAgents ? count : kMaxAgents;
   for (int place = 0; place < scene.watched; ++place) {
@@ -88,6 +105,7 @@ void rank_agents(Relevance relevance, const Parameters& parameters, Scene& scene
     if (best == place) continue;
     const Agent agent = scene.agents[best];
     const float best_key = key[best];
+    work += kMoveWork * (best - place + 2);
     for (int i = best; i > place; --i) {
       scene.agents[i] = scene.agents[i - 1];
       key[i] = key[i - 1];
@@ -95,6 +113,7 @@ void rank_agents(Relevance relevance, const Parameters& parameters, Scene& scene
     scene.agents[place] = agent;
     key[place] = best_key;
   }
+  return work;
 }
 
 }  // namespace s4tp::scene

@@ -6,6 +6,7 @@
 namespace s4tp::scene {
 
 /// Puts the agents that matter most first and sets scene.watched. Equals keep their order.
-void rank_agents(Relevance relevance, const Parameters& parameters, Scene& scene);
+/// \return what it took [WorkMeter's units]
+int rank_agents(Relevance relevance, const Parameters& parameters, Scene& scene);
 
 }  // namespace s4tp::scene

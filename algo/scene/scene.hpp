@@ -99,6 +99,7 @@ struct Scene {
   float waited_s = 0.0F;        ///< how long we have stood at the junction we are at or in (CORE-033)
   std::uint8_t id_clashes = 0;  ///< CORE-035 vehicles of the last list whose ids were not their own
   bool list_refused = false;    ///< CORE-008 the list lies over 500 ms from the scene, or before the last one
+  int work = 0;                 ///< what building it took [WorkMeter's units]
 };
 
 /// Which vehicles SATP watches (method.md 4.1).

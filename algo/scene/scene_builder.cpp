@@ -22,6 +22,11 @@ constexpr std::int32_t kLongestStandMs = 60'000;
 constexpr std::uint8_t kNobodysId = 255;
 constexpr std::uint16_t kPresentBit = 1U << (kHistorySamples - 1);
 
+// Work (WorkMeter's units).
+constexpr int kBuildWork = 150;
+constexpr int kAgentWork = 60;
+constexpr int kClashWork = 60;
+
 // Signed, so that the 32-bit time may wrap and lists may lie a little in the future.
 std::int32_t elapsed_ms(std::uint32_t from_ms, std::uint32_t to_ms) {
   return static_cast<std::int32_t>(to_ms - from_ms);
@@ -299,6 +304,7 @@ Status SceneBuilder::build(std::uint32_t time_ms, const EgoState& ego, const Tra
   scene.ego = EgoState{};
   scene.waited_s = 0.0F;
   scene.list_refused = false;
+  scene.work = kBuildWork;
   scene.known = KnownGround{};
   if (!sound(ego)) {
     reset();
@@ -352,7 +358,8 @@ Status SceneBuilder::build(std::uint32_t time_ms, const EgoState& ego, const Tra
     (void)scene.agents.push(agent);
   }
   note_standing(passed_ms, scene);
-  rank_agents(relevance, parameters, scene);
+  const int rank_work = rank_agents(relevance, parameters, scene);
+  scene.work += table.work() + kAgentWork * scene.agents.size() + kClashWork * scene.id_clashes + rank_work;
   return ego_lane_ != kNoLaneIndex ? Status::kOk : Status::kNoLane;
 }
 

@@ -15,6 +15,10 @@ constexpr int kMostSweeps = 44;  // the longest vehicle and ours
 constexpr float kFarM = 200.0F;
 constexpr float kAtGoalM = 2.0F;  // a goal at the very end of a road counts as on it
 
+// Work (WorkMeter's units).
+constexpr int kSeeWork = 7;
+constexpr int kSweepWork = 7;
+
 /// Whether a lane is that of the path at one of its parts.
 bool on_path(const scene::LanePath& path, LaneIndex lane) {
   for (const scene::PathLane& part : path.lanes) {
@@ -44,21 +48,24 @@ bool clear_of(const scene::Scene& scene, const scene::EgoPath& path, const scene
 
 /// Whether our box, driven along the path, comes within kStripM of a vehicle that stands across or against
 /// it.
-bool sweeps(const scene::Scene& scene, const scene::EgoPath& path, const scene::Agent& agent,
-            const OnPath& seen, const Parameters& parameters) {
+bool sweeps(const scene::Scene& scene, const scene::EgoPath& path, const scene::Agent& agent, OnPath& seen,
+            const Parameters& parameters) {
   const Box other{agent.track.centre, agent.track.length_m, agent.track.width_m};
   const float from_s_m = seen.centre_s_m - seen.half_length_m - rear_axle_to_front_m(parameters);
   const float to_s_m = seen.centre_s_m + seen.half_length_m + parameters.vehicle.rear_overhang_m;
   scene::PathCursor cursor(*scene.map, path.path);
-  for (int i = 0; i < kMostSweeps; ++i) {
+  bool touches = false;
+  for (int i = 0; i < kMostSweeps && !touches; ++i) {
     const float s_m = from_s_m + static_cast<float>(i) * kSweepM;
     if (s_m > to_s_m) break;
+    seen.work += kSweepWork;
     const Pose centre_line = cursor.at(s_m).pose;
     const Point there = offset_point(centre_line, 0.0F, path.aside_m);
     const Box ours = ego_box({there.x_m, there.y_m, centre_line.heading_rad}, parameters);
-    if (separation(ours, other) < kStripM) return true;
+    touches = separation(ours, other) < kStripM;
   }
-  return false;
+  seen.work += scene::kSeekWork * cursor.seeks();
+  return touches;
 }
 
 /// Whether the vehicle is still before the path's first lane, on a way that leads into it: seen along its own
@@ -82,13 +89,14 @@ bool comes_up_behind(const scene::EgoPath& path, const scene::Agent& agent, OnPa
 OnPath see_on_path(const scene::Scene& scene, const scene::EgoPath& path, const scene::Agent& agent,
                    const Parameters& parameters, bool whole_road, bool& known) {
   OnPath seen;
+  seen.work = kSeeWork;
   known = false;
   if (distance(position(agent.track.centre), position(scene.ego.rear_axle)) > kFarM) return seen;
   float error_rad = 0.0F;
   if (whole_road || !comes_up_behind(path, agent, seen, error_rad)) {
     if (!whole_road && clear_of(scene, path, agent)) return seen;
-    const scene::Frenet frenet =
-        scene::project(*scene.map, path.path, position(agent.track.centre), path.frenet.s_m, -1.0F);
+    const scene::Frenet frenet = scene::project(*scene.map, path.path, position(agent.track.centre),
+                                                path.frenet.s_m, -1.0F, seen.work);
     error_rad = wrap_angle(agent.track.centre.heading_rad - frenet.heading_rad);
     seen.centre_s_m = frenet.s_m;
     seen.centre_d_m = frenet.d_m;
@@ -125,14 +133,17 @@ Leader find_leader(const scene::Scene& scene, const scene::EgoPath& path, float 
   const float centre_s_m = rear_axle_s_m + rear_axle_to_centre_m(parameters);
   const float front_s_m = rear_axle_s_m + rear_axle_to_front_m(parameters);
   Leader leader;
+  int work = 0;
   for (int i = 0; i < scene.agents.size(); ++i) {
     bool known = false;
     const OnPath seen = see_on_path(scene, path, scene.agents[i], parameters, false, known);
+    work += seen.work;
     if (!known || !seen.overlaps || seen.crossing || seen.centre_s_m <= centre_s_m) continue;
     const float gap_m = seen.centre_s_m - seen.half_length_m - front_s_m;
     if (leader.agent >= 0 && gap_m >= leader.gap_m) continue;
     leader = {i, gap_m, max(0.0F, seen.along_mps), scene.agents[i].track.acceleration_mps2};
   }
+  leader.work = work;
   return leader;
 }
 
@@ -141,15 +152,18 @@ Leader find_follower(const scene::Scene& scene, const scene::EgoPath& path, floa
   const float centre_s_m = rear_axle_s_m + rear_axle_to_centre_m(parameters);
   const float rear_s_m = rear_axle_s_m - parameters.vehicle.rear_overhang_m;
   Leader follower;
+  int work = 0;
   for (int i = 0; i < scene.agents.size(); ++i) {
     bool known = false;
     const OnPath seen = see_on_path(scene, path, scene.agents[i], parameters, false, known);
+    work += seen.work;
     if (!known || !seen.overlaps || seen.crossing || seen.centre_s_m > centre_s_m) continue;
     if (seen.along_mps < 0.0F) continue;
     const float gap_m = rear_s_m - (seen.centre_s_m + seen.half_length_m);
     if (follower.agent >= 0 && gap_m >= follower.gap_m) continue;
     follower = {i, gap_m, seen.along_mps, scene.agents[i].track.acceleration_mps2};
   }
+  follower.work = work;
   return follower;
 }
 

@@ -18,6 +18,7 @@ struct OnPath {
   float left_mps = 0.0F;   ///< speed across the path
   float along_mps = 0.0F;  ///< speed along the path; negative: towards us
   bool crossing = false;   ///< moving, more than 45 degrees off the path's direction or against it
+  int work = 0;            ///< what seeing it took [WorkMeter's units]
 };
 
 /// \param whole_road  also vehicles that are plainly in another lane
@@ -35,6 +36,7 @@ struct Leader {
   float gap_m = 0.0F;      ///< bumper to bumper at the scene's time; may be negative
   float speed_mps = 0.0F;  ///< along the path, >= 0
   float acceleration_mps2 = 0.0F;
+  int work = 0;  ///< what finding it took [WorkMeter's units]
 };
 
 /// \param rear_axle_s_m  ours, along `path`, at the scene's time

@@ -31,7 +31,13 @@ constexpr int kMaxStops = 3;
 
 constexpr float kStretch = 1.7F;  // a lateral motion that is infeasible is tried longer, three times
 constexpr int kStretches = 4;
-constexpr int kSteeredRollOuts = 3;       // a steered one takes as long
+constexpr int kSteeredRollOuts = 3;  // a steered one counts as so many
+
+// Work (WorkMeter's units).
+constexpr int kPrepareWork = 60;
+constexpr int kTrialWork = 4;
+constexpr int kMostTrialWork = kTrialWork + kRollOutWork * kStretches + kSteeredWork;
+
 constexpr float kAlikeM = 0.05F;          // two roll-outs nearer than this at half time and end are one
 constexpr float kStopShortOfEndM = 1.0F;  // before the end of a road
 constexpr float kDriveShare = 0.85F;      // of the strongest drive: some is left to follow the plan with
@@ -102,16 +108,19 @@ void find_stops(const scene::Scene& scene, const scene::EgoPath& path, const Par
 }
 
 void prepare(const scene::Scene& scene, const scene::EgoPath& path, const TrajectoryPoint& start,
-             float lead_s, const Parameters& parameters, ReferenceLine& line, Course& course) {
+             float lead_s, const Parameters& parameters, ReferenceLine& line, Course& course,
+             WorkMeter& meter) {
   const float guess_s_m = path.frenet.s_m + lead_s * scene.ego.speed_mps;
+  int work = kPrepareWork;
   const scene::Frenet frenet =
-      scene::project(*scene.map, path.path, position(start.rear_axle), guess_s_m, 10.0F);
-  build_reference(*scene.map, path.path, frenet.s_m, start.speed_mps, parameters, line);
+      scene::project(*scene.map, path.path, position(start.rear_axle), guess_s_m, 10.0F, work);
+  work += build_reference(*scene.map, path.path, frenet.s_m, start.speed_mps, parameters, line);
   line.aside_m = path.aside_m;
   course.where = locate_on(line, position(start.rear_axle), frenet.s_m);
   course.leader = find_leader(scene, path, path.frenet.s_m, parameters);
   course.leader_touch_s_m = path.frenet.s_m + course.leader.gap_m;
   find_stops(scene, path, parameters, course);
+  meter.spend(work + course.leader.work);
 }
 
 /// Whether the running plan goes on from exactly here and stays on this path.
@@ -191,11 +200,14 @@ bool shape_longitudinal(const scene::Scene& scene, const Trial& trial, const Ref
 /// Finds a lateral length with which the candidate can be driven, or else steers. \return false: neither
 bool make_feasible(const ReferenceLine& line, const TrajectoryPoint& start, const Plan& running,
                    std::uint32_t start_ms, const Parameters& parameters, Course& course, Candidate& candidate,
-                   Trajectory& trajectory, int& roll_outs) {
+                   CandidateVisitor& visitor) {
+  Trajectory& trajectory = visitor.rolled_out;
+  visitor.meter.spend(kTrialWork);
   for (int i = 0; i < course.attempts; ++i) {
     shape_lateral(line, start, course.where, course.lateral_length_m, candidate);
     if (candidate.intent != Intent::kPrevious && overshoots(candidate)) break;  // longer goes further out
-    ++roll_outs;
+    ++visitor.roll_outs;
+    visitor.meter.spend(kRollOutWork);
     roll_out(line, candidate, start, running, start_ms, parameters, trajectory);
     if (feasible(trajectory, parameters)) return true;
     if (candidate.intent == Intent::kPrevious) break;
@@ -203,7 +215,8 @@ bool make_feasible(const ReferenceLine& line, const TrajectoryPoint& start, cons
   }
   if (candidate.intent != Intent::kPrevious) course.attempts = 1;
   candidate.steered = true;
-  roll_outs += kSteeredRollOuts;
+  visitor.roll_outs += kSteeredRollOuts;
+  visitor.meter.spend(kSteeredWork);
   roll_out(line, candidate, start, running, start_ms, parameters, trajectory);
   return feasible(trajectory, parameters);
 }
@@ -236,13 +249,17 @@ void generate_candidates(const scene::Scene& scene, const TrajectoryPoint& start
   const std::int32_t lead_ms = static_cast<std::int32_t>(start_ms - scene.time_ms);
   const float lead_s = clamp(0.001F * static_cast<float>(lead_ms), 0.0F, kMaxLeadS);
   Course courses[decltype(scene::Scene::ego_paths)::kCapacity];
-  for (int path = 0; path < scene.ego_paths.size(); ++path) {
-    prepare(scene, scene.ego_paths[path], start, lead_s, parameters, lines[path], courses[path]);
+  int paths = 0;  // that can be prepared with the work there is
+  for (int path = 0; path < scene.ego_paths.size() && visitor.meter.left > 0; ++path) {
+    paths = path + 1;
+    prepare(scene, scene.ego_paths[path], start, lead_s, parameters, lines[path], courses[path],
+            visitor.meter);
+    visitor.leaders[path] = courses[path].leader;
   }
   Trajectory& trajectory = visitor.rolled_out;
   Reach reaches[kMaxCandidates];
   for (int round = 0; round < kRoundCount; ++round) {
-    for (int path = 0; path < scene.ego_paths.size(); ++path) {
+    for (int path = 0; path < paths; ++path) {
       const ReferenceLine& line = lines[path];
       Course& course = courses[path];
       course.lateral_length_m = lateral_length_m(line, start, course.where, parameters);
@@ -253,14 +270,13 @@ void generate_candidates(const scene::Scene& scene, const TrajectoryPoint& start
         if (!shape_longitudinal(scene, kTrials[k], line, course, start, running, start_ms, lead_s, aim,
                                 parameters, candidate))
           continue;
-        const bool done = visitor.roll_outs + kStretches + kSteeredRollOuts > kMaxRollOuts;
+        const bool done = visitor.roll_outs + kStretches + kSteeredRollOuts > kMaxRollOuts ||
+                          !visitor.meter.allows(kMostTrialWork);
         if (done || (candidates.size() >= most && !candidates.full())) {
           ++left_out;
           continue;
         }
-        if (!make_feasible(line, start, running, start_ms, parameters, course, candidate, trajectory,
-                           visitor.roll_outs))
-          continue;
+        if (!make_feasible(line, start, running, start_ms, parameters, course, candidate, visitor)) continue;
         const Reach reach = reach_of(candidate, trajectory);
         if (candidate.intent != Intent::kPrevious && has_twin(reaches, candidates.size(), reach)) continue;
         if (!candidates.push(candidate)) {

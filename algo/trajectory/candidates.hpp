@@ -9,7 +9,9 @@
 #include "algo/core/bounded.hpp"
 #include "algo/core/parameters.hpp"
 #include "algo/core/trajectory.hpp"
+#include "algo/core/work_meter.hpp"
 #include "algo/scene/scene.hpp"
+#include "algo/trajectory/along_path.hpp"
 #include "algo/trajectory/reference_line.hpp"
 
 namespace s4tp::trajectory {
@@ -75,7 +77,9 @@ class CandidateVisitor {
   /// comes first.
   virtual void visit(int index) = 0;
   Trajectory& rolled_out;
-  int roll_outs = 0;  ///< so far
+  int roll_outs = 0;                                             ///< so far
+  WorkMeter meter{1'000'000'000};                                ///< what the candidates themselves may take
+  Leader leaders[decltype(scene::Scene::ego_paths)::kCapacity];  ///< along each path
 
  protected:
   ~CandidateVisitor() = default;
@@ -84,9 +88,12 @@ class CandidateVisitor {
 /// CAND-021 Roll-outs of a cycle, a steered one counting as three; what is not tried then is left out.
 inline constexpr int kMaxRollOuts = 60;
 
+inline constexpr int kRollOutWork = 215;  ///< of one [WorkMeter's units], and ...
+inline constexpr int kSteeredWork = 430;  ///< ... of a steered one
+
 /// Feasible candidates from `start`, at most `most` and kMaxCandidates (CAND-009): diversity over (path,
 /// intent) first, then progress; two that move alike count once. The keep path's hard braking and stops are
-/// always among those tried first. \param lines  receives what the candidates are rolled out on \param
+/// always among those tried first, while `visitor.meter` lasts. \param lines  receives what the candidates are rolled out on \param
 /// left_out  receives how many feasible ones did not fit, and how many `most` left untried \param aim  adds
 /// a candidate that settles there, and one beside it in our own lane, behind our own leader (CAND-015)
 void generate_candidates(const scene::Scene& scene, const TrajectoryPoint& start, const Plan& running,

@@ -13,40 +13,59 @@ constexpr float kWideM = 100.0F;  // wider than any lane
 constexpr float kRoundingM = 0.01F;
 constexpr float kAcrossCos = 0.7071F;  // 45 degrees
 
+// Work (WorkMeter's units).
+constexpr int kTwoPointsWork = 6;
+constexpr int kTwoPassedWork = 3;
+
 constexpr float kAsidesM[] = {0.0F, -0.35F, 0.35F, -0.7F, 0.7F};
 constexpr int kAsides = static_cast<int>(sizeof(kAsidesM) / sizeof(kAsidesM[0]));
 constexpr unsigned kAnywhere = (1U << kAsides) - 1U;
 
-Box box_of(const scene::Agent& agent) {
-  return {agent.track.centre, agent.track.length_m, agent.track.width_m};
-}
+/// One who stands, and from which places (bit k: kAsidesM[k]) our box has left room to it so far.
+struct Bystander {
+  Point centre;
+  Point ahead;  ///< unit vector of its heading
+  float half_length_m;
+  float half_width_m;
+  unsigned from;
+};
+using Bystanders = BoundedVector<Bystander, kMaxTracks>;
 
-/// Our box with the rear axle `aside_m` left of a point of the centre line.
-Box box_beside(const Pose& centre_line, float aside_m, const Parameters& parameters) {
-  const Point beside = offset_point(centre_line, 0.0F, aside_m);
-  return ego_box({beside.x_m, beside.y_m, centre_line.heading_rad}, parameters);
-}
-
-bool leaves_room(const Pose& centre_line, float aside_m, const Box& other, const Parameters& parameters) {
-  return separation(box_beside(centre_line, aside_m, parameters), other) >= kBystanderGapM;
-}
-
-/// Of the places in `from` (bit k: kAsidesM[k]), those from which our box at one point of the centre line
-/// leaves room to `other`.
-unsigned passed_from(const Pose& centre_line, const Box& other, unsigned from, const Parameters& parameters,
-                     int& tried) {
-  const float reach_m = parameters.vehicle.length_m + 0.5F * (other.length_m + other.width_m) + 1.0F;
-  const Point apart = position(other.centre) - position(centre_line);
-  const bool across =
-      dot(direction(other.centre.heading_rad), direction(centre_line.heading_rad)) < kAcrossCos;
-  if (!across || dot(apart, apart) > square(reach_m)) return from;
-  unsigned left = 0;
+/// Of the places it is passed from so far, those from which our box at one point of the centre line leaves room, too.
+/// The gap along each axis that may separate the boxes (geometry.hpp, separation()) is linear in the place.
+unsigned passed_from(const Pose& centre_line, Point ahead, const Bystander& other,
+                     const Parameters& parameters) {
+  const float half_length_m = 0.5F * parameters.vehicle.length_m;
+  const float half_width_m = 0.5F * parameters.vehicle.width_m;
+  const float reach_m = parameters.vehicle.length_m + (other.half_length_m + other.half_width_m) + 1.0F;
+  const Point apart = other.centre - position(centre_line);
+  const float cosine = dot(ahead, other.ahead);
+  if (cosine >= kAcrossCos || dot(apart, apart) > square(reach_m)) return other.from;
+  const float sine = cross(ahead, other.ahead);
+  const float along = abs(cosine);
+  const float across = abs(sine);
+  const Point offset = apart - rear_axle_to_centre_m(parameters) * ahead;
+  const float long_enough_m =
+      kBystanderGapM + half_length_m + (other.half_length_m * along + other.half_width_m * across);
+  if (abs(dot(ahead, offset)) >= long_enough_m) return other.from;
+  const float wide_enough_m =
+      kBystanderGapM + half_width_m + (other.half_length_m * across + other.half_width_m * along);
+  const float its_long_enough_m =
+      kBystanderGapM + other.half_length_m + (half_length_m * along + half_width_m * across);
+  const float its_wide_enough_m =
+      kBystanderGapM + other.half_width_m + (half_length_m * across + half_width_m * along);
+  const float left_m = cross(ahead, offset);
+  const float its_ahead_m = dot(other.ahead, offset);
+  const float its_left_m = cross(other.ahead, offset);
+  unsigned passed = 0;
   for (int k = 0; k < kAsides; ++k) {
-    const bool open = (from >> k & 1U) != 0;
-    tried += open ? 1 : 0;
-    if (open && leaves_room(centre_line, kAsidesM[k], other, parameters)) left |= 1U << k;
+    const float aside_m = kAsidesM[k];
+    const bool passes = abs(left_m - aside_m) >= wide_enough_m ||
+                        abs(its_ahead_m - aside_m * sine) >= its_long_enough_m ||
+                        abs(its_left_m - aside_m * cosine) >= its_wide_enough_m;
+    if (passes) passed |= 1U << k;
   }
-  return left;
+  return other.from & passed;
 }
 
 /// Those within a lane of `width_m`.
@@ -59,23 +78,21 @@ unsigned within_lane(float width_m, const Parameters& parameters) {
 }
 
 float find_aside_m(const scene::Scene& scene, const scene::EgoPath& path, const Parameters& parameters,
-                   int& tried) {
-  unsigned from[kMaxTracks];
-  for (unsigned& one : from) one = kAnywhere;
+                   Bystanders& bystanders, int& work) {
+  for (Bystander& other : bystanders) other.from = kAnywhere;
   float width_m = kWideM;
   scene::PathCursor cursor(*scene.map, path.path);
   for (int i = 0; i < kStepsAhead; ++i) {
     const scene::PathPoint point = cursor.at(path.frenet.s_m + static_cast<float>(i) * kStepM);
     width_m = min(width_m, point.width_m);
-    for (int k = 0; k < scene.agents.size(); ++k) {
-      const scene::Agent& agent = scene.agents[k];
-      if (is_standing(agent) && from[k] != 0)
-        from[k] = passed_from(point.pose, box_of(agent), from[k], parameters, tried);
-    }
+    const Point ahead = direction(point.pose.heading_rad);
+    for (Bystander& other : bystanders) other.from = passed_from(point.pose, ahead, other, parameters);
   }
+  work += kStepsAhead * (kTwoPointsWork + kTwoPassedWork * bystanders.size()) / 2 +
+          scene::kSeekWork * cursor.seeks();
   unsigned all = within_lane(width_m, parameters);
-  for (const unsigned one : from) {
-    if ((all & one) != 0) all &= one;
+  for (const Bystander& other : bystanders) {
+    if ((all & other.from) != 0) all &= other.from;
   }
   int least = 0;
   while ((all >> least & 1U) == 0) ++least;
@@ -89,13 +106,17 @@ bool is_standing(const scene::Agent& agent) {
 }
 
 int set_lateral_offsets(const Parameters& parameters, scene::Scene& scene) {
-  int tried = 0;
-  bool somebody_stands = false;
-  for (const scene::Agent& agent : scene.agents) somebody_stands = somebody_stands || is_standing(agent);
-  for (scene::EgoPath& path : scene.ego_paths) {
-    path.aside_m = somebody_stands ? find_aside_m(scene, path, parameters, tried) : 0.0F;
+  int work = 0;
+  Bystanders bystanders;
+  for (const scene::Agent& agent : scene.agents) {
+    if (!is_standing(agent)) continue;
+    (void)bystanders.push({position(agent.track.centre), direction(agent.track.centre.heading_rad),
+                           0.5F * agent.track.length_m, 0.5F * agent.track.width_m, kAnywhere});
   }
-  return tried;
+  for (scene::EgoPath& path : scene.ego_paths) {
+    path.aside_m = bystanders.empty() ? 0.0F : find_aside_m(scene, path, parameters, bystanders, work);
+  }
+  return work;
 }
 
 }  // namespace s4tp::trajectory

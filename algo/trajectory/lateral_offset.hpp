@@ -16,7 +16,7 @@ inline constexpr float kBystanderGapM = 0.4F;
 /// our box passes all who stand across or against it, over the next 30 m, with kBystanderGapM. Never beyond
 /// the lanes' edges; who cannot be passed so is not minded, and who stands along the path is a leader, not a
 /// bystander. \pre scene.map is there, or there are no ego paths
-/// \return how many places of our box were tried against somebody's: what it cost
+/// \return what it took [WorkMeter's units]
 int set_lateral_offsets(const Parameters& parameters, scene::Scene& scene);
 
 }  // namespace s4tp::trajectory

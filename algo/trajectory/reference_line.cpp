@@ -19,6 +19,10 @@ constexpr int kEdgeSamples = 4;      // at the ends, which widening leaves as th
 constexpr int kWidenedSamples = 8;   // each way around what is too tight
 constexpr float kSwingOut = 0.5F;    // of what a pass cuts is given back outside
 
+// Work (WorkMeter's units), beside scene::kSeekWork.
+constexpr int kLineWork = 400;
+constexpr int kPassWork = 250;
+
 /// Triangle of five: weights 1 2 3 2 1. \param chosen  samples to smooth; null: all
 void smooth(const bool* chosen, ReferenceLine& line) {
   Point before2 = position(line.samples[0].pose);
@@ -74,15 +78,16 @@ void swing_out(const bool* chosen, ReferenceLine& line) {
   }
 }
 
-/// A lane may bend more than we can steer: our way through such a corner is wider, by up to 0.7 m.
-void widen_tight_bends(const Parameters& parameters, ReferenceLine& line) {
+/// A lane may bend more than we can steer: our way through such a corner is wider, by up to 0.7 m. \return passes made
+int widen_tight_bends(const Parameters& parameters, ReferenceLine& line) {
   const float limit_1pm = curvature_for(parameters.vehicle.steering_max_rad, parameters.vehicle.wheelbase_m);
   bool chosen[kReferenceSamples];
   for (int pass = 0; pass < kMostPasses; ++pass) {
-    if (!find_too_tight(line, limit_1pm, chosen)) return;
+    if (!find_too_tight(line, limit_1pm, chosen)) return pass;
     smooth(chosen, line);
     swing_out(chosen, line);
   }
+  return kMostPasses;
 }
 
 /// Headings by central, curvatures by second differences (the circle through three points).
@@ -138,8 +143,8 @@ void cap_speeds(const Parameters& parameters, ReferenceLine& line) {
 
 }  // namespace
 
-void build_reference(const LaneMap& map, const scene::LanePath& path, float from_s_m, float speed_mps,
-                     const Parameters& parameters, ReferenceLine& line) {
+int build_reference(const LaneMap& map, const scene::LanePath& path, float from_s_m, float speed_mps,
+                    const Parameters& parameters, ReferenceLine& line) {
   line.spacing_m = max(1.0F, kSpacingPerSpeed * speed_mps);
   line.aside_m = 0.0F;
   // Samples lie on a fixed grid of the path: lines built from slightly different places agree.
@@ -151,9 +156,10 @@ void build_reference(const LaneMap& map, const scene::LanePath& path, float from
     line.samples[i].speed_cap_mps = point.speed_limit_mps;
   }
   smooth(nullptr, line);
-  widen_tight_bends(parameters, line);
+  const int passes = widen_tight_bends(parameters, line);
   differentiate(line);
   cap_speeds(parameters, line);
+  return kLineWork + kPassWork * passes + scene::kSeekWork * cursor.seeks();
 }
 
 namespace {

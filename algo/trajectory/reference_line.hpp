@@ -37,9 +37,9 @@ struct ReferenceCoordinates {
 };
 
 /// Samples `path` from a little behind `from_s_m` on. \param speed_mps  widens the spacing, so that 3 s and
-/// the way to brake fit at any speed. \pre the path has at least one lane
-void build_reference(const LaneMap& map, const scene::LanePath& path, float from_s_m, float speed_mps,
-                     const Parameters& parameters, ReferenceLine& line);
+/// the way to brake fit at any speed. \pre the path has at least one lane \return what it took [WorkMeter's units]
+int build_reference(const LaneMap& map, const scene::LanePath& path, float from_s_m, float speed_mps,
+                    const Parameters& parameters, ReferenceLine& line);
 
 /// The line at `s_m`, interpolated; the heading may be outside [-pi, pi) by a step's turn.
 [[nodiscard]] ReferenceLine::Sample reference_at(const ReferenceLine& line, float s_m);

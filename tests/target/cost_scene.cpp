@@ -276,6 +276,9 @@ void CostScene::make(const Genome& genome) {
                focus, track);
     (void)input_.tracks.push(track);
   }
+  Genes missing_genes(genome.genes + kMapGenes + kEgoGenes + kMaxTracks * kTrackGenes);
+  input_.tracks.left_out = missing_genes.below(4) == 3 ? 1 : 0;
+  map_.lanes_left_out = missing_genes.below(4) == 3 ? 1 : 0;
   input_.now_ms = input_.tracks_ms = kBeginMs;
   input_.start_ms = kBeginMs + kStepMs;
   input_.map = &map_;

@@ -16,7 +16,8 @@ namespace s4tp::test {
 inline constexpr int kMapGenes = 16;
 inline constexpr int kEgoGenes = 10;
 inline constexpr int kTrackGenes = 10;
-inline constexpr int kGenes = kMapGenes + kEgoGenes + kMaxTracks * kTrackGenes;
+inline constexpr int kMissingGenes = 2;  ///< whether vehicles and lanes are left out
+inline constexpr int kGenes = kMapGenes + kEgoGenes + kMaxTracks * kTrackGenes + kMissingGenes;
 inline constexpr int kSceneCycles = 2;  ///< the second has histories, beliefs and a running plan
 
 struct Genome {

@@ -6,7 +6,7 @@ namespace {
 constexpr std::uint32_t kRandomFirst = 60;  // before anything is worth changing
 constexpr std::uint32_t kStrangers = 20;    // one in so many is made of nothing else
 /// Whose elites are changed, row by row: those that can be dear more often.
-constexpr int kTurns[] = {8, 8, 8, 4, 4, 3, 0, 1, 2, 5, 6};
+constexpr int kTurns[] = {8, 8, 8, 4, 3, 0, 0, 1, 1, 2, 5, 6, 6, 9, 10, 11, 12, 13, 14, 15, 16, 17, 17};
 
 }  // namespace
 
@@ -55,7 +55,7 @@ void CostSearch::mutate(Genome& genome) {
         const Genome& other = parent();
         const bool map = below(4) == 0;
         const std::uint32_t begin = map ? 0 : kTracksBegin + below(kMaxTracks) * kTrackGenes;
-        const std::uint32_t end = map ? kMapGenes : kTracksBegin + kMaxTracks * kTrackGenes;
+        const std::uint32_t end = map ? kMapGenes : kGenes;
         for (std::uint32_t i = begin; i < end; ++i) genome.genes[i] = other.genes[i];
       }
     }
@@ -73,13 +73,11 @@ Genome CostSearch::propose() {
   return genome;
 }
 
-std::uint32_t CostSearch::take(const Genome& genome, const Cost& cost) {
+void CostSearch::take(const Genome& genome, const Cost& cost) {
   ++taken_;
-  std::uint32_t records = 0;
   for (int row = 0; row < kCostRows; ++row) {
     Elite(&elites)[kElites] = elites_[row];
     const std::uint32_t count = cost.rows[row];
-    if (count > elites[0].count) records |= 1U << static_cast<std::uint32_t>(row);
     bool known = false;
     for (const Elite& elite : elites) known = known || elite.count == count;
     if (known || count < elites[kElites - 1].count) continue;
@@ -87,7 +85,6 @@ std::uint32_t CostSearch::take(const Genome& genome, const Cost& cost) {
     for (; place > 0 && elites[place - 1].count < count; --place) elites[place] = elites[place - 1];
     elites[place] = {genome, count};
   }
-  return records;
 }
 
 }  // namespace s4tp::test

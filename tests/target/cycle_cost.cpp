@@ -1,9 +1,10 @@
-/// What a planning cycle costs in scenes made to be dear (cost_scene.hpp), in SysTick counts of each stage. Reads
-/// a script, a command a line:
+/// What a planning cycle costs in scenes made to be dear (cost_scene.hpp), in SysTick counts of each stage, and how far
+/// that is beyond what it was charged. Reads a script, a command a line:
+///   unit N           what a unit of work is charged for, in counts; before the first scene
 ///   scene GENOME     measures it: prints the most of its cycles, row by row; a search goes on from it
 ///   charges          prints what each cycle was charged, stage by stage, beside what it took
 ///   uncapped         without the allowances of work: what they are there for
-///   search SEED N    measures N scenes more, and prints the dearest of each row
+///   search SEED N    measures N scenes more, and prints the worst of each row
 /// Exit code: 0, or 2 when the script cannot be read.
 
 #include "algo/core/self_test.hpp"
@@ -19,7 +20,8 @@ namespace {
 constexpr std::uint32_t kProgress = 200;  // scenes from one report to the next
 
 planner::Planner planner;
-bool charges = false;  // prints them
+bool charges = false;     // prints them
+std::int32_t unit = 160;  // counts
 
 class Meter final : public planner::Probe {
  public:
@@ -28,23 +30,30 @@ class Meter final : public planner::Probe {
   void cycle_done(const scene::Scene& scene, const satp::PredictionSet& prediction,
                   const sadrf::RiskProfile& risk) override {
     counter_.cycle_done(scene, prediction, risk);
-    if (charges) {
-      Text text;
-      text << "charged";
-      for (int i = 0; i < planner::kStageCount; ++i)
-        text << " " << planner.work().spent(static_cast<planner::Stage>(i)) << "/" << counter_.row(i).last;
-      text << " all " << counter_.row(planner::kStageCount).last << " agents "
-           << std::int32_t{scene.agents.size()} << "\n";
-      print(text.c_str());
-    }
+    Text text;
+    text << "charged";
     for (int i = 0; i < StageCounter::kRows; ++i) {
-      const std::uint32_t last = counter_.row(i).last;
-      if (last > cost.rows[i]) cost.rows[i] = last;
+      const std::uint32_t took = counter_.row(i).last;
+      const std::int32_t charged = charged_for(i);
+      text << " " << charged << "/" << took;
+      note(cost.rows[i], took);
+      note(cost.rows[StageCounter::kRows + i],
+           test::kNothingShort + took - static_cast<std::uint32_t>(charged * unit));
     }
+    text << "\n";
+    if (charges) print(text.c_str());
   }
   test::Cost cost;
 
  private:
+  static void note(std::uint32_t& most, std::uint32_t count) {
+    if (count > most) most = count;
+  }
+  static std::int32_t charged_for(int row) {
+    if (row == planner::kStageCount) return planner.allowance.cycle - planner.work().left();
+    return planner.work().spent(static_cast<planner::Stage>(row));
+  }
+
   StageCounter counter_;
 };
 
@@ -77,10 +86,17 @@ void print_genome(const test::Genome& genome) {
   print("\n");
 }
 
+/// Of a row's count.
+std::int32_t signed_count(int row, std::uint32_t count) {
+  return static_cast<std::int32_t>(row < StageCounter::kRows ? count : count - test::kNothingShort);
+}
+
 void print_best() {
   for (int row = 0; row < test::kCostRows; ++row) {
     Text text;
-    text << "best " << StageCounter::name(row) << " " << search.best(row).count << " of " << measured << " ";
+    const bool beyond = row >= StageCounter::kRows;
+    text << (beyond ? "short " : "best ") << StageCounter::name(beyond ? row - StageCounter::kRows : row)
+         << " " << signed_count(row, search.best(row).count) << " of " << measured << " ";
     print(text.c_str());
     print_genome(search.best(row).genome);
   }
@@ -91,10 +107,10 @@ int hex_digit(char c) {
   return c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1;
 }
 
-/// After "scene ". \return false when it is not a genome
+/// After "scene ". The last genes may be missing: they are 0. \return false when it is not a genome
 bool parse(const char* text, int size, test::Genome& genome) {
-  if (size != 2 * test::kGenes) return false;
-  for (int i = 0; i < test::kGenes; ++i) {
+  if (size % 2 != 0 || size > 2 * test::kGenes) return false;
+  for (int i = 0; 2 * i < size; ++i) {
     const int high = hex_digit(text[2 * i]);
     const int low = hex_digit(text[2 * i + 1]);
     if (high < 0 || low < 0) return false;
@@ -116,16 +132,17 @@ bool starts_with(const char* text, const char* start) {
 }
 
 bool obey(const char* line, int size) {
+  constexpr int kUnit = 5;
   constexpr int kScene = 6;
   constexpr int kSearch = 7;
   if (starts_with(line, "scene ")) {
     test::Genome genome;
     if (!parse(line + kScene, size - kScene, genome)) return false;
     const test::Cost cost = measure(genome);
-    (void)search.take(genome, cost);
+    search.take(genome, cost);
     Text text;
     text << "cost";
-    for (const std::uint32_t row : cost.rows) text << " " << row;
+    for (int row = 0; row < test::kCostRows; ++row) text << " " << signed_count(row, cost.rows[row]);
     text << "\n";
     print(text.c_str());
     return true;
@@ -134,6 +151,11 @@ bool obey(const char* line, int size) {
     constexpr std::int32_t kBoundless = 100'000'000;
     planner.allowance.cycle = planner.allowance.ranking = planner.allowance.exact_risk = kBoundless;
     return true;
+  }
+  if (starts_with(line, "unit ")) {
+    const char* rest = line + kUnit;
+    unit = static_cast<std::int32_t>(number(rest));
+    return unit > 0;
   }
   if (starts_with(line, "charges")) {
     charges = true;
@@ -144,7 +166,7 @@ bool obey(const char* line, int size) {
   search.seed(number(rest));
   for (std::uint32_t left = number(rest); left > 0; --left) {
     const test::Genome genome = search.propose();
-    (void)search.take(genome, measure(genome));
+    search.take(genome, measure(genome));
     if (measured % kProgress == 0) print_best();
   }
   print_best();

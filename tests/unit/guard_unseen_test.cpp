@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 #include "tests/support/shared_ground.hpp"
 
@@ -184,6 +185,34 @@ TEST(GuardUnseen, AnEdgeBetweenTwoLanesIsSeen) {
   zone.other_exit_m = zone.other_entry_m + 8.0F;
   road.scene.known = known_within(40.0F);
   EXPECT_EQ(road.judge(95.3F, 0.0F, 2.0F).agent, kUnseen);
+}
+
+/// Fills a map with lanes that wind in and out of the ground known within 60 m of (x_m, 0), far from all others.
+void add_winding_lanes(LaneMap& map, float x_m) {
+  std::vector<Point> points;
+  for (int i = 0; i < kMaxLanePoints; ++i)
+    points.push_back({x_m + static_cast<float>(i - 6), i % 2 == 0 ? 70.0F : 50.0F});
+  while (add_lane(map, points) + 1 < kMaxLanes) {
+  }
+}
+
+// GUARD-012 60 m around us are known: we are gone before anybody is there, and nobody behind us comes too near. Where
+// the map has lanes that lead in three hundred times over, none of which is near us, they are more than can be
+// followed: the zone counts as taken and the lane beside as occupied. Our own lane stays ours.
+TEST(GuardUnseen, LanesThatCannotAllBeFollowed) {
+  for (const bool winding : {false, true}) {
+    SharedGround road(Priority::kFirstYields);
+    road.scene.known = known_within(60.0F);
+    if (winding) add_winding_lanes(road.map, -4.7F);
+    EXPECT_EQ(road.judge(95.3F, 0.0F, 2.0F).cause, winding ? Cause::kZone : Cause::kNone);
+    Change change;
+    change.scene.known = {{100.0F, 0.0F}, 60.0F, 0, 1};
+    add_vehicle(change.scene, change.map, path_of(change.map, {0}), 120.0F, 12.0F);  // nobody stands there
+    add_vehicle(change.scene, change.map, path_of(change.map, {1}), 130.0F, 12.0F);
+    if (winding) add_winding_lanes(change.map, 100.0F);
+    EXPECT_EQ(change.judge(1).cause, winding ? Cause::kFollower : Cause::kNone);
+    EXPECT_TRUE(change.judge(0).safe());
+  }
 }
 
 }  // namespace

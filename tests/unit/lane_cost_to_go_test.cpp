@@ -16,6 +16,7 @@ using namespace test;  // NOLINT: the map builders are the language of these tes
 struct Road {
   LaneMap map = straight_road(2, 300.0F, 10.0F);
   scene::Scene scene;
+  Parameters parameters;
   LaneCostToGo cost_to_go;
 
   Road() {
@@ -30,7 +31,7 @@ struct Road {
     satp::KinematicSet constant_velocity;
     for (const scene::Agent& agent : scene.agents)
       (void)constant_velocity.agents.push(steady_future(map, agent));
-    cost_to_go.look(scene, constant_velocity, 0.0F, Parameters{});
+    cost_to_go.look(scene, constant_velocity, 0.0F, parameters);
   }
 };
 

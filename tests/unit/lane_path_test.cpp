@@ -109,7 +109,8 @@ TEST(LanePath, TheFootIsAPointOfThePath) {
   for (float s_m = -5.0F; s_m < path.length_m + 5.0F; s_m += 0.7F) {
     const Point beside = offset_point(path_point(map, path, s_m).pose, 0.0F, 2.0F);
     PathPoint foot;
-    const Frenet found = project(map, path, beside, s_m + 1.0F, 5.0F, foot);
+    int work = 0;
+    const Frenet found = project(map, path, beside, s_m + 1.0F, 5.0F, foot, work);
     const PathPoint there = path_point(map, path, found.s_m);
     EXPECT_EQ(foot.pose.x_m, there.pose.x_m);
     EXPECT_EQ(foot.pose.heading_rad, there.pose.heading_rad);

@@ -40,7 +40,8 @@ struct Road {
       if (changes) point.rear_axle.y_m += 3.2F * u * u * u * (10.0F - 15.0F * u + 6.0F * u * u);
     }
     const int path = changes ? 1 : 0;
-    return score_motion(scene, cost_to_go, path, 40.0F, trajectory, false, false, parameters).lane;
+    int work = 0;
+    return score_motion(scene, cost_to_go, path, 40.0F, trajectory, false, false, parameters, work).lane;
   }
 };
 
