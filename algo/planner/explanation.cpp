@@ -10,10 +10,11 @@ ExpectedFuture expected_future(const satp::PredictionSet& prediction, int agent)
   ExpectedFuture expected;
   for (const satp::AgentPrediction& futures : prediction.agents) {
     if (futures.agent != agent) continue;
-    expected.yields = futures.modes[0].yields;
-    for (const satp::Mode& mode : futures.modes) {
-      if (mode.yields == expected.yields) expected.probability += mode.probability;
-    }
+    float yields = 0.0F;
+    for (const satp::Mode& mode : futures.modes)
+      yields += 0.01F * static_cast<float>(mode.yields_percent) * mode.probability;
+    expected.yields = yields > 0.5F;
+    expected.probability = expected.yields ? yields : 1.0F - yields;
   }
   return expected;
 }

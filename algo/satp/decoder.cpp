@@ -14,6 +14,7 @@ namespace s4tp::satp {
 namespace {
 
 constexpr int kModes = kMcuShape.modes;
+constexpr int kHeads = 2;  // score, log-odds of yielding
 constexpr int kIncrementRows = 3 * kStepsPerDecode;
 constexpr float kStepOfDecodeS = kStepS * static_cast<float>(kStepsPerDecode);
 constexpr float kFarthestM = 250.0F;  // no vehicle comes this far in 3 s
@@ -65,16 +66,17 @@ void advance(const float* increments, float speed_mps, StepState& state, Pose* p
   state.velocity_y_mps = (state.last.y_m - before.y_m) / kStepOfDecodeS;
 }
 
-// Softmax over the modes' scores.
-void weigh(const float (&scores)[kModes], float temperature, float (&probability)[kModes]) {
-  float largest = scores[0];
-  for (const float score : scores) largest = max(largest, score);
+// Softmax over the modes' scores, the logistic function of their log-odds.
+void weigh(const float (&heads)[kModes][kHeads], float temperature, Futures& futures) {
+  float largest = heads[0][0];
+  for (const float(&head)[kHeads] : heads) largest = max(largest, head[0]);
   float sum = 0.0F;
   for (int k = 0; k < kModes; ++k) {
-    probability[k] = exp((scores[k] - largest) / temperature);
-    sum += probability[k];
+    futures.probability[k] = exp((heads[k][0] - largest) / temperature);
+    futures.yields[k] = 1.0F / (1.0F + exp(-heads[k][1]));
+    sum += futures.probability[k];
   }
-  for (float& value : probability) value = value / sum;
+  for (float& value : futures.probability) value = value / sum;
 }
 
 }  // namespace
@@ -97,13 +99,13 @@ void decode(const Weights& weights, const Encoded& encoded, int hdv, const float
   }
 
   auto& ends = scratch.ends;
-  float scores[kModes];
+  float heads[kModes][kHeads];
   for (int k = 0; k < kModes; ++k) {
     std::memcpy(ends[k], encoded.start[hdv][k], sizeof states[k]);
     std::memcpy(ends[k] + kHidden, states[k], sizeof states[k]);
   }
-  linear(weights.linear(kHeadScore), {ends[0], 2 * kHidden}, kModes, Rows<float>{scores, 1});
-  weigh(scores, weights.header().temperature, futures.probability);
+  linear(weights.linear(kHeadModes), {ends[0], 2 * kHidden}, kModes, Rows<float>{heads[0], kHeads});
+  weigh(heads, weights.header().temperature, futures);
 }
 
 }  // namespace s4tp::satp

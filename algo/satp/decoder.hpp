@@ -9,6 +9,8 @@ namespace s4tp::satp {
 /// The futures of one vehicle in its own frame; pose i at (i + 1) * kStepS after plan start.
 struct Futures {
   float probability[kMcuShape.modes];
+  float yields[kMcuShape
+                   .modes];  ///< how likely it lets us pass first, if that is how it drives and our ways meet
   Pose poses[kMcuShape.modes][kHorizonSteps];
 };
 
@@ -28,9 +30,8 @@ struct DecoderScratch {
   GruScratch gru;
 };
 
-/// SATP-032 Every pose is finite and within 300 m; probabilities are in 0 .. 1 and add up to 1.
-/// SATP-033 Without a plan nothing of a plan enters; with a gate of 0 a plan and none differ by nothing but
-/// what the training gave the null vector.
+/// SATP-032 Every pose is finite and within 300 m; probabilities are in 0 .. 1, those of the futures add up to 1.
+/// SATP-033 Without a plan nothing of a plan enters; with a gate of 0 a plan and none give the same bits.
 /// \param plan  PlanInput::step of the vehicle, or null \pre hdv < encoded.hdvs
 void decode(const Weights& weights, const Encoded& encoded, int hdv, const float (*plan)[kPlanValues],
             DecoderScratch& scratch, Futures& futures);

@@ -158,13 +158,14 @@ void join(const std::int8_t* first, const std::int8_t* second, const std::int8_t
   std::memcpy(output + 2 * kWidth, third, kWidth);
 }
 
-// How strongly our plan enters the vehicles' futures. \param inputs  our history, theirs, pair
-void interaction_gates(const Weights& weights, Rows<const std::int8_t> inputs, int count,
-                       std::int16_t* gates) {
+// How strongly our plan enters the vehicles' futures. \param inputs  our history, theirs, pair \param shares
+// NetworkInput::shares_way
+void interaction_gates(const Weights& weights, Rows<const std::int8_t> inputs, const std::uint8_t* shares,
+                       int count, std::int16_t* gates) {
   alignas(4) std::int8_t inner[kMaxBatch][kWidth];
   linear_relu(weights.linear(kGate1), inputs, count, write(inner));
   linear(weights.linear(kGate2), read(inner), count, Rows<std::int16_t>{gates, 1});
-  for (int i = 0; i < count; ++i) gates[i] = sigmoid_q15(gates[i]);
+  for (int i = 0; i < count; ++i) gates[i] = shares[i] != 0 ? sigmoid_q15(gates[i]) : std::int16_t{0};
 }
 
 // States and gates of at most kMaxBatch vehicles, from `first` on.
@@ -176,7 +177,7 @@ void start(const Weights& weights, const NetworkInput& input, int first, int cou
   encode_pairs(weights, input.pair + first, count, pairs);
   for (int i = 0; i < count; ++i)
     join(scratch.histories[0], scratch.histories[1 + first + i], pairs[i], joined[i]);
-  interaction_gates(weights, scenes, count, encoded.gate + first);
+  interaction_gates(weights, scenes, input.shares_way + first, count, encoded.gate + first);
   for (int i = 0; i < count; ++i) join(scratch.mixed[1 + first + i], maps[first + i], pairs[i], joined[i]);
   auto& states = encoded.start[first];
   constexpr int kStates = kMcuShape.modes * kMcuShape.hidden;

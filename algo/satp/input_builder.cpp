@@ -106,6 +106,18 @@ bool on_our_path(const scene::Scene& scene, LaneIndex lane, float centre_m, floa
   return false;
 }
 
+// NetworkInput::shares_way but for zones.
+bool shares_lane(const scene::Scene& scene, const scene::Agent& agent) {
+  if (agent.paths.empty() || scene.ego_paths.empty()) return true;
+  for (const scene::LanePath& path : agent.paths) {
+    for (const scene::PathLane& part : path.lanes) {
+      float way_m = 0.0F;
+      if (on_our_path(scene, part.lane, 0.0F, way_m)) return true;
+    }
+  }
+  return false;
+}
+
 bool goes_on_in(const LaneMap& map, LaneIndex lane, const scene::LanePath& path) {
   for (const LaneIndex successor : map.lanes[lane].successors) {
     for (const scene::PathLane& part : path.lanes) {
@@ -247,6 +259,8 @@ void build_network_input(const scene::Scene& scene, const Parameters& parameters
     }
     fill_pair(scene, parameters, agent, hypotheses[i], lead_s, input.anchor[i], input.ego_anchor,
               input.pair[i]);
+    const bool zone = at(input.pair[i], PairFeature::kZone) > 0.0F;
+    input.shares_way[i] = zone || shares_lane(scene, agent) ? 1 : 0;
   }
 }
 

@@ -80,6 +80,9 @@ struct NetworkInput {
   float history[kMaxAgents][kHistorySamples][kHistoryFeatures] = {};
   float place[1 + kMaxAgents][kPlaceFeatures] = {};           ///< in our frame; row 0 is ours
   std::uint8_t lane_points[kMaxAgents][kPathsPerAgent] = {};  ///< points there, from the first on
+  /// 0 or 1: a way it may go and one we may go have a lane or a zone in common, or one of us is on no lane.
+  /// Where they have not, no plan of ours enters what is expected of it.
+  std::uint8_t shares_way[kMaxAgents] = {};
   float lane[kMaxAgents][kPathsPerAgent][kLanePoints][kLaneFeatures] = {};
   float pair[kMaxAgents][kPairFeatures] = {};
 };

@@ -106,7 +106,7 @@ enum Layer : std::uint8_t {
   kGruFromInput,
   kGruState,
   kIncrements,
-  kHeadScore,
+  kHeadModes,
   kLayerCount,
 };
 
@@ -267,7 +267,7 @@ inline constexpr Row kRows[] = {
     S4TP_LINEAR("gru.input", kHidden, kEmbed, kInt8Relu, kQ12),
     S4TP_LINEAR("gru.state", kHidden, kHidden, kInt8, kQ12),
     S4TP_LINEAR("head.increments", kIncrements, kHidden, kQ15, kReal),
-    S4TP_LINEAR("head.score", kOne, kTwoHidden, kQ15, kReal),
+    S4TP_LINEAR("head.modes", kTwo, kTwoHidden, kQ15, kReal),
 };
 static_assert(sizeof(kRows) / sizeof(kRows[0]) == kLayerCount, "one row for each of enum Layer");
 

@@ -12,7 +12,7 @@ namespace s4tp::satp {
 /// One future of one vehicle; steps[i] is its box centre at (i + 1) * kStepS after the scene's plan start.
 struct Mode {
   float probability = 0.0F;
-  bool yields = false;  ///< this future brakes for us
+  std::uint8_t yields_percent = 0;  ///< how likely it lets us pass first, if that is how it drives
   std::uint16_t longest_step_cm =
       65535;  ///< upper bound of the way from a step to the next; so large: unknown
   Pose steps[kHorizonSteps];

@@ -133,7 +133,7 @@ void Predictor::decode_one(const EgoMotion& ego, int index, AgentPrediction& fut
     if (!both) yields = yields >= 0.5F ? 1.0F : 0.0F;
     if (yields < 1.0F) {
       mode.probability = agent.path_probability[k] * (1.0F - yields);
-      mode.yields = false;
+      mode.yields_percent = 0;
       place(*scene_->map, agent.paths[k], agent.frenet[k], agent.track, motion, mode);
       (void)futures.modes.push(mode);
     }
@@ -141,7 +141,7 @@ void Predictor::decode_one(const EgoMotion& ego, int index, AgentPrediction& fut
       drive(hypothesis, agent.track, on_path, hold, motion);
       work_ += kHorizonSteps;
       mode.probability = agent.path_probability[k] * yields;
-      mode.yields = true;
+      mode.yields_percent = 100;
       place(*scene_->map, agent.paths[k], agent.frenet[k], agent.track, motion, mode);
       (void)futures.modes.push(mode);
     }

@@ -33,7 +33,7 @@ class Predictor {
   /// that crosses ours.
   void hypotheses(YieldHypotheses (&result)[kMaxAgents]) const;
 
-  /// Futures of the watched vehicles. A future brakes for us (Mode::yields) where our way and its way cross.
+  /// Futures of the watched vehicles. A future brakes for us (Mode::yields_percent is 100, else 0) where our way and its way cross.
   /// CORE-040 Every pose is finite; each vehicle's probabilities add up to 1 and it has at least one mode.
   /// CORE-041 A vehicle behind whose lane our plan enters slows down for us.
   /// CORE-042 Without plan we are taken to keep lane and speed only as far as we are in their way already,

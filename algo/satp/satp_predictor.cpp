@@ -12,8 +12,7 @@ namespace {
 constexpr float kFullTrust = 0.95F;  // above it nothing is blended in
 constexpr float kNoTrust = 0.2F;     // below it the network is not asked
 static_assert(kNetworkAgentWork == satp::kMcuShape.modes * satp::kDecoderSteps);
-constexpr float kStaysM = 0.5F;     // driven no further in 3 s, a vehicle goes on standing
-constexpr float kCertain = 0.999F;  // what is so likely is not told apart
+constexpr float kStaysM = 0.5F;  // driven no further in 3 s, a vehicle goes on standing
 
 float way_of(const Mode& mode, const Pose& from) {
   float way_m = distance(position(from), position(mode.steps[0]));
@@ -57,26 +56,27 @@ void SatpPredictor::encode(const satp::Weights& weights, const scene::Scene& sce
   new (&room_.decoded) Decoded;
 }
 
-// The classes' masses are the belief's, what they look like the network's (method.md 4.3).
-void SatpPredictor::believe(int index, AgentPrediction& result) const {
+// Bayes' rule: each future is as likely as the network says times how likely it makes what was seen.
+void SatpPredictor::believe(int index, const satp::Futures& futures, AgentPrediction& result) const {
   const float(&pair)[satp::kPairFeatures] = encoded_.pair[index];
+  const Track& track = scene_->agents[index].track;
+  const float entry_m = pair[static_cast<int>(satp::PairFeature::kEntryM)];
   // Whoever stands may go on standing, in the junction, too.
-  float stays_m = scene_->agents[index].track.speed_mps < kStandingMps ? kStaysM : 0.0F;
-  if (pair[static_cast<int>(satp::PairFeature::kZone)] != 0.0F)
-    stays_m = max(stays_m, pair[static_cast<int>(satp::PairFeature::kEntryM)]);
-  if (stays_m <= 0.0F) return;
-  float prior = 0.0F;
-  for (Mode& mode : result.modes) {
-    mode.yields = way_of(mode, encoded_.anchor[index]) < stays_m;
-    if (mode.yields) prior += mode.probability;
+  const bool stands = track.speed_mps < kStandingMps && entry_m <= kStaysM;
+  if (!stands && pair[static_cast<int>(satp::PairFeature::kZone)] == 0.0F) return;
+  const float seen_if_yielding = exp(beliefs_ == nullptr ? 0.0F : beliefs_->evidence(track.id));
+  float sum = 0.0F;
+  for (int k = 0; k < result.modes.size(); ++k) {
+    Mode& mode = result.modes[k];
+    const bool stays = stands && way_of(mode, encoded_.anchor[index]) < kStaysM;
+    const float prior = stands ? (stays ? 1.0F : 0.0F) : futures.yields[k];
+    const float seen = prior * seen_if_yielding + (1.0F - prior);
+    mode.probability = mode.probability * seen;
+    mode.yields_percent =
+        static_cast<std::uint8_t>(to_int(100.0F * (prior * seen_if_yielding / seen) + 0.5F, 0, 100));
+    sum += mode.probability;
   }
-  if (prior < 1.0F - kCertain || prior > kCertain) return;
-  const float evidence = beliefs_ == nullptr ? 0.0F : beliefs_->evidence(scene_->agents[index].track.id);
-  const float yields = with_evidence(prior, evidence);
-  for (Mode& mode : result.modes) {
-    const float share = mode.yields ? yields / prior : (1.0F - yields) / (1.0F - prior);
-    mode.probability = mode.probability * share;
-  }
+  for (Mode& mode : result.modes) mode.probability = mode.probability / sum;
 }
 
 void SatpPredictor::decode_one(const satp::PlanInput* plan, int index, AgentPrediction& result) const {
@@ -94,7 +94,7 @@ void SatpPredictor::decode_one(const satp::PlanInput* plan, int index, AgentPred
     measure_steps(mode);
     (void)result.modes.push(mode);
   }
-  believe(index, result);
+  believe(index, futures, result);
 }
 
 // The kinematic predictor's likeliest future takes what trust is missing.

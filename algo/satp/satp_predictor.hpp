@@ -22,9 +22,9 @@ class SatpPredictor {
 
   void hypotheses(YieldHypotheses (&result)[kMaxAgents]) const { kinematic_.hypotheses(result); }
 
-  /// As Predictor::decode. SATP-052 Without weights the bits are Predictor's. SATP-053 Of a vehicle whose
-  /// futures speak for both, letting us pass (whoever stands: going on standing) and going first, the belief
-  /// sets how likely either is, the network what it looks like. SATP-054 What trust is missing goes to the kinematic future; without any,
+  /// As Predictor::decode. SATP-052 Without weights the bits are Predictor's. SATP-053 What
+  /// was seen of a vehicle weighs its futures by how likely each is to let us pass, or, of one that stands, to
+  /// go on standing. SATP-054 What trust is missing goes to the kinematic future; without any,
   /// its futures stand alone.
   void decode(const Trajectory* plan, int allowance, PredictionSet& prediction) const;
 
@@ -43,7 +43,7 @@ class SatpPredictor {
   void decode_one(const satp::PlanInput* plan, int index, AgentPrediction& result) const;
   void blend(const EgoMotion& ego, int index, float trust, AgentPrediction& kinematic,
              AgentPrediction& result) const;
-  void believe(int index, AgentPrediction& result) const;
+  void believe(int index, const satp::Futures& futures, AgentPrediction& result) const;
 
   Predictor kinematic_;
   satp::Weights weights_;

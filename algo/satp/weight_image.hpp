@@ -14,7 +14,7 @@
 namespace s4tp::satp {
 
 inline constexpr std::uint32_t kWeightMagic = 0x50544153U;  ///< "SATP"
-inline constexpr std::uint32_t kWeightFormat = 1;  ///< changes with this header, the table or an equation
+inline constexpr std::uint32_t kWeightFormat = 2;  ///< changes with this header, the table or an equation
 
 /// 80 bytes; every field is a word.
 struct WeightHeader {

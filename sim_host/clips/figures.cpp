@@ -47,10 +47,12 @@ double nll_of(const std::vector<ClipFuture>& futures, const ClipFuture& truth) {
 
 }  // namespace
 
-void WindowSums::add(const std::vector<ClipFuture>& futures, const ClipFuture& truth) {
+void WindowSums::add(std::uint64_t vehicle, const std::vector<ClipFuture>& futures, const ClipFuture& truth) {
   ++windows;
   ade_m += clips::ade_m(futures.front(), truth);
-  fde_m += apart_m(futures.front().places.back(), truth.places.back());
+  const double end_m = apart_m(futures.front().places.back(), truth.places.back());
+  fde_m += end_m;
+  fde_by_vehicle_m[vehicle] += end_m;
   double least_m = std::numeric_limits<double>::infinity();
   bool hit = false;
   for (const ClipFuture& future : futures) {
@@ -80,10 +82,11 @@ void ClipFigures::add(const Clip& clip) {
       truth.places[static_cast<std::size_t>(k)] = vehicle.states.at(window.step + k + 1).centre;
     }
     const std::vector<ClipFuture> futures = forecaster_.forecast(clip, window.vehicle, window.step);
-    families_[family].all.add(futures, truth);
+    const std::uint64_t number = vehicle_number(family, vehicle.id);
+    families_[family].all.add(number, futures, truth);
     const bool turns = std::abs(world::wrap_angle(end.heading_rad - now.heading_rad)) > kManoeuvre_rad;
     if (turns || std::abs(end.speed_mps - now.speed_mps) > kManoeuvre_mps) {
-      families_[family].manoeuvre.add(futures, truth);
+      families_[family].manoeuvre.add(number, futures, truth);
     }
   }
 }

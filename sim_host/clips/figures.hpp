@@ -1,6 +1,7 @@
 #pragma once
 /// How near a predictor comes to recorded drivers (docs/recorded_clips.md).
 
+#include <cstdint>
 #include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -18,7 +19,8 @@ struct WindowSums {
   double min_ade_m = 0.0;  ///< of the best one
   int missed = 0;          ///< no future ends within 2 m of the truth
   double nll = 0.0;
-  void add(const std::vector<ClipFuture>& futures, const ClipFuture& truth);
+  std::map<std::uint64_t, double> fde_by_vehicle_m;  ///< its part of fde_m (vehicle_number)
+  void add(std::uint64_t vehicle, const std::vector<ClipFuture>& futures, const ClipFuture& truth);
   [[nodiscard]] nlohmann::json figures() const;
 };
 

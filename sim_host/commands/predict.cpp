@@ -1,10 +1,11 @@
 #include <iostream>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "sim_host/campaign/progress.hpp"
 #include "sim_host/campaign/results.hpp"
 #include "sim_host/campaign/weights_file.hpp"
-#include "sim_host/clips/figures.hpp"
+#include "sim_host/clips/against_floor.hpp"
 #include "sim_host/commands/command.hpp"
 
 namespace s4tp::commands {
@@ -28,6 +29,48 @@ void print(const nlohmann::json& run) {
               manoeuvre.at("ade_3s").get<double>(), manoeuvre.at("fde_3s").get<double>());
 }
 
+using Families = std::map<std::string, clips::FamilySums>;
+
+// The best of those that know of nobody else.
+const clips::WindowSums* best_floor(const std::vector<std::string>& names,
+                                    const std::vector<Families>& measured, const std::string& family,
+                                    clips::WindowSums clips::FamilySums::*part, std::string& name) {
+  const clips::WindowSums* best = nullptr;
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    if (names[k] == "satp" || names[k] == "kinematic") continue;
+    const auto found = measured[k].find(family);
+    if (found == measured[k].end() || (found->second.*part).windows == 0) continue;
+    if (best != nullptr && best->fde_m <= (found->second.*part).fde_m) continue;
+    best = &(found->second.*part);
+    name = names[k];
+  }
+  return best;
+}
+
+// FDE of the firmware's predictors over the best floor's, all windows and manoeuvres, interval by vehicle.
+void compare_with_floors(const std::vector<std::string>& names, const std::vector<Families>& measured,
+                         nlohmann::json& runs) {
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    if (names[k] != "satp" && names[k] != "kinematic") continue;
+    for (const auto& [family, sums] : measured[k]) {
+      for (const auto part : {&clips::FamilySums::all, &clips::FamilySums::manoeuvre}) {
+        std::string floor;
+        const clips::WindowSums* const best = best_floor(names, measured, family, part, floor);
+        if (best == nullptr) continue;
+        const clips::Ratio ratio = clips::fde_ratio(sums.*part, *best);
+        const bool all = part == &clips::FamilySums::all;
+        std::printf("%-22s %-12s %s FDE %.2f (%.2f .. %.2f) of %s\n", names[k].c_str(), family.c_str(),
+                    all ? "all:       " : "manoeuvres:", ratio.value, ratio.low, ratio.high, floor.c_str());
+        for (nlohmann::json& run : runs) {
+          if (run.at("predictor") != names[k] || run.at("family") != family) continue;
+          (all ? run : run.at("manoeuvre"))["fde_of_best_floor"] = {
+              {"floor", floor}, {"ratio", ratio.value}, {"low", ratio.low}, {"high", ratio.high}};
+        }
+      }
+    }
+  }
+}
+
 int run(const PredictOptions& options) {
   const std::vector<std::filesystem::path> files = clips::clip_files(options.clips);
   nlohmann::json runs = nlohmann::json::array();
@@ -39,6 +82,7 @@ int run(const PredictOptions& options) {
     forecasters.push_back(other ? clips::make_satp_forecaster(campaign::bank_with(options.weights))
                                 : clips::make_forecaster(name));
   }
+  std::vector<Families> measured;
   for (std::size_t k = 0; k < forecasters.size(); ++k) {
     const std::string& name = options.predictors[k];
     clips::ClipFigures figures(*forecasters[k], options.kept);
@@ -48,7 +92,8 @@ int run(const PredictOptions& options) {
       progress.done(name + ", clip " + file.filename().string());
     }
     progress.end();
-    for (const auto& [family, sums] : figures.families()) {
+    measured.push_back(figures.families());
+    for (const auto& [family, sums] : measured.back()) {
       nlohmann::json run = sums.all.figures();
       run["predictor"] = name;
       run["family"] = family;
@@ -57,6 +102,7 @@ int run(const PredictOptions& options) {
       runs.push_back(std::move(run));
     }
   }
+  compare_with_floors(options.predictors, measured, runs);
   if (!options.json.empty()) campaign::write_json(options.json, {{"runs", runs}});
   return kDone;
 }

@@ -157,7 +157,7 @@ ordered_json futures_json(const CycleRecord& cycle) {
       for (int i = kStepsShown - 1; i < kHorizonSteps; i += kStepsShown) add(line, position(mode.steps[i]));
       list.push_back({{"car", cycle.scene.agents[agent.agent].track.id},
                       {"percent", percent(mode.probability)},
-                      {"yields", mode.yields},
+                      {"yields", mode.yields_percent >= 50},
                       {"line", line}});
     }
   }

@@ -47,7 +47,8 @@ long gives_way(const CycleRecord& cycle, int agent, const GroundClaim& claim) {
   const satp::AgentPrediction* const futures = futures_of(cycle, agent);
   if (futures == nullptr) return -1;
   float part = 0.0F;
-  for (const satp::Mode& mode : futures->modes) part += mode.yields ? mode.probability : 0.0F;
+  for (const satp::Mode& mode : futures->modes)
+    part += 0.01F * static_cast<float>(mode.yields_percent) * mode.probability;
   return claim.its.claim == safety::Claim::kNone && part <= 0.0F ? -1 : percent(part);
 }
 

@@ -29,8 +29,8 @@ torch::Tensor tensor_of(const std::vector<std::int64_t>& values) {
 
 // Everything a batch is made of, one vehicle after the other.
 struct Columns {
-  std::vector<float> ego_history, ego_mask, place, present, history, history_mask, pair, rule, speed, lane,
-      lane_mask, route_mask, plan, target, target_mask;
+  std::vector<float> ego_history, ego_mask, place, present, history, history_mask, pair, rule, shares_way,
+      speed, lane, lane_mask, route_mask, plan, target, target_mask, yields;
   std::vector<std::int64_t> scene, slot, lane_vehicle, lane_slot, route;
 
   void add_vehicle(const Sample& sample, int index, std::int64_t in_scene) {
@@ -45,6 +45,7 @@ struct Columns {
          {satp::PairFeature::kZone, satp::PairFeature::kYields, satp::PairFeature::kHasPriority}) {
       rule.push_back(input.pair[index][static_cast<int>(feature)]);
     }
+    shares_way.push_back(static_cast<float>(input.shares_way[index]));
     speed.push_back(input.speed_mps[index]);
     for (int path = 0; path < kPathsPerAgent; ++path) {
       const int points = input.lane_points[index][path];
@@ -61,6 +62,7 @@ struct Columns {
       target.insert(target.end(), std::begin(pose), std::end(pose));
     append_bits(target_mask, sample.target.valid[index], kHorizonSteps);
     route.push_back(sample.route[index]);
+    yields.push_back(static_cast<float>(sample.yields[index]));
   }
 
   void add(const Sample& sample, std::int64_t in_scene) {
@@ -92,6 +94,7 @@ Batch make_batch(const std::vector<const Sample*>& samples) {
   batch.history_mask = tensor_of(columns.history_mask, {vehicles, kHistorySamples});
   batch.pair = tensor_of(columns.pair, {vehicles, satp::kPairFeatures});
   batch.rule = tensor_of(columns.rule, {vehicles, 3});
+  batch.shares_way = tensor_of(columns.shares_way, {vehicles});
   batch.speed_mps = tensor_of(columns.speed, {vehicles});
   batch.lane = tensor_of(columns.lane, {lanes, satp::kLanePoints, satp::kLaneFeatures});
   batch.lane_mask = tensor_of(columns.lane_mask, {lanes, satp::kLanePoints});
@@ -102,6 +105,7 @@ Batch make_batch(const std::vector<const Sample*>& samples) {
   batch.target = tensor_of(columns.target, {vehicles, kHorizonSteps, 3});
   batch.target_mask = tensor_of(columns.target_mask, {vehicles, kHorizonSteps});
   batch.route = tensor_of(columns.route);
+  batch.yields = tensor_of(columns.yields, {vehicles});
   return batch;
 }
 
@@ -130,6 +134,7 @@ Batch random_batch(const satp::NetworkShape& shape, std::int64_t scenes) {
   batch.history_mask = torch::ones({vehicles, kHistorySamples});
   batch.pair = torch::randn({vehicles, satp::kPairFeatures});
   batch.rule = torch::zeros({vehicles, 3});
+  batch.shares_way = torch::ones({vehicles});
   batch.speed_mps = torch::full({vehicles}, 8.0F);
   batch.lane = torch::randn({lanes, shape.lane_points, satp::kLaneFeatures});
   batch.lane_mask = torch::ones({lanes, shape.lane_points});
@@ -140,21 +145,23 @@ Batch random_batch(const satp::NetworkShape& shape, std::int64_t scenes) {
   batch.target = torch::randn({vehicles, horizon, 3});
   batch.target_mask = torch::ones({vehicles, horizon});
   batch.route = torch::zeros({vehicles}, torch::kInt64);
+  batch.yields = torch::zeros({vehicles});
   return batch;
 }
 
 Batch Batch::to(const torch::Device& device) const {
   Batch moved = *this;
-  for (torch::Tensor* tensor : {&moved.ego_history, &moved.ego_history_mask,
-                                &moved.place,       &moved.present,
-                                &moved.scene,       &moved.slot,
-                                &moved.history,     &moved.history_mask,
-                                &moved.pair,        &moved.rule,
-                                &moved.speed_mps,   &moved.lane,
-                                &moved.lane_mask,   &moved.lane_vehicle,
-                                &moved.lane_slot,   &moved.route_mask,
-                                &moved.plan,        &moved.target,
-                                &moved.target_mask, &moved.route}) {
+  for (torch::Tensor* tensor : {&moved.ego_history,  &moved.ego_history_mask,
+                                &moved.place,        &moved.present,
+                                &moved.scene,        &moved.slot,
+                                &moved.history,      &moved.history_mask,
+                                &moved.pair,         &moved.rule,
+                                &moved.shares_way,   &moved.speed_mps,
+                                &moved.lane,         &moved.lane_mask,
+                                &moved.lane_vehicle, &moved.lane_slot,
+                                &moved.route_mask,   &moved.plan,
+                                &moved.target,       &moved.target_mask,
+                                &moved.route,        &moved.yields}) {
     *tensor = tensor->to(device);
   }
   return moved;

@@ -24,6 +24,7 @@ struct Batch {
   torch::Tensor history_mask;      ///< [V, samples]
   torch::Tensor pair;              ///< [V, features]
   torch::Tensor rule;              ///< [V, 3] zone, yields, has priority
+  torch::Tensor shares_way;        ///< [V] 1 where its ways and ours share something
   torch::Tensor speed_mps;         ///< [V]
   torch::Tensor lane;              ///< [L, points, features]
   torch::Tensor lane_mask;         ///< [L, points]
@@ -34,6 +35,7 @@ struct Batch {
   torch::Tensor target;            ///< [V, horizon, 3] x, y, heading
   torch::Tensor target_mask;       ///< [V, horizon]
   torch::Tensor route;             ///< [V] lane path it took, -1 unknown
+  torch::Tensor yields;            ///< [V] 1 it let us pass first, 0 it did not, -1 unknown
 
   [[nodiscard]] std::int64_t vehicles() const { return pair.size(0); }
   [[nodiscard]] Batch to(const torch::Device& device) const;

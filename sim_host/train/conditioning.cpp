@@ -46,6 +46,7 @@ double log_likelihood(const Forecast& forecast, const Place& truth, double sigma
 struct Pairs {
   RoadMean told_apart;
   RoadMean phantom;
+  RoadMean phantom_in_hindsight;
   RoadMean untouched;
   double both = 0.0;  ///< sums of true . predicted, predicted squared, true squared
   double predicted = 0.0;
@@ -69,8 +70,10 @@ struct Pairs {
         told_apart.add(first.road, (end == end_first ? gain : -gain) > 0.0 ? 1.0 : 0.0);
       }
     }
-    if (first.interacts[vehicle] == 0 && second.interacts[vehicle] == 0) {
+    if (first.input.shares_way[vehicle] == 0)
       phantom.add(first.road, length(expected) < kPhantomM ? 1.0 : 0.0);
+    if (first.interacts[vehicle] == 0 && second.interacts[vehicle] == 0) {
+      phantom_in_hindsight.add(first.road, length(expected) < kPhantomM ? 1.0 : 0.0);
     } else if (length(really) < kTrulySameM) {
       untouched.add(first.road, length(expected) < kUntouchedM ? 1.0 : 0.0);
     }
@@ -107,6 +110,7 @@ nlohmann::ordered_json conditioning_figures(const SampleSet& set, const std::vec
                                 {"pairs", pairs.count},
                                 {"told_apart", share_of(pairs.told_apart)},
                                 {"phantom", share_of(pairs.phantom)},
+                                {"phantom_in_hindsight", share_of(pairs.phantom_in_hindsight)},
                                 {"untouched", share_of(pairs.untouched)}};
   if (pairs.predicted > 0.0 && pairs.truth > 0.0) {
     result["slope"] = pairs.both / pairs.predicted;
@@ -115,45 +119,22 @@ nlohmann::ordered_json conditioning_figures(const SampleSet& set, const std::vec
   return result;
 }
 
-double yield_probability(const Sample& sample, int vehicle, const Forecast& forecast) {
-  const auto pair = [&](satp::PairFeature feature) {
-    return sample.input.pair[vehicle][static_cast<int>(feature)];
-  };
-  const double half_length_m = 0.5 * pair(satp::PairFeature::kLengthM);
-  const double entry_m = pair(satp::PairFeature::kEntryM) - half_length_m;
-  // When our rear has left the zone: plan values 6 (speed) and 8 (way left to the exit), by GRU step.
-  const double our_half_m = 0.5 * sample.input.place[0][6];
-  double leave_s = 1e9;
-  for (int step = 0; step < satp::kDecoderSteps; ++step) {
-    const double begin_m =
-        step == 0 ? pair(satp::PairFeature::kOurExitM) : sample.plan.step[vehicle][step - 1][8];
-    const double end_m = sample.plan.step[vehicle][step][8];
-    if (end_m + our_half_m > 0.0) continue;
-    const double share = std::clamp((begin_m + our_half_m) / std::max(begin_m - end_m, 1e-3), 0.0, 1.0);
-    leave_s = 0.5 * (step + share);
-    break;
-  }
-  const float(&last)[satp::kPlanValues] = sample.plan.step[vehicle][satp::kDecoderSteps - 1];
-  if (leave_s > 3.0 && last[6] > 0.1F) leave_s = 3.0 + (last[8] + our_half_m) / last[6];
-  double yields = 0.0;
-  for (int mode = 0; mode < kMaxModes; ++mode) {
-    double way_m = 0.0;
-    double enter_s = 1e9;
-    double step_m = 0.0;
-    Place before{0.0, 0.0};
-    for (int i = 0; i < kHorizonSteps && enter_s > 1e8; ++i) {
-      const Place here{forecast.position_m[mode][i][0], forecast.position_m[mode][i][1]};
-      step_m = length(here - before);
-      if (way_m + step_m >= entry_m) {
-        enter_s = kStepS * (i + std::clamp((entry_m - way_m) / std::max(step_m, 1e-6), 0.0, 1.0));
-      }
-      way_m += step_m;
-      before = here;
+nlohmann::ordered_json gate_figures(const SampleSet& set, const std::vector<std::size_t>& samples,
+                                    const Forecasts& forecasts) {
+  RoadMean meets, apart, shut;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const Sample& sample = set[samples[i]];
+    for (int vehicle = 0; vehicle < sample.input.hdvs; ++vehicle) {
+      const double gate = static_cast<double>(forecasts[i][static_cast<std::size_t>(vehicle)].gate);
+      (sample.interacts[vehicle] != 0 ? meets : apart).add(sample.road, gate);
+      shut.add(sample.road, gate == 0.0 ? 1.0 : 0.0);
     }
-    if (enter_s > 1e8 && step_m > 0.01) enter_s = 3.0 + kStepS * (entry_m - way_m) / step_m;
-    if (enter_s >= leave_s) yields += static_cast<double>(forecast.probability[mode]);
   }
-  return std::min(yields, 1.0);
+  const auto json = [](const RoadMean& mean) {
+    return nlohmann::ordered_json{
+        {"mean", mean.mean()}, {"half_width", mean.half_width()}, {"count", mean.count()}};
+  };
+  return {{"shares_something", json(meets)}, {"shares_nothing", json(apart)}, {"shut", json(shut)}};
 }
 
 nlohmann::ordered_json yield_figures(const SampleSet& set, const std::vector<std::size_t>& samples,
@@ -165,14 +146,21 @@ nlohmann::ordered_json yield_figures(const SampleSet& set, const std::vector<std
   };
   std::vector<One> all;
   std::map<SampleRule, std::pair<double, double>> base;  // yielded, all
+  int collided = 0;
+  int unsettled = 0;
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const Sample& sample = set[samples[i]];
     if ((sample.flags & kForked) == 0 || (sample.flags & kEgoGoes) == 0) continue;
     for (int vehicle = 0; vehicle < sample.input.hdvs; ++vehicle) {
-      if (sample.rule[vehicle] == SampleRule::kNoZone || sample.yields[vehicle] < 0) continue;
+      if (sample.rule[vehicle] == SampleRule::kNoZone) continue;
+      if (sample.yields[vehicle] < 0) {
+        ++unsettled;
+        continue;
+      }
+      collided += (sample.flags & kCollided) != 0 ? 1 : 0;
       const double happened = sample.yields[vehicle] == 1 ? 1.0 : 0.0;
-      all.push_back({yield_probability(sample, vehicle, forecasts[i][static_cast<std::size_t>(vehicle)]),
-                     happened, sample.rule[vehicle]});
+      all.push_back({forecasts[i][static_cast<std::size_t>(vehicle)].yield_probability(), happened,
+                     sample.rule[vehicle]});
       base[sample.rule[vehicle]].first += happened;
       base[sample.rule[vehicle]].second += 1.0;
     }
@@ -199,6 +187,8 @@ nlohmann::ordered_json yield_figures(const SampleSet& set, const std::vector<std
         {{"count", count[i]}, {"expected", expected[i] / count[i]}, {"happened", happened[i] / count[i]}});
   }
   return {{"count", all.size()},
+          {"of_collided_branches", collided},
+          {"unsettled", unsettled},
           {"error", error},
           {"brier_skill", by_class > 0.0 ? 1.0 - ours / by_class : 0.0},
           {"bins", bins}};

@@ -13,7 +13,8 @@ namespace s4tp::train {
 /// is
 ///   likelier under its own plan than under the other's (modes round Gaussians of `sigma_m`)
 /// - "slope", "explained": of the true on the predicted difference of mean positions at 3 s, through zero
-/// - "phantom": vehicles that share nothing with either plan, share whose mean moves by less than 0.3 m;
+/// - "phantom": vehicles no way of which and of ours have anything in common (NetworkInput::shares_way), share
+///   whose mean moves by less than 0.3 m; "phantom_in_hindsight": those whose ways as driven had not;
 ///   "untouched": those that share something and truly differ by less than 0.2 m, share below 0.5 m
 /// Each with "pairs" and a 95 % interval clustered by road where it is a share.
 /// \param forecasts  of each sample under its own plan
@@ -21,13 +22,15 @@ namespace s4tp::train {
                                                           const std::vector<std::size_t>& samples,
                                                           const Forecasts& forecasts, double sigma_m);
 
-/// p(yields | our plan): probability of the modes that are before the shared zone when we leave it, at the
-/// last speeds beyond the horizon. \pre the vehicle's rule is not kNoZone
-[[nodiscard]] double yield_probability(const Sample& sample, int vehicle, const Forecast& forecast);
+/// How strongly our plan enters the futures of vehicles whose ways and ours had something in common, of the
+/// others, and the share for whom it is shut.
+[[nodiscard]] nlohmann::ordered_json gate_figures(const SampleSet& set,
+                                                  const std::vector<std::size_t>& samples,
+                                                  const Forecasts& forecasts);
 
-/// How well it is kept, over forks that go and were settled or collided: ten bins of expected and happened,
-/// their mean distance weighted by count ("error"), and the Brier skill over the base rate by right-of-way
-/// class.
+/// How well p(yields | we go) is kept, over forks that go, those with a collision among them; what was not
+/// settled after 8 s is counted only. Ten bins of expected and happened, their mean distance weighted by
+/// count ("error"), and the Brier skill over the base rate by right-of-way class.
 [[nodiscard]] nlohmann::ordered_json yield_figures(const SampleSet& set,
                                                    const std::vector<std::size_t>& samples,
                                                    const Forecasts& forecasts);

@@ -209,7 +209,7 @@ FloatEncoded FloatNetwork::encode(const satp::NetworkInput& input) {
     const Vector map = attend("route", agent, lanes, mask, encoded.route[i]);
     const Vector pair = relu("pair.pair_2", relu("pair.pair_1", normalized(input.pair[i], satp::kPairUnit)));
     const Vector inner = relu("gate.gate_1", joined({&histories[0], &histories[1 + i], &pair}));
-    encoded.gate[i] = sigmoid(linear("gate.gate_2", inner)[0]);
+    encoded.gate[i] = sigmoid(linear("gate.gate_2", inner)[0]) * static_cast<float>(input.shares_way[i]);
     const Vector state = linear("start.state", joined({&agent, &map, &pair}));
     for (int k = 0; k < shape_.modes; ++k) {
       for (int c = 0; c < shape_.hidden; ++c)
@@ -264,7 +264,9 @@ FloatFutures FloatNetwork::decode(const FloatEncoded& encoded, const satp::Netwo
       at.velocity_x_mps = (at.last.x_m - before.x_m) / seconds;
       at.velocity_y_mps = (at.last.y_m - before.y_m) / seconds;
     }
-    futures.score[k] = linear("head.score", joined({&start, &state}))[0];
+    const Vector head = linear("head.modes", joined({&start, &state}));
+    futures.score[k] = head[0];
+    futures.yields[k] = sigmoid(head[1]);
   }
   const float largest = *std::max_element(futures.score, futures.score + shape_.modes);
   float total = 0.0F;

@@ -40,6 +40,7 @@ struct FloatEncoded {
 struct FloatFutures {
   float score[kMaxModes] = {};
   float probability[kMaxModes] = {};
+  float yields[kMaxModes] = {};
   float pose[kMaxModes][kHorizonSteps][3] = {};  ///< own frame: x, y, heading
 };
 

@@ -38,6 +38,13 @@ void at_pace(const Forecast& from, int mode, float pace, float (&position_m)[kHo
 
 }  // namespace
 
+double Forecast::yield_probability() const {
+  double sum = 0.0;
+  for (int mode = 0; mode < kMaxModes; ++mode)
+    sum += static_cast<double>(probability[mode]) * static_cast<double>(yields[mode]);
+  return std::min(sum, 1.0);
+}
+
 int Forecast::likeliest() const {
   return static_cast<int>(std::distance(std::begin(probability),
                                         std::max_element(std::begin(probability), std::end(probability))));
@@ -58,6 +65,7 @@ Forecasts kinematic_forecasts(const SampleSet& set, const std::vector<std::size_
     const KinematicFuture& future = sample.kinematic[vehicle];
     for (int mode = 0; mode < kMaxModes; ++mode) {
       forecast.probability[mode] = future.probability[mode];
+      forecast.yields[mode] = future.yields[mode];
       for (int i = 0; i < kHorizonSteps; ++i) {
         for (int axis = 0; axis < 2; ++axis) {
           forecast.position_m[mode][i][axis] = 0.01F * static_cast<float>(future.position_cm[mode][i][axis]);

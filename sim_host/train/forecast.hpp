@@ -11,9 +11,13 @@ namespace s4tp::train {
 
 /// Of one vehicle, in its own frame.
 struct Forecast {
+  float gate = 0.0F;                  ///< how strongly our plan entered it
   float probability[kMaxModes] = {};  ///< adds up to 1; 0: no such mode
+  float yields[kMaxModes] = {};       ///< how likely each lets us pass first, if our ways meet
   float position_m[kMaxModes][kHorizonSteps][2] = {};
 
+  /// How likely it lets us pass first.
+  [[nodiscard]] double yield_probability() const;
   [[nodiscard]] int likeliest() const;
   /// Expected position at the horizon's end [m].
   [[nodiscard]] std::array<double, 2> mean_end() const;

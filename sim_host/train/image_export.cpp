@@ -112,8 +112,10 @@ Forecasts image_forecasts(const std::vector<std::uint32_t>& image, const SampleS
     for (int vehicle = 0; vehicle < sample.input.hdvs; ++vehicle) {
       satp::decode(weights, *encoded, vehicle, shown ? sample.plan.step[vehicle] : nullptr, *work, futures);
       Forecast& forecast = result[i][static_cast<std::size_t>(vehicle)];
+      forecast.gate = static_cast<float>(encoded->gate[vehicle]) / 32768.0F;
       for (int mode = 0; mode < kMaxModes; ++mode) {
         forecast.probability[mode] = futures.probability[mode];
+        forecast.yields[mode] = futures.yields[mode];
         for (int step = 0; step < kHorizonSteps; ++step) {
           forecast.position_m[mode][step][0] = futures.poses[mode][step].x_m;
           forecast.position_m[mode][step][1] = futures.poses[mode][step].y_m;

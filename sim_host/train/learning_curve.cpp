@@ -25,7 +25,7 @@ struct Line {
 };
 constexpr std::array<Line, 4> kLines{{
     {"loss, training", "#1f77b4",
-     [](const CurvePoint& point) { return point.position + point.mode + point.route; }},
+     [](const CurvePoint& point) { return point.position + point.mode + point.route + point.yields; }},
     {"loss, validation", "#d62728", [](const CurvePoint& point) { return point.validation; }},
     {"likeliest mode [m]", "#2ca02c", [](const CurvePoint& point) { return point.top_1_m; }},
     {"nearest mode [m]", "#9467bd", [](const CurvePoint& point) { return point.best_of_modes_m; }},
@@ -46,6 +46,7 @@ void write_curve(const std::vector<CurvePoint>& curve, const std::filesystem::pa
                       {"position", point.position},
                       {"mode", point.mode},
                       {"route", point.route},
+                      {"yields", point.yields},
                       {"gradient", point.gradient},
                       {"rate", point.rate},
                       {"validation", point.validation},

@@ -54,7 +54,13 @@ Loss loss_of(const Batch& batch, const Encoded& encoded, const Decoded& decoded)
   const Tensor known = (batch.route >= 0).to(torch::kFloat32);
   const Tensor taken = encoded.route.gather(1, batch.route.clamp_min(0).unsqueeze(1)).squeeze(1);
   loss.route = weighted_mean(-torch::log(taken.clamp_min(kLeastShare)), known);
-  loss.total = loss.position + kExpectedWeight * loss.expected + kChoiceWeight * (loss.mode + loss.route);
+  const Tensor settled = (batch.yields >= 0).to(torch::kFloat32);
+  const Tensor yielded = batch.yields.clamp_min(0).unsqueeze(1).expand_as(decoded.yields);
+  const Tensor wrong =
+      torch::binary_cross_entropy_with_logits(decoded.yields, yielded, {}, {}, torch::Reduction::None);
+  loss.yields = weighted_mean((share * wrong).sum(1), settled);
+  loss.total = loss.position + kExpectedWeight * loss.expected +
+               kChoiceWeight * (loss.mode + loss.route + loss.yields);
   return loss;
 }
 

@@ -14,6 +14,7 @@ struct Loss {
   torch::Tensor expected;  ///< the same of all modes, by their probabilities
   torch::Tensor mode;      ///< cross-entropy of the modes' probabilities to which of them were nearest
   torch::Tensor route;     ///< cross-entropy of the attention over lane paths, where the one taken is known
+  torch::Tensor yields;  ///< of each mode's odds of letting us pass, weighted as in `mode`, where it is known
 };
 
 [[nodiscard]] Loss loss_of(const Batch& batch, const Encoded& encoded, const Decoded& decoded);

@@ -169,7 +169,8 @@ Encoded Network::encode(const Batch& batch) {
 
   const Tensor pair = torch::relu(linear(satp::kPair2, torch::relu(linear(satp::kPair1, batch.pair))));
   const Tensor gate_input = torch::cat({ego.index_select(0, batch.scene), hdv, pair}, 1);
-  encoded.gate = torch::sigmoid(linear(satp::kGate2, torch::relu(linear(satp::kGate1, gate_input))));
+  encoded.gate = torch::sigmoid(linear(satp::kGate2, torch::relu(linear(satp::kGate1, gate_input)))) *
+                 batch.shares_way.unsqueeze(1);
   const Tensor state = linear(satp::kStart, torch::cat({agent, map, pair}, 1));
   encoded.start = torch::tanh(state.unsqueeze(1) + mode_);
   return encoded;
@@ -217,8 +218,17 @@ Decoded Network::decode(const Batch& batch, const Encoded& encoded, const Tensor
   }
   Decoded decoded;
   decoded.pose = torch::cat(poses, 1).view({vehicles, modes, -1, 3});
-  decoded.score = linear(satp::kHeadScore, torch::cat({start, hidden}, 1)).view({vehicles, modes});
+  const auto heads =
+      linear(satp::kHeadModes, torch::cat({start, hidden}, 1)).view({vehicles, modes, 2}).unbind(2);
+  decoded.score = heads[0];
+  decoded.yields = heads[1];
   return decoded;
+}
+
+void Network::rescale_yields(double scale, double shift) {
+  const torch::NoGradGuard no_gradient;
+  weight_[satp::kHeadModes][1].mul_(scale);
+  bias_[satp::kHeadModes][1].mul_(scale).add_(shift);
 }
 
 std::int64_t Network::size() const {

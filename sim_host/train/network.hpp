@@ -23,8 +23,9 @@ struct Encoded {
 
 /// What they will do.
 struct Decoded {
-  torch::Tensor pose;   ///< [V, K, horizon, 3] x, y [m], heading [rad] in the own frame
-  torch::Tensor score;  ///< [V, K] softmax of score / temperature: probabilities
+  torch::Tensor pose;    ///< [V, K, horizon, 3] x, y [m], heading [rad] in the own frame
+  torch::Tensor score;   ///< [V, K] softmax of score / temperature: probabilities
+  torch::Tensor yields;  ///< [V, K] log-odds that such a one lets us pass first, if our ways meet
 };
 
 class Network : public torch::nn::Module {
@@ -36,6 +37,9 @@ class Network : public torch::nn::Module {
   [[nodiscard]] Encoded encode(const Batch& batch);
   /// \param has_plan  [V], 1 where batch.plan is our plan, 0 where nothing is known of it
   [[nodiscard]] Decoded decode(const Batch& batch, const Encoded& encoded, const torch::Tensor& has_plan);
+
+  /// Log-odds of yielding become `scale` times what they were plus `shift`.
+  void rescale_yields(double scale, double shift);
 
   /// Number of parameters.
   [[nodiscard]] std::int64_t size() const;

@@ -34,7 +34,7 @@ void Observer::expect(const satp::NetworkInput& input, KinematicFuture (&futures
     KinematicFuture& future = futures[agent.agent];
     for (int k = 0; k < agent.modes.size(); ++k) {
       future.probability[k] = agent.modes[k].probability;
-      future.yields[k] = agent.modes[k].yields ? 1 : 0;
+      future.yields[k] = agent.modes[k].yields_percent >= 50 ? 1 : 0;
       for (int i = 0; i < kHorizonSteps; ++i) {
         const Pose local = satp::to_anchor(input.anchor[agent.agent], agent.modes[k].steps[i]);
         future.position_cm[k][i][0] = centimetres(local.x_m);

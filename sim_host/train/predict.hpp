@@ -18,4 +18,17 @@ namespace s4tp::train {
 [[nodiscard]] double calibrated_temperature(Network& network, const SampleSet& set,
                                             const std::vector<std::size_t>& samples);
 
+/// What log-odds are multiplied by, and what is added.
+struct Rescale {
+  double scale = 1.0;
+  double shift = 0.0;
+};
+/// That makes the probabilities of yielding likeliest. \param log_odds, share  [N, K] \param yielded  [N] 0 or 1
+[[nodiscard]] Rescale best_rescale(const torch::Tensor& log_odds, const torch::Tensor& share,
+                                   const torch::Tensor& yielded);
+
+/// Rescales the network's log-odds of yielding so that p(yields | we go) of these samples is likeliest.
+void calibrate_yields(Network& network, const SampleSet& set, std::vector<std::size_t> samples,
+                      double temperature);
+
 }  // namespace s4tp::train

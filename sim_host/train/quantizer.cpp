@@ -7,6 +7,7 @@
 #include <string>
 
 #include "algo/satp/weight_image.hpp"
+#include "sim_host/train/activation_scales.hpp"
 
 namespace s4tp::train {
 namespace {
@@ -15,44 +16,21 @@ using satp::Format;
 using satp::LayerInfo;
 using satp::LayerKind;
 
-constexpr double kMost8 = 127.0;
-constexpr double kSumUnits = 8000.0;  // of an add's largest sum; 64 of them are one of an int8 activation
-constexpr double kEmbedUnits = 24000.0;
 constexpr double kWidestBias8 = 4194304.0;  // leaves the accumulator's other half to inputs and zero points
 constexpr double kWidestBias16 = 1073741824.0;
-constexpr double kShift8 = 16777216.0;     // 2^24, behind int8 inputs
-constexpr double kShift16 = 4294967296.0;  // 2^32, behind int16 inputs
 
-/// value = scale * (q - zero).
-struct Scale {
-  double scale = 0.0;
-  double zero = 0.0;
-};
-
-/// A stretch of a layer's input and what it comes from.
-struct Segment {
-  int columns = 0;
-  Scale scale;
-};
+double largest(const std::vector<float>& values) {
+  return static_cast<double>(*std::max_element(values.begin(), values.end()));
+}
 
 class Writer {
  public:
-  Writer(const FloatNetwork& network, const Ranges& ranges) : network_(network), ranges_(ranges) {}
+  Writer(const FloatNetwork& network, const Ranges& ranges)
+      : network_(network), scales_(network.shape(), ranges, largest(network.tensors().at("null_plan"))) {}
 
   std::vector<std::uint32_t> write(const ImageFacts& facts);
 
  private:
-  [[nodiscard]] double magnitude(const std::string& name) const;
-  [[nodiscard]] Scale int8(const std::string& name) const { return {magnitude(name) / kMost8, 0.0}; }
-  [[nodiscard]] Scale relu(const std::string& name) const { return {magnitude(name) / 255.0, -128.0}; }
-  [[nodiscard]] double units(const std::string& add) const { return magnitude(add) / kSumUnits; }
-  [[nodiscard]] Scale history() const;
-  [[nodiscard]] double embed_unit() const;
-  [[nodiscard]] double output_scale(const LayerInfo& info) const;
-  [[nodiscard]] std::vector<Segment> inputs_of(const LayerInfo& info) const;
-  [[nodiscard]] Scale query_of(const std::string& block) const;
-  [[nodiscard]] Scale keys_of(const std::string& block) const;
-
   [[nodiscard]] double bias_of(const LayerInfo& info, int row, int o) const;
 
   void word(std::int64_t value, const std::string& name);
@@ -63,104 +41,9 @@ class Writer {
   void score(const LayerInfo& info);
 
   const FloatNetwork& network_;
-  const Ranges& ranges_;
+  ActivationScales scales_;
   std::vector<std::uint32_t> words_;
 };
-
-std::string block_of(const std::string& name) {
-  return name.substr(0, name.rfind('.'));
-}
-
-std::string part_of(const std::string& name) {
-  return name.substr(name.rfind('.') + 1);
-}
-
-double Writer::magnitude(const std::string& name) const {
-  const auto found = ranges_.find(name);
-  if (found == ranges_.end() || !(found->second.magnitude() > 0.0F) ||
-      !std::isfinite(found->second.magnitude()))
-    throw std::runtime_error("no range of " + name + " was seen");
-  return found->second.magnitude();
-}
-
-// Both kinds of history go into the same sums.
-Scale Writer::history() const {
-  return {
-      std::max(magnitude("ego_history.attention.norm_2"), magnitude("hdv_history.attention.norm_2")) / kMost8,
-      0.0};
-}
-
-// Of the GRU's two addends.
-double Writer::embed_unit() const {
-  double most = std::max(magnitude("own.embed"), magnitude("plan.embed"));
-  for (const float value : network_.tensors().at("null_plan"))
-    most = std::max(most, static_cast<double>(value));
-  return most / kEmbedUnits;
-}
-
-Scale Writer::query_of(const std::string& block) const {
-  if (block == "ego_history.attention") return int8("ego_history.embed_2");
-  if (block == "hdv_history.attention") return int8("hdv_history.embed_2");
-  if (block == "agent_1") return {64.0 * units("token.add"), 0.0};
-  if (block == "agent_2") return {64.0 * units("agent_2.input"), 0.0};
-  return int8("agent_2.norm_2");
-}
-
-Scale Writer::keys_of(const std::string& block) const {
-  if (block == "lane") return relu("map.point_2");
-  if (block == "route") return int8("lane.norm_2");
-  return query_of(block);
-}
-
-std::vector<Segment> Writer::inputs_of(const LayerInfo& info) const {
-  const std::string name = info.name;
-  const std::string block = block_of(name);
-  const std::string part = part_of(name);
-  const int width = network_.shape().width;
-  const int embed = network_.shape().embed;
-  const int hidden = network_.shape().hidden;
-  const Scale state8{1.0 / 128.0, 0.0};
-  const auto whole = [&](const Scale& scale) { return std::vector<Segment>{{info.columns, scale}}; };
-  if (info.input == Format::kQ13) return whole({1.0 / 8192.0, 0.0});
-  if (info.input == Format::kQ15) return whole({1.0 / 32768.0, 0.0});
-  if (part == "embed_2") return whole(relu(block + ".embed_1"));
-  if (part == "query") return whole(query_of(block));
-  if (part == "key" || part == "value") return whole(keys_of(block));
-  if (part == "output") return whole(int8(block + ".value"));
-  if (part == "expand") return whole(int8(block + ".norm_1"));
-  if (part == "contract") return whole(relu(block + ".expand"));
-  if (name == "map.point_2") return whole(relu("map.point_1"));
-  if (name == "pair.pair_2") return whole(relu("pair.pair_1"));
-  if (name == "gate.gate_1") return {{width, history()}, {width, history()}, {width, relu("pair.pair_2")}};
-  if (name == "gate.gate_2") return whole(relu("gate.gate_1"));
-  if (name == "start.state")
-    return {{width, int8("agent_2.norm_2")}, {width, int8("route.norm_2")}, {width, relu("pair.pair_2")}};
-  if (name == "gru.gates") return {{embed, relu("gru.mix")}, {hidden, state8}};
-  if (name == "gru.input") return whole(relu("gru.mix"));
-  if (name == "gru.state") return whole(state8);
-  throw std::logic_error("no input is known of " + name);
-}
-
-double Writer::output_scale(const LayerInfo& info) const {
-  const std::string name = info.name;
-  const std::string block = block_of(name);
-  switch (info.output) {
-    case Format::kInt8:
-      return int8(name).scale;
-    case Format::kInt8Relu:
-      return relu(name).scale;
-    case Format::kInt16Relu:
-      return embed_unit();
-    case Format::kQ12:
-      return 1.0 / 4096.0;
-    case Format::kInt16:
-      if (name == "place.embed") return units("token.add");
-      return units(block + (part_of(name) == "output" ? ".add_1" : ".add_2"));
-    default:
-      break;
-  }
-  throw std::logic_error("no output scale is known of " + name);
-}
 
 void Writer::word(std::int64_t value, const std::string& name) {
   if (value > INT32_MAX || value < INT32_MIN)
@@ -184,10 +67,9 @@ double Writer::bias_of(const LayerInfo& info, int row, int o) const {
 void Writer::linear(const LayerInfo& info) {
   const std::string name = info.name;
   const std::vector<float>& weight = network_.tensors().at(name + ".weight");
-  const bool wide = info.input == Format::kQ13 || info.input == Format::kQ15;
   std::vector<Scale> columns;
   double common = 0.0;
-  for (const Segment& segment : inputs_of(info)) {
+  for (const Segment& segment : scales_.inputs_of(info)) {
     columns.insert(columns.end(), static_cast<std::size_t>(segment.columns), segment.scale);
     common = std::max(common, segment.scale.scale);
   }
@@ -206,7 +88,7 @@ void Writer::linear(const LayerInfo& info) {
     for (int b = 0; b < info.bias_rows; ++b)
       largest_bias = std::max(largest_bias, std::fabs(bias_of(info, b, o)));
     const double weight_scale =
-        std::max(most / kMost8, largest_bias / common / (wide ? kWidestBias16 : kWidestBias8));
+        std::max(most / kMost8, largest_bias / common / (wide(info) ? kWidestBias16 : kWidestBias8));
     for (int j = 0; j < info.columns; ++j) {
       const double q = std::round(folded(j) / weight_scale);
       quantized[o * stride + j] = static_cast<std::int8_t>(q);
@@ -227,7 +109,7 @@ void Writer::linear(const LayerInfo& info) {
       std::memcpy(&bits, &scale, sizeof bits);
       words_.push_back(bits);
     } else {
-      multiplier(sum_scale[o] / output_scale(info), wide ? kShift16 : kShift8, name);
+      multiplier(sum_scale[o] / scales_.output_scale(info), wide(info) ? kShift16 : kShift8, name);
     }
   }
   const std::size_t from = words_.size();
@@ -238,7 +120,7 @@ void Writer::linear(const LayerInfo& info) {
 void Writer::norm(const LayerInfo& info) {
   const std::string name = info.name;
   const bool history_end = name == "ego_history.attention.norm_2" || name == "hdv_history.attention.norm_2";
-  const double scale = history_end ? history().scale : int8(name).scale;
+  const double scale = history_end ? scales_.history().scale : scales_.int8(name).scale;
   for (const float bias : network_.tensors().at(name + ".bias"))
     word(std::llround(bias / scale * 1048576.0), name);
   for (const float gain : network_.tensors().at(name + ".gain"))
@@ -248,20 +130,21 @@ void Writer::norm(const LayerInfo& info) {
 void Writer::adds(const LayerInfo& info) {
   const std::string name = info.name;
   const std::string block = block_of(name);
-  if (name == "token.add") return multiplier(history().scale / units(name), kShift8, name);
+  if (name == "token.add") return multiplier(scales_.history().scale / scales_.units(name), kShift8, name);
   if (name == "agent_2.input") {
-    multiplier(64.0 * units("token.add") / units(name), kShift8, name);
-    return multiplier(int8("agent_1.norm_2").scale / units(name), kShift8, name);
+    multiplier(64.0 * scales_.units("token.add") / scales_.units(name), kShift8, name);
+    return multiplier(scales_.int8("agent_1.norm_2").scale / scales_.units(name), kShift8, name);
   }
-  if (name == "gru.mix") return multiplier(embed_unit() / relu(name).scale, kShift8, name);
-  const Scale residual = part_of(name) == "add_1" ? query_of(block) : int8(block + ".norm_1");
-  multiplier(residual.scale / units(name), kShift8, name);
+  if (name == "gru.mix") return multiplier(scales_.embed_unit() / scales_.relu(name).scale, kShift8, name);
+  const Scale residual = part_of(name) == "add_1" ? scales_.query_of(block) : scales_.int8(block + ".norm_1");
+  multiplier(residual.scale / scales_.units(name), kShift8, name);
 }
 
 void Writer::score(const LayerInfo& info) {
   const std::string block = block_of(info.name);
   const double head_width = network_.shape().width / network_.shape().heads;
-  const double product = int8(block + ".query").scale * int8(block + ".key").scale / std::sqrt(head_width);
+  const double product =
+      scales_.int8(block + ".query").scale * scales_.int8(block + ".key").scale / std::sqrt(head_width);
   multiplier(product * 256.0, kShift8, info.name);
 }
 
@@ -289,7 +172,7 @@ std::vector<std::uint32_t> Writer::write(const ImageFacts& facts) {
         break;
       case LayerKind::kVector:
         for (const float value : network_.tensors().at(info.name))
-          word(std::llround(static_cast<double>(value) / embed_unit()), info.name);
+          word(std::llround(static_cast<double>(value) / scales_.embed_unit()), info.name);
         break;
     }
   }

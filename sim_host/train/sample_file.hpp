@@ -12,7 +12,7 @@
 namespace s4tp::train {
 
 /// Changes with every change of Sample's meaning.
-inline constexpr std::uint32_t kSampleVersion = 1;
+inline constexpr std::uint32_t kSampleVersion = 2;
 
 /// Writes one file; rows come to rest under the final name when the writer is closed.
 class SampleWriter {

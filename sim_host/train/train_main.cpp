@@ -19,7 +19,9 @@
 #include "sim_host/train/learning_curve.hpp"
 #include "sim_host/train/predict.hpp"
 #include "sim_host/train/random_number.hpp"
+#include "sim_host/train/reliability_plot.hpp"
 #include "sim_host/train/trainer.hpp"
+#include "sim_host/train/yields_row.hpp"
 
 namespace s4tp::train {
 namespace {
@@ -66,12 +68,11 @@ int run(const RunOptions& options) {
   trainer.run(stop, [&](const CurvePoint& point) {
     const double step_s = (now_s() - begin_s) / static_cast<double>(trainer.step() - begin_step);
     std::printf(
-        "step %6lld of %lld  loss %.3f (position %.3f mode %.3f route %.3f)  validation %.3f  "
+        "step %6lld of %lld  position %.3f mode %.3f route %.3f yields %.3f  validation %.3f  "
         "likeliest %.3f m  nearest %.3f m  %.0f ms a step, %.0f min left\n",
-        static_cast<long long>(point.step), static_cast<long long>(trainer.steps()),
-        point.position + point.mode + point.route, point.position, point.mode, point.route, point.validation,
-        point.top_1_m, point.best_of_modes_m, 1000.0 * step_s,
-        step_s * static_cast<double>(trainer.steps() - trainer.step()) / 60.0);
+        static_cast<long long>(point.step), static_cast<long long>(trainer.steps()), point.position,
+        point.mode, point.route, point.yields, point.validation, point.top_1_m, point.best_of_modes_m,
+        1000.0 * step_s, step_s * static_cast<double>(trainer.steps() - trainer.step()) / 60.0);
     std::fflush(stdout);
     write_curve(trainer.curve(), options.out / "curve.json");
     draw_curve(trainer.curve(), options.out / "curve.svg");
@@ -132,6 +133,7 @@ struct FiguresOptions {
   std::filesystem::path checkpoint;
   std::filesystem::path image;
   std::filesystem::path json;
+  std::filesystem::path plot;
   std::string size = "mcu";
   int threads = 1;
 };
@@ -168,6 +170,7 @@ int figures(const FiguresOptions& options) {
   }
   const auto network = load_network(shape_named(options.size), options.checkpoint);
   const double temperature = calibrated_temperature(*network, set, calibration);
+  calibrate_yields(*network, set, calibration, temperature);
   std::printf(
       "temperature %.3f, from %zu samples; %zu samples judged\n\n%-22s %-12s %8s %15s %9s %7s %7s %7s %7s   "
       "%s\n",
@@ -192,6 +195,16 @@ int figures(const FiguresOptions& options) {
   add("kinematic, 3 speeds", kinematic_variants);
   add("satp, no plan", network_of(false));
   const double sigma_m = add("satp, our plan", network_of(true));
+  // What a plan does to a forecast, and what is promised of it.
+  const auto condition = [&](const char* name, const Forecasts& planned) {
+    nlohmann::ordered_json& figures = result["conditioned"][name];
+    figures["conditioning"] = conditioning_figures(judged_set, samples, planned, sigma_m);
+    figures["gate"] = gate_figures(judged_set, samples, planned);
+    figures["yields"] = yield_figures(judged_set, samples, planned);
+    for (const auto& [figure, value] : figures.items())
+      std::printf("%s: %s %s\n", name, figure.c_str(), value.dump().c_str());
+  };
+  const Forecasts planned = network_of(true)(judged_set, samples);
   if (!options.image.empty()) {
     const std::vector<std::uint32_t> image = read_image(options.image);
     for (const bool with_plan : {false, true}) {
@@ -200,17 +213,41 @@ int figures(const FiguresOptions& options) {
             return image_forecasts(image, of, which, with_plan);
           });
     }
+    std::printf("\n");
+    condition("image", image_forecasts(image, judged_set, samples, true));
   }
-  const Forecasts planned = network_of(true)(judged_set, samples);
-  result["conditioning"] = conditioning_figures(judged_set, samples, planned, sigma_m);
-  result["yields"] = yield_figures(judged_set, samples, planned);
-  std::printf("\nconditioning %s\nyields %s\n", result["conditioning"].dump().c_str(),
-              result["yields"].dump().c_str());
+  condition("satp", planned);
+  if (!options.plot.empty()) {
+    std::vector<Reliability> curves{
+        {"futures, by probability", result["predictors"]["satp, our plan"]["all"]["reliability"]}};
+    for (const auto& [name, figures] : result["conditioned"].items())
+      curves.push_back({"p(yields, we go), " + name, figures["yields"]["bins"]});
+    draw_reliability(curves, options.plot);
+  }
   if (!options.json.empty()) {
     std::ofstream out(options.json);
     out << result.dump(1) << '\n';
     if (!out) throw std::runtime_error(options.json.string() + " cannot be written");
   }
+  return kDone;
+}
+
+struct YieldsOptions {
+  std::filesystem::path data;
+  std::filesystem::path from;
+  std::filesystem::path image;
+  std::filesystem::path source;
+};
+
+int fit_yields(const YieldsOptions& options) {
+  use_threads(1);
+  const SampleSet set(options.data);
+  const std::vector<std::uint32_t> image = fit_yields_row(
+      read_image(options.from), set, samples_of(set, Part::kTraining), samples_of(set, Part::kCalibration));
+  write_image(image, options.image);
+  if (!options.source.empty()) write_image_words(image, options.source);
+  std::printf("%s: the row of yielding fitted, all else as in %s\n", options.image.c_str(),
+              options.from.c_str());
   return kDone;
 }
 
@@ -229,6 +266,7 @@ int export_network(const ExportOptions& options) {
   std::vector<std::size_t> samples = samples_of(set, Part::kCalibration);
   const auto network = load_network(satp::kMcuShape, options.checkpoint);
   const double temperature = calibrated_temperature(*network, set, samples);
+  calibrate_yields(*network, set, samples, temperature);
   shuffle(samples, 0);
   samples.resize(std::min(samples.size(), kExportSamples));
   const TrainedFor trained_for = read_trained_for(options.checkpoint);
@@ -257,6 +295,18 @@ void add_export(CLI::App& tool, ExportOptions& options) {
                      "file for the same as a C++ constant: algo/satp/shipped_weights.inc");
 }
 
+void add_yields(CLI::App& tool, YieldsOptions& options) {
+  CLI::App& command = *tool.add_subcommand(
+      "yields", "fits how likely the futures of an image let us pass, and leaves all else of it as it is");
+  command
+      .add_option("--data", options.data,
+                  "samples: their training part fits, their calibration part rescales")
+      ->required();
+  command.add_option("--from", options.from, "the image")->required()->check(CLI::ExistingFile);
+  command.add_option("--image", options.image, "file for the new one")->required();
+  command.add_option("--source", options.source, "file for the same as a C++ constant");
+}
+
 void add_figures(CLI::App& tool, FiguresOptions& options) {
   CLI::App& command =
       *tool.add_subcommand("figures", "what a trained network is worth, beside the kinematic predictor");
@@ -267,6 +317,7 @@ void add_figures(CLI::App& tool, FiguresOptions& options) {
   command.add_option("--checkpoint", options.checkpoint, "of ./s4tp train run")->required();
   command.add_option("--image", options.image, "of ./s4tp train export: judged as well");
   command.add_option("--json", options.json, "file for all figures");
+  command.add_option("--plot", options.plot, "file for the reliability plot (SVG)");
   command.add_option("--size", options.size, "mcu or teacher")->check(CLI::IsMember({"mcu", "teacher"}));
   command.add_option("--threads", options.threads)->check(CLI::Range(1, 64))->capture_default_str();
 }
@@ -280,6 +331,8 @@ int main_of(int argc, char** argv) {
   add_figures(tool, figures_options);
   ExportOptions export_options;
   add_export(tool, export_options);
+  YieldsOptions yields_options;
+  add_yields(tool, yields_options);
   try {
     tool.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -290,6 +343,7 @@ int main_of(int argc, char** argv) {
   try {
     if (tool.got_subcommand("run")) return run(run_options);
     if (tool.got_subcommand("export")) return export_network(export_options);
+    if (tool.got_subcommand("yields")) return fit_yields(yields_options);
     return figures(figures_options);
   } catch (const std::exception& error) {
     std::cerr << "s4tp train: " << error.what() << '\n';

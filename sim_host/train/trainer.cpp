@@ -24,7 +24,7 @@ using torch::Tensor;
 // What a random number is for, on top of the seed.
 enum Purpose : std::uint64_t { kOrder = 1000, kHidePlan = 2000, kRough = 3000, kHowRough = 4000 };
 
-constexpr int kCurveColumns = 9;
+constexpr int kCurveColumns = 10;
 constexpr double kWarmUpShare = 0.02;                 // of the steps
 constexpr std::size_t kMostValidationSamples = 2048;  // enough for a curve; the figures take all
 
@@ -48,9 +48,10 @@ torch::Device best_device() {
 }
 
 Tensor row_of(const CurvePoint& point) {
-  return torch::tensor({static_cast<double>(point.step), point.position, point.mode, point.route,
-                        point.gradient, point.rate, point.validation, point.top_1_m, point.best_of_modes_m},
-                       torch::kFloat64);
+  return torch::tensor(
+      {static_cast<double>(point.step), point.position, point.mode, point.route, point.yields, point.gradient,
+       point.rate, point.validation, point.top_1_m, point.best_of_modes_m},
+      torch::kFloat64);
 }
 
 CurvePoint point_of(const Tensor& row) {
@@ -63,7 +64,8 @@ CurvePoint point_of(const Tensor& row) {
           value[5],
           value[6],
           value[7],
-          value[8]};
+          value[8],
+          value[9]};
 }
 
 }  // namespace
@@ -139,6 +141,7 @@ void Trainer::train_step() {
   sums_.position += loss.position.item<double>();
   sums_.mode += loss.mode.item<double>();
   sums_.route += loss.route.item<double>();
+  sums_.yields += loss.yields.item<double>();
   sums_.gradient += gradient;
   sums_.rate = rate;
 }
@@ -180,6 +183,7 @@ void Trainer::run(const std::atomic<bool>& stop, const std::function<void(const 
     point.position /= count;
     point.mode /= count;
     point.route /= count;
+    point.yields /= count;
     point.gradient /= count;
     validate(point);
     curve_.push_back(point);

@@ -178,7 +178,8 @@ ordered_json cycle_json(const CycleTrace& cycle, const Snapshot& now, Vec2 origi
     for (const satp::Mode& mode : agent.modes) {
       std::vector<Vec2> way;
       for (int i = kStepsShown - 1; i < kHorizonSteps; i += kStepsShown) way.push_back(moved(mode.steps[i]));
-      modes.push_back({car, std::lround(100.0F * mode.probability), mode.yields ? 1 : 0, units.steps(way)});
+      modes.push_back(
+          {car, std::lround(100.0F * mode.probability), mode.yields_percent >= 50 ? 1 : 0, units.steps(way)});
     }
   }
   json["modes"] = modes;

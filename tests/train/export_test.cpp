@@ -4,11 +4,13 @@
 #include <torch/utils.h>
 
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <numeric>
 
 #include "sim_host/train/image_export.hpp"
 #include "sim_host/train/predict.hpp"
+#include "sim_host/train/yields_row.hpp"
 #include "tests/train/synthetic.hpp"
 
 namespace s4tp::train {
@@ -82,6 +84,25 @@ TEST_F(Export, TheImageForecastsLikeTorch) {
     }
   }
   EXPECT_LT(std::sqrt(squares / count), 0.1);
+}
+
+// TRAIN-013 The row of yielding is fitted to an image: what it forecasts stays as it is to the bit, and where the
+// crossing vehicle always lets us pass when we go, it says so.
+TEST_F(Export, TheRowOfYieldingIsFittedToAnImage) {
+  const std::vector<std::uint32_t> image = export_image({network->arrays(), 1.0F, 10, 11}, set, samples);
+  const Forecasts before = image_forecasts(image, set, samples, true);
+  const Forecasts after = image_forecasts(fit_yields_row(image, set, samples, samples), set, samples, true);
+  for (const std::size_t i : samples) {
+    for (std::size_t vehicle = 0; vehicle < 2; ++vehicle) {
+      const Forecast& was = before[i][vehicle];
+      const Forecast& is = after[i][vehicle];
+      EXPECT_EQ(std::memcmp(was.position_m, is.position_m, sizeof was.position_m), 0);
+      EXPECT_EQ(std::memcmp(was.probability, is.probability, sizeof was.probability), 0);
+    }
+    if ((set[i].flags & kEgoGoes) != 0) {
+      EXPECT_GT(after[i][1].yield_probability(), 0.8);
+    }
+  }
 }
 
 // A changed image is refused with its reason, not used.

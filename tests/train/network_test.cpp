@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "sim_host/train/loss.hpp"
+#include "sim_host/train/predict.hpp"
 #include "sim_host/train/sample_file.hpp"
 #include "tests/train/synthetic.hpp"
 
@@ -118,10 +119,31 @@ TEST_F(Forward, WhatIsMaskedDoesNotCount) {
   EXPECT_FALSE(torch::equal(before, poses({sample.get()}, 1.0F)));
 }
 
-// Without plan the plan has no say; with it, it has. Samples 0 and 1 differ by the plan alone.
+// Without plan the plan has no say, nor where no way is shared; with it, it has. Samples 0 and 1 differ by the plan alone.
 TEST_F(Forward, ThePlanHasASayOnlyWhereItIsShown) {
   EXPECT_TRUE(torch::equal(poses({&set[0]}, 0.0F), poses({&set[1]}, 0.0F)));
   EXPECT_FALSE(torch::equal(poses({&set[0]}, 1.0F), poses({&set[1]}, 1.0F)));
+  const auto go = std::make_unique<Sample>(set[0]);
+  const auto wait = std::make_unique<Sample>(set[1]);
+  for (Sample* const sample : {go.get(), wait.get()})
+    std::fill(std::begin(sample->input.shares_way), std::end(sample->input.shares_way), std::uint8_t{0});
+  EXPECT_TRUE(torch::equal(poses({go.get()}, 1.0F), poses({wait.get()}, 1.0F)));
+}
+
+// Where we go the crossing vehicle always lets us pass: a network that hardly expects it is brought to.
+TEST_F(Forward, OddsOfYieldingAreCalibratedWhereWeGo) {
+  std::vector<std::size_t> all(set.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  network->rescale_yields(0.2, -3.0);
+  const auto mean = [&] {
+    double sum = 0.0;
+    for (const SceneForecast& scene : network_forecasts(*network, set, all, true, 1.0))
+      sum += scene[1].yield_probability() / static_cast<double>(all.size());
+    return sum;
+  };
+  EXPECT_LT(mean(), 0.1);
+  calibrate_yields(*network, set, all, 1.0);
+  EXPECT_GT(mean(), 0.7);
 }
 
 }  // namespace

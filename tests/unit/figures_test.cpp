@@ -6,11 +6,16 @@
 
 #include <cmath>
 #include <filesystem>
+#include <fstream>
+#include <functional>
+#include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <string>
 
 #include "sim_host/train/conditioning.hpp"
+#include "sim_host/train/reliability_plot.hpp"
 
 namespace s4tp::train {
 namespace {
@@ -160,26 +165,71 @@ TEST(Conditioning, SeesPhantoms) {
   Forecasts forecasts(2);
   forecasts[0][0] = at_speeds({{1.0F, 10.0F}});
   forecasts[1][0] = at_speeds({{1.0F, 9.0F}});
-  EXPECT_EQ(conditioning_figures(set, {0, 1}, forecasts, 1.0)["phantom"]["share"], 0.0);
+  const auto moved = conditioning_figures(set, {0, 1}, forecasts, 1.0);
+  EXPECT_EQ(moved["phantom"]["share"], 0.0);
+  EXPECT_EQ(moved["phantom_in_hindsight"]["share"], 0.0);
   EXPECT_EQ(conditioning_figures(set, {0, 1}, {forecasts[0], forecasts[0]}, 1.0)["phantom"]["share"], 1.0);
 }
 
-// We leave the zone after 2 s; its entry is 15 m ahead, the vehicle 4 m long: 13 m to go. At 10 m/s it is in
-// after 1.3 s (goes), at 5 m/s after 2.6 s (yields): with 0.3 and 0.7, p(yields) = 0.7.
-TEST(Conditioning, YieldsAreModesThatComeAfterUs) {
-  Sample sample = straight(1, 10.0F);
-  using satp::PairFeature;
-  float(&pair)[satp::kPairFeatures] = sample.input.pair[0];
-  pair[static_cast<int>(PairFeature::kEntryM)] = 15.0F;
-  pair[static_cast<int>(PairFeature::kLengthM)] = 4.0F;
-  pair[static_cast<int>(PairFeature::kOurExitM)] = 18.0F;
-  sample.input.place[0][6] = 4.0F;  // our rear is out 2 m beyond the exit: after 20 m
-  for (int step = 0; step < satp::kDecoderSteps; ++step) {
-    sample.plan.step[0][step][6] = 10.0F;
-    sample.plan.step[0][step][8] = 18.0F - 5.0F * static_cast<float>(step + 1);
+// Ten forks that go, in each one vehicle that has priority; four let us pass. Who says 0.4 of each is right
+// and knows no more than the base rate; who knows which has a skill of 1; who is sure of all is wrong by 0.6.
+// A branch in which it is not settled is counted, not judged; one in which we wait is neither.
+TEST(Conditioning, YieldsAreJudgedWhereWeGo) {
+  std::vector<Sample> branches;
+  for (int i = 0; i < 12; ++i) {
+    Sample& sample = branches.emplace_back(straight(1, 10.0F));
+    sample.flags = i == 11 ? kForked : kForked | kEgoGoes;
+    sample.rule[0] = SampleRule::kHasPriority;
+    sample.yields[0] = static_cast<std::int8_t>(i == 10 ? -1 : i < 4 ? 1 : 0);
   }
-  EXPECT_NEAR(yield_probability(sample, 0, at_speeds({{0.3F, 10.0F}, {0.7F, 5.0F}})), 0.7, 1e-6);
-  EXPECT_NEAR(yield_probability(sample, 0, at_speeds({{1.0F, 0.0F}})), 1.0, 1e-6);
+  const SampleSet set = set_of(branches);
+  const std::vector<std::size_t> all{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11};
+  const auto judge = [&](const std::function<float(int)>& yields) {
+    Forecasts forecasts(branches.size());
+    for (int i = 0; i < 12; ++i) {
+      Forecast& forecast = forecasts[static_cast<std::size_t>(i)][0];
+      forecast = at_speeds({{0.5F, 10.0F}, {0.5F, 8.0F}});
+      for (float& value : forecast.yields) value = yields(i);
+    }
+    return yield_figures(set, all, forecasts);
+  };
+  const auto base = judge([](int) { return 0.4F; });
+  EXPECT_EQ(base["count"], 10);
+  EXPECT_EQ(base["unsettled"], 1);
+  EXPECT_NEAR(base["error"].get<double>(), 0.0, 1e-6);
+  EXPECT_NEAR(base["brier_skill"].get<double>(), 0.0, 1e-6);
+  const auto knows = judge([](int i) { return i < 4 ? 1.0F : 0.0F; });
+  EXPECT_NEAR(knows["brier_skill"].get<double>(), 1.0, 1e-6);
+  const auto hopes = judge([](int) { return 1.0F; });
+  EXPECT_NEAR(hopes["error"].get<double>(), 0.6, 1e-6);
+  EXPECT_LT(hopes["brier_skill"].get<double>(), 0.0);
+}
+
+// A curve of two bins is two circles, the one with all the weight on the diagonal's middle.
+TEST(Figures, DrawsReliability) {
+  const auto file = std::filesystem::temp_directory_path() / "s4tp_reliability.svg";
+  draw_reliability({{"ours",
+                     {{{"count", 9.0}, {"expected", 0.5}, {"happened", 0.5}},
+                      {{"count", 1.0}, {"expected", 0.9}, {"happened", 0.2}}}}},
+                   file);
+  std::ifstream in(file);
+  const std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  std::filesystem::remove(file);
+  EXPECT_NE(text.find("<circle cx='212' cy='176' r='8.5'"), std::string::npos) << text;
+  EXPECT_NE(text.find("ours</text>"), std::string::npos);
+}
+
+// The gate of who meets us and of who does not, and for how many it is shut.
+TEST(Conditioning, ToldHowOpenTheGateIs) {
+  std::vector<Sample> scenes{straight(1, 10.0F), straight(1, 10.0F)};
+  scenes[0].interacts[0] = 1;
+  const SampleSet set = set_of(scenes);
+  Forecasts forecasts(2);
+  forecasts[0][0].gate = 0.75F;
+  const auto gates = gate_figures(set, {0, 1}, forecasts);
+  EXPECT_EQ(gates["shares_something"]["mean"], 0.75);
+  EXPECT_EQ(gates["shares_nothing"]["mean"], 0.0);
+  EXPECT_EQ(gates["shut"]["mean"], 0.5);
 }
 
 }  // namespace

@@ -108,6 +108,25 @@ TEST(NetworkInput, ReadsTheRuleAtTheZone) {
   EXPECT_LT(marked, kLanePoints);
 }
 
+// SATP-001 Both ways of the junction cross ours. Of two parallel roads without a connection each is the
+// other's nothing; who drives in a lane beside ours shares a way, as we may change into it.
+TEST(NetworkInput, SaysWhoSharesAWay) {
+  const Junction junction;
+  EXPECT_EQ(junction.input.shares_way[0], 1);
+  EXPECT_EQ(junction.input.shares_way[1], 1);
+  LaneMap map = test::straight_road(2, 400.0F);
+  const EgoState ego = test::ego_at(100.0F, 0.0F, 0.0F, 12.0F);
+  const std::vector<Track> beside = {test::car(1, 80.0F, 3.2F, 0.0F, 13.0F)};
+  NetworkInput input;
+  build_network_input(test::scene_of(map, ego, beside), kParameters, kLeadS, input);
+  ASSERT_EQ(input.hdvs, 1);
+  EXPECT_EQ(input.shares_way[0], 1);
+  for (Lane& lane : map.lanes) lane.left = lane.right = kNoLaneIndex;
+  build_network_input(test::scene_of(map, ego, beside), kParameters, kLeadS, input);
+  ASSERT_EQ(input.hdvs, 1);
+  EXPECT_EQ(input.shares_way[0], 0);
+}
+
 // SATP-002 The whole world turned by 0.7 rad and moved by (300, -200): each vehicle sees the same.
 TEST(NetworkInput, KnowsNoPlaceAndNoNorth) {
   const auto input_of = [](float turn_rad, Point shift) {

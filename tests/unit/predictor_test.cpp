@@ -160,7 +160,7 @@ TEST(Predictor, WhoMustYieldWaitsForUs) {
   Predicted result;
   predict(cross.map, ego, {test::car(1, -28.0F, -1.6F, 0.0F, 7.0F)}, nullptr, result);
   ASSERT_EQ(result.of(1).modes.size(), 1);
-  EXPECT_TRUE(result.of(1).modes[0].yields);
+  EXPECT_EQ(result.of(1).modes[0].yields_percent, 100);
   EXPECT_LT(result.of(1).modes[0].steps[kLast].x_m + 2.5F, 0.0F);
 }
 
@@ -175,12 +175,12 @@ TEST(Predictor, WhoHasPriorityMayOrMayNotBrakeForUs) {
   const Trajectory stops = test::plan_of(ego, -3.0F);
   predict(cross.map, ego, tracks, &stops, result);
   ASSERT_EQ(result.of(1).modes.size(), 1);
-  EXPECT_FALSE(result.of(1).modes[0].yields);
+  EXPECT_EQ(result.of(1).modes[0].yields_percent, 0);
   EXPECT_GT(test::predicted_speed(result.of(1).modes[0], kLast), 12.5F);
   const Trajectory crosses = test::plan_of(ego, 1.0F);
   predict(cross.map, ego, tracks, &crosses, result);
   ASSERT_EQ(result.of(1).modes.size(), 2);
-  EXPECT_NE(result.of(1).modes[0].yields, result.of(1).modes[1].yields);
+  EXPECT_NE(result.of(1).modes[0].yields_percent, result.of(1).modes[1].yields_percent);
 }
 
 // CORE-043 Off the map the arc goes on: 10 m/s and 0.5 rad/s for 3 s turn it by 1.5 rad.

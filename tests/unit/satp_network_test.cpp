@@ -131,6 +131,20 @@ TEST(SatpNetwork, NoPlanEntersWithoutPlan) {
   EXPECT_FALSE(same(with, decoded(true)));
 }
 
+// SATP-033 With a gate of 0 (vehicle 3 shares no way with us) a plan and none give the same bits.
+TEST(SatpNetwork, NoPlanEntersWhereNoWayIsShared) {
+  RandomNetwork network;
+  test::make_random_input(13, kMaxAgents, network.input);
+  test::make_random_plan(13, kMaxAgents, network.plan);
+  encode(network.weights, network.input, network.scratch, network.encoded);
+  Futures planned;
+  for (int i = 0; i < kMaxAgents; ++i) {
+    decode(network.weights, network.encoded, i, nullptr, network.decoding, network.futures);
+    decode(network.weights, network.encoded, i, network.plan.step[i], network.decoding, planned);
+    EXPECT_EQ(std::memcmp(&planned, &network.futures, sizeof planned) == 0, i == 3) << i;
+  }
+}
+
 /// Weights as a training begins with: outputs of every layer about as large as its inputs.
 train::Tensors random_tensors(const NetworkShape& shape, std::uint64_t seed) {
   test::Random random(seed);
@@ -155,7 +169,7 @@ train::Tensors random_tensors(const NetworkShape& shape, std::uint64_t seed) {
 
 // TRAIN-010 Post-training quantization of a random network, calibrated on 40 scenes and tried on 40
 // others: poses at 3 s stay within 0.04 m (root mean square) of the float network's, whose own futures differ
-// by metres; probabilities within 0.01.
+// by metres; probabilities of futures within 0.01, of letting us pass within 0.02.
 TEST(SatpNetwork, IntegersFollowTheFloatNetwork) {
   constexpr std::uint64_t kSeed = 41;
   train::FloatNetwork network(kMcuShape, random_tensors(kMcuShape, kSeed));
@@ -181,6 +195,7 @@ TEST(SatpNetwork, IntegersFollowTheFloatNetwork) {
   double squares = 0.0;
   double spread = 0.0;
   double worst_probability = 0.0;
+  double worst_yields = 0.0;
   double gate_error = 0.0;
   double start_error = 0.0;
   int count = 0;
@@ -205,6 +220,8 @@ TEST(SatpNetwork, IntegersFollowTheFloatNetwork) {
         worst_probability =
             std::max(worst_probability,
                      static_cast<double>(std::fabs(futures.probability[k] - expected.probability[k])));
+        worst_yields =
+            std::max(worst_yields, static_cast<double>(std::fabs(futures.yields[k] - expected.yields[k])));
         ++count;
       }
     }
@@ -212,10 +229,11 @@ TEST(SatpNetwork, IntegersFollowTheFloatNetwork) {
   const double error_m = std::sqrt(squares / count);
   std::cout << "seed " << kSeed << ": error " << error_m << " m of " << std::sqrt(spread / count)
             << " m, gate " << gate_error << ", start " << start_error << ", probability " << worst_probability
-            << "\n";
+            << ", yields " << worst_yields << "\n";
   EXPECT_LT(error_m, 0.04);
-  EXPECT_GT(std::sqrt(spread / count), 0.5);
+  EXPECT_GT(std::sqrt(spread / count), 0.4);
   EXPECT_LT(worst_probability, 0.01);
+  EXPECT_LT(worst_yields, 0.02);
 }
 
 // TRAIN-010 What was never seen cannot be quantized, and the message names it.
