@@ -70,23 +70,23 @@ float place(const ReferenceLine& line, const Candidate& candidate, float s_m, Tr
   return cosine / stretch;
 }
 
-/// What has been asked of the brakes comes within the actuator's delay, whatever is planned: no sooner are
-/// they released. \return bound of the first step's acceleration
+/// CAND-022 What has been asked of the brakes comes within the actuator's delay, whatever is planned: no sooner
+/// are they released. \return bound of the first step's acceleration
 float first_at_most_mps2(const TrajectoryPoint& start, const Plan& running, std::uint32_t start_ms) {
-  const float asked_mps2 =
-      plan_covers(running, start_ms) ? sample(running, start_ms + kStepMs).acceleration_mps2 : 0.0F;
+  if (running.kind == PlanKind::kNone) return kUnboundMps2;
+  const float asked_mps2 = sample(running, start_ms + kStepMs).acceleration_mps2;
   return asked_mps2 < 0.0F ? max(asked_mps2, start.acceleration_mps2) : kUnboundMps2;
 }
 
 /// Marches from points[first], which is set, to the end.
-void march(const ReferenceLine& line, const Candidate& candidate, int first, float first_at_most_mps2,
+/// \param at_most_mps2  bound of the first step's acceleration
+void march(const ReferenceLine& line, const Candidate& candidate, int first, float at_most_mps2,
            const Parameters& parameters, Trajectory& trajectory) {
   const TrajectoryPoint& from = trajectory.points[first];
   LongitudinalState state{candidate.start_s_m, from.speed_mps, from.acceleration_mps2};
   const SteeringLimits limits = candidate.steered ? steering_limits(parameters) : SteeringLimits{};
   TrajectoryPoint scratch;
   float s_per_m = candidate.steered ? 1.0F : place(line, candidate, state.s_m, scratch);
-  float at_most_mps2 = first_at_most_mps2;
   for (int i = first + 1; i < kTrajectoryPoints; ++i) {
     const float time_s = static_cast<float>(i - 1 - first) * kStepS;
     const float wanted = wanted_acceleration(line, candidate, state, time_s, parameters);
