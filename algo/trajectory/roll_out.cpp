@@ -70,8 +70,7 @@ float place(const ReferenceLine& line, const Candidate& candidate, float s_m, Tr
   return cosine / stretch;
 }
 
-/// CAND-022 What has been asked of the brakes comes within the actuator's delay, whatever is planned: no sooner
-/// are they released. \return bound of the first step's acceleration
+/// CAND-022 \return bound of the first step's acceleration
 float first_at_most_mps2(const TrajectoryPoint& start, const Plan& running, std::uint32_t start_ms) {
   if (running.kind == PlanKind::kNone) return kUnboundMps2;
   const float asked_mps2 = sample(running, start_ms + kStepMs).acceleration_mps2;
