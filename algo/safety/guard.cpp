@@ -13,7 +13,7 @@ using occupancy::kNeverS;
 using occupancy::Pace;
 
 constexpr float kHorizonS = static_cast<float>(kHorizonSteps) * kStepS;
-constexpr float kCrawledM = 0.05F;
+constexpr float kCrawlMps = 0.5F;
 constexpr float kStopTubeM = 0.4F;
 constexpr float kStoppingMps2 = -2.0F;
 constexpr float kGoesOnMps2 = 1.5F;  // how a plan is driven on beyond its horizon
@@ -342,10 +342,11 @@ Verdict Guard::judge(int path_index, const Trajectory& trajectory) const {
   }
   for (const ZoneGroup& group : sight.groups) {
     if (own.s_m[0] >= group.exit_s_m) continue;
-    // Whoever stands nearer than that may go on standing.
-    // A stop that is being driven may use up the tube.
+    // A stop that is being driven may use up the tube. Whoever stands nearer than that may go on standing, but
+    // comes no nearer: a start that is broken off needs the room.
     const float used_m = trajectory.points[branch].acceleration_mps2 < kStoppingMps2 ? kStopTubeM : 0.0F;
-    const float wait_s_m = max(group.stop_s_m + used_m, min(own.s_m[0] + kCrawledM, group.entry_s_m));
+    const float crawled_m = kStepS * min(own.speed_mps[0], kCrawlMps);
+    const float wait_s_m = max(group.stop_s_m + used_m, min(own.s_m[0] + crawled_m, group.entry_s_m));
     if (stop_s_m <= wait_s_m) {
       // It can still be given up, but no longer at ease: that is worth knowing.
       if (own.stop_s_m(parameters_->comfort.braking_mps2) > wait_s_m) {

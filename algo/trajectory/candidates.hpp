@@ -107,7 +107,8 @@ void generate_candidates(const scene::Scene& scene, const TrajectoryPoint& start
                          const MergeTarget& aim = {});
 
 /// Rolls a candidate out on the line of its path. points[0] is `start` itself; speeds >= 0; each point lies
-/// where its speed leads (CAND-010). For kPrevious `running` is shifted and continued along the path at its
+/// where its speed leads (CAND-010). CAND-022 Brakes are not released before a step has passed where `running`
+/// brakes: that is asked for already, and comes within the actuator's delay. For kPrevious `running` is shifted and continued along the path at its
 /// last acceleration, to rest or the limit; while its end is more than 0.3 m off the line, its last second is
 /// steered there anew, so that it is not carried across (CAND-016).
 void roll_out(const ReferenceLine& line, const Candidate& candidate, const TrajectoryPoint& start,

@@ -6,7 +6,8 @@ namespace s4tp::ecu {
 namespace {
 
 constexpr float kTickS = 0.01F;
-constexpr float kRestartJerkMps3 = 10.0F;
+constexpr float kDriveJerkMps3 = 10.0F;    // building up drive, and leaving a standstill
+constexpr float kReleaseJerkMps3 = 20.0F;  // of the brakes: what the gate lets through
 constexpr float kFeedbackMaxMps2 = 3.0F;
 constexpr float kTrimMaxMps2 = 1.0F;
 constexpr float kTrimMax1pm = 0.01F;  // 0.03 rad of steering at a 2.9 m wheelbase
@@ -156,8 +157,9 @@ float Tracker::drive(const Plan& plan, std::uint32_t now_ms, const EgoState& ego
       clamp(parameters.tracking.station_gain * behind_m + parameters.tracking.speed_gain * slower_mps,
             -kFeedbackMaxMps2, kFeedbackMaxMps2);
   const float wanted_mps2 = next.acceleration_mps2 + feedback_mps2 + acceleration_trim_mps2_;
-  const float highest_mps2 =
-      min(parameters.vehicle.acceleration_max_mps2, acceleration_mps2_ + kRestartJerkMps3 * kTickS);
+  const bool releases = acceleration_mps2_ < 0.0F && ego.speed_mps > kHoldBelowMps;
+  const float rise_mps2 = (releases ? kReleaseJerkMps3 : kDriveJerkMps3) * kTickS;
+  const float highest_mps2 = min(parameters.vehicle.acceleration_max_mps2, acceleration_mps2_ + rise_mps2);
   const float asked_mps2 = clamp(wanted_mps2, -parameters.vehicle.braking_max_mps2,
                                  max(highest_mps2, -parameters.vehicle.braking_max_mps2));
   if (asked_mps2 == wanted_mps2 && ego.speed_mps > 1.0F && abs(behind_m) < kTrimAlongMaxM) {

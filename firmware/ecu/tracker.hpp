@@ -29,11 +29,11 @@ class Tracker {
   /// Forgets the past. \param acceleration_mps2  what the car does now: commands start from there
   void reset(float acceleration_mps2);
 
-  /// Follows the plan. ECU-050 A plan that stands is held with the brake; leaving a standstill, acceleration
-  /// rises by at most 10 m/s^3. ECU-051 Integrators learn a bias (a
-  /// slope, a steering offset) only near the plan, and stop where the actuator or they themselves saturate.
-  /// ECU-052 Past its end a plan is followed by stop(). ECU-095 So is a plan to drive past its fail-safe's
-  /// branch: by then a new one was to be there.
+  /// Follows the plan. ECU-050 A plan that stands is held with the brake; leaving a standstill, and building up
+  /// drive, acceleration rises by at most 10 m/s^3; on the way brakes are released by at most 20, as the gate
+  /// lets through. ECU-051 Integrators learn a bias (a slope, a steering offset) only near the plan, and stop
+  /// where the actuator or they themselves saturate. ECU-052 Past its end a plan is followed by stop(). ECU-095
+  /// So is a plan to drive past its fail-safe's branch: by then a new one was to be there.
   [[nodiscard]] gate::Command follow(const Plan& plan, std::uint32_t now_ms, const EgoState& ego,
                                      const Parameters& parameters);
 

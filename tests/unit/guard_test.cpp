@@ -230,13 +230,15 @@ TEST(Guard, TheRoadMayEnd) {
 }
 
 // GUARD-001 Whoever stands 0.3 m before the zone goes on standing; it need not go back to 0.7 m. It may not
-// roll on from there.
+// roll on from there, nor creep: 0.3 m/s^2 are 2 cm a cycle. Who still rolls at 0.2 m/s may stop.
 TEST(Guard, WhoStandsNearTheZoneMayGoOnStanding) {
   SharedGround road(Priority::kFirstYields);
   road.other(80.0F, 10.0F);
   EXPECT_TRUE(road.safe(95.7F, 0.0F, 0.0F));
   EXPECT_FALSE(road.judge(95.7F, 0.0F, 0.0F).clears);
   EXPECT_FALSE(road.safe(95.7F, 0.0F, 2.0F));
+  EXPECT_FALSE(road.safe(95.5F, 0.0F, 0.3F));
+  EXPECT_TRUE(road.safe(95.5F, 0.2F, -2.0F));
 }
 
 // GUARD-005 To stop at 95.3 with 6 m/s^2 but not with 2.5 (4.2 + 28.8 m) is hard, when somebody may be in the
