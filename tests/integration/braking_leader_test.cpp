@@ -119,7 +119,7 @@ class Road {
   Road() {
     scenario_.mission = {};
     ecu_ = baselines::make_ecu("s4tp", true, Parameters{},
-                               {ecu_port_, nullptr, &cycles_, &watchdog_, nullptr}, nullptr);
+                               {ecu_port_, &cycles_, &watchdog_, nullptr, nullptr}, nullptr);
     vehicle_.vehicle().place({20.0 - 0.01 * kFollowing_mps * kEntry, 0.0}, 0.0, kFollowing_mps);
   }
 
