@@ -18,8 +18,9 @@ namespace {
 
 constexpr std::uint32_t kMaxLeadMs = 200;  // plan start after the snapshot
 constexpr std::uint8_t kNobody = 255;
-constexpr float kFarthestM = 1e5F;     // from the frame's origin
-constexpr float kCrashCost = 1000.0F;  // a certain crash outweighs all other terms of a score together
+constexpr float kFarthestM = 1e5F;         // from the frame's origin
+constexpr std::int32_t kLimitsWork = 150;  // to see whether a plan keeps to the limits of any plan
+constexpr float kCrashCost = 1000.0F;      // a certain crash outweighs all other terms of a score together
 
 bool within(float x, float low, float high) {
   return is_finite(x) && x >= low && x <= high;
@@ -307,6 +308,14 @@ void PlanningCycle::roll_out(int index) {
 
 bool PlanningCycle::hold(int index, Explanation& explanation) {
   roll_out(index);
+  {
+    const StageScope scope(probe, Stage::kCheck);
+    work_.spend(Stage::kCheck, kLimitsWork);
+    if (!trajectory::keeps_limits(chosen_, parameters_)) {  // the next cycle would not know it for ours
+      explanation.rejections[index] = trajectory::Rejection::kInfeasible;
+      return false;
+    }
+  }
   if (allowance.decisions <= 0) return true;  // it has passed with the predictions without plan
   {
     const StageScope scope(probe, Stage::kPredict);
@@ -388,9 +397,10 @@ void PlanningCycle::refine(const trajectory::Candidate& candidate, Explanation& 
   {
     const StageScope scope(probe, Stage::kCheck);
     count(explanation, Stage::kCheck, 1);
-    work_.spend(Stage::kCheck, guard_.judge_work(candidate.path));
+    work_.spend(Stage::kCheck, kLimitsWork + guard_.judge_work(candidate.path));
     // A refinement that does not pass is dropped: what it started from has passed.
-    const bool passes_check = verify(candidate.path, refined_).safe();
+    const bool passes_check =
+        trajectory::keeps_limits(refined_, parameters_) && verify(candidate.path, refined_).safe();
     // A start is not postponed: the next cycle would begin at rest again, for ever.
     const bool postpones = refined_.points[1].speed_mps < 0.5F * chosen_.points[1].speed_mps;
     if (!passes_check || postpones) return;

@@ -15,12 +15,12 @@ constexpr float kSecondsPerMs = 0.001F;
 Track to_track(const wire::Track& from) {
   Track to;
   to.id = from.id;
-  to.centre = {from.x_m, from.y_m, from.heading_rad};
-  to.speed_mps = from.speed_mps;
-  to.acceleration_mps2 = from.acceleration_mps2;
-  to.yaw_rate_radps = from.yaw_rate_radps;
-  to.length_m = from.length_m;
-  to.width_m = from.width_m;
+  to.centre = {from.x_m, from.y_m, wrap_angle(from.heading_rad)};
+  to.speed_mps = clamp(from.speed_mps, 0.0F, 60.0F);
+  to.acceleration_mps2 = clamp(from.acceleration_mps2, -12.0F, 12.0F);
+  to.yaw_rate_radps = clamp(from.yaw_rate_radps, -1.3F, 1.3F);
+  to.length_m = clamp(from.length_m, 0.5F, 25.0F);
+  to.width_m = clamp(from.width_m, 0.3F, 3.0F);
   return to;
 }
 

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <thread>
 
+#include "tests/support/driving_rig.hpp"
 #include "tests/support/ecu_rig.hpp"
 
 namespace s4tp::ecu {

@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "tests/support/driving_rig.hpp"
 #include "tests/support/ecu_rig.hpp"
 
 namespace s4tp::ecu {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/driving_rig.hpp"
 #include "tests/support/ecu_rig.hpp"
 
 namespace s4tp::ecu {

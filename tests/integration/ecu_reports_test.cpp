@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "firmware/ecu/plan_digest.hpp"
+#include "tests/support/driving_rig.hpp"
 #include "tests/support/ecu_rig.hpp"
 
 namespace s4tp::ecu {

@@ -67,10 +67,11 @@ Seen drive(const char* planner, const char* name, std::uint64_t first_seed, int 
     for (const Snapshot& snapshot : recording.snapshots) {
       for (const CarState& car : snapshot.others) {
         if (car.lane == kNoLane || snapshot.time_s < 0.0) continue;
-        const double limit = scenario.network.lanes[static_cast<std::size_t>(car.lane)].speed_limit_mps;
+        const NetworkLane& lane = scenario.network.lanes[static_cast<std::size_t>(car.lane)];
         seen.hardest_braking_mps2 = std::max(seen.hardest_braking_mps2, -car.acceleration_mps2);
         seen.fastest_gain_mps2 = std::max(seen.fastest_gain_mps2, car.acceleration_mps2);
-        seen.most_over_limit = std::max(seen.most_over_limit, car.speed_mps / limit);
+        if (lane.in_junction) continue;  // entered as fast as the road before it allowed
+        seen.most_over_limit = std::max(seen.most_over_limit, car.speed_mps / lane.speed_limit_mps);
       }
     }
   }

@@ -161,7 +161,7 @@ TEST_F(Clips, WindowsBecomeSamplesWithoutAPlan) {
 // CLIP-005 Forty vehicles, each a tenth nearer than with the other predictor: 0.9, and no doubt about it. Where that
 // is so on average only, the interval holds it and is as wide as vehicles differ: each ratio's deviation is 0.4,
 // their mean's 0.06.
-TEST(Clips, ErrorsOverTheFloorsHaveAnIntervalByVehicle) {
+TEST(ClipRatio, ErrorsOverTheFloorsHaveAnIntervalByVehicle) {
   WindowSums floor, steady, varying;
   const auto add = [](WindowSums& sums, std::uint64_t vehicle, double fde_m) {
     sums.fde_m += fde_m;
