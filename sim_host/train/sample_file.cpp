@@ -52,7 +52,9 @@ SampleWriter::SampleWriter(const std::filesystem::path& file)
 }
 
 void SampleWriter::add(const Sample& sample) {
-  const Row row{sample, crc_of(sample)};
+  Row row{};
+  std::memcpy(&row.sample, &sample, sizeof sample);  // padding, too: the checksum is of all bytes written
+  row.crc = crc_of(row.sample);
   out_.write(reinterpret_cast<const char*>(&row), sizeof row);
   ++size_;
 }
