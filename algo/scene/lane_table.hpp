@@ -63,7 +63,7 @@ class LaneTable {
   /// Adds `lane` to the end of `path`. \return false when it is full, or would run in a circle
   [[nodiscard]] bool append(LanePath& path, LaneIndex lane) const;
 
-  /// What making the table and using it has taken [WorkMeter's units]; whoever builds with it adds his own.
+  /// What making the table and using it has taken [WorkMeter's units]; whoever builds with it adds its own.
   [[nodiscard]] int work() const { return work_; }
   void spend(int units) const { work_ += units; }
 

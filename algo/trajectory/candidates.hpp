@@ -93,7 +93,8 @@ inline constexpr int kSteeredWork = 430;  ///< ... of a steered one
 
 /// Feasible candidates from `start`, at most `most` and kMaxCandidates (CAND-009): diversity over (path,
 /// intent) first, then progress; two that move alike count once. The keep path's hard braking and stops are
-/// always among those tried first, while `visitor.meter` lasts. \param lines  receives what the candidates are rolled out on \param
+/// always among those tried first, while `visitor.meter` lasts.
+/// \param lines  receives what the candidates are rolled out on \param
 /// left_out  receives how many feasible ones did not fit, and how many `most` left untried \param aim  adds
 /// a candidate that settles there, and one beside it in our own lane, behind our own leader (CAND-015)
 void generate_candidates(const scene::Scene& scene, const TrajectoryPoint& start, const Plan& running,
@@ -107,8 +108,7 @@ void generate_candidates(const scene::Scene& scene, const TrajectoryPoint& start
                          const MergeTarget& aim = {});
 
 /// Rolls a candidate out on the line of its path. points[0] is `start` itself; speeds >= 0; each point lies
-/// where its speed leads (CAND-010). CAND-022 Brakes are not released before a step has passed where `running`
-/// brakes: that is asked for already, and comes within the actuator's delay. For kPrevious `running` is shifted and continued along the path at its
+/// where its speed leads (CAND-010). For kPrevious `running` is shifted and continued along the path at its
 /// last acceleration, to rest or the limit; while its end is more than 0.3 m off the line, its last second is
 /// steered there anew, so that it is not carried across (CAND-016).
 void roll_out(const ReferenceLine& line, const Candidate& candidate, const TrajectoryPoint& start,

@@ -11,7 +11,6 @@ constexpr float kMaxSlope = 2.0F;         // tangent of the largest heading erro
 constexpr float kMinStretch = 0.2F;       // 1 - curvature d: beyond, the line's centre of curvature is near
 constexpr float kTailBrakingMps2 = 5.0F;  // bounds of what a continued plan may go on with
 constexpr float kTailDriveMps2 = 1.0F;
-constexpr float kUnboundMps2 = 100.0F;
 
 constexpr float kShortestM = 4.0F;       // of a lateral motion
 constexpr float kGentleBend1pm = 0.09F;  // curvature of a slow lane change, under half of what we can steer
@@ -70,17 +69,9 @@ float place(const ReferenceLine& line, const Candidate& candidate, float s_m, Tr
   return cosine / stretch;
 }
 
-/// CAND-022 \return bound of the first step's acceleration
-float first_at_most_mps2(const TrajectoryPoint& start, const Plan& running, std::uint32_t start_ms) {
-  if (running.kind == PlanKind::kNone) return kUnboundMps2;
-  const float asked_mps2 = sample(running, start_ms + kStepMs).acceleration_mps2;
-  return asked_mps2 < 0.0F ? max(asked_mps2, start.acceleration_mps2) : kUnboundMps2;
-}
-
 /// Marches from points[first], which is set, to the end.
-/// \param at_most_mps2  bound of the first step's acceleration
-void march(const ReferenceLine& line, const Candidate& candidate, int first, float at_most_mps2,
-           const Parameters& parameters, Trajectory& trajectory) {
+void march(const ReferenceLine& line, const Candidate& candidate, int first, const Parameters& parameters,
+           Trajectory& trajectory) {
   const TrajectoryPoint& from = trajectory.points[first];
   LongitudinalState state{candidate.start_s_m, from.speed_mps, from.acceleration_mps2};
   const SteeringLimits limits = candidate.steered ? steering_limits(parameters) : SteeringLimits{};
@@ -89,8 +80,7 @@ void march(const ReferenceLine& line, const Candidate& candidate, int first, flo
   for (int i = first + 1; i < kTrajectoryPoints; ++i) {
     const float time_s = static_cast<float>(i - 1 - first) * kStepS;
     const float wanted = wanted_acceleration(line, candidate, state, time_s, parameters);
-    const float way_m = advance(min(wanted, at_most_mps2), parameters, state);
-    at_most_mps2 = kUnboundMps2;
+    const float way_m = advance(wanted, parameters, state);
     TrajectoryPoint& point = trajectory.points[i];
     point = trajectory.points[i - 1];  // at rest pose and curvature stay, bit for bit
     point.speed_mps = state.speed_mps;
@@ -146,7 +136,7 @@ void shift_plan(const ReferenceLine& line, const Candidate& candidate, const Pla
   } else {
     shape_lateral(line, end, where, candidate.lateral_length_m, tail);
   }
-  march(line, tail, last, kUnboundMps2, parameters, trajectory);
+  march(line, tail, last, parameters, trajectory);
 }
 
 }  // namespace
@@ -219,7 +209,7 @@ void roll_out(const ReferenceLine& line, const Candidate& candidate, const Traje
   if (candidate.intent == Intent::kPrevious && plan_covers(running, start_ms)) {
     shift_plan(line, candidate, running, start_ms, parameters, trajectory);
   } else {
-    march(line, candidate, 0, first_at_most_mps2(start, running, start_ms), parameters, trajectory);
+    march(line, candidate, 0, parameters, trajectory);
   }
 }
 

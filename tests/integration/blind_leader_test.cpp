@@ -6,7 +6,6 @@
 #include <cstdio>
 #include <memory>
 
-#include "algo/core/standing.hpp"
 #include "algo/planner/planner.hpp"
 #include "tests/support/ecu_rig.hpp"
 
@@ -68,7 +67,7 @@ Outcome follow(Blind blind, int brakes, int onset) {
     if (tick == brakes - 61) {
       EXPECT_EQ(rig->ecu.mode(), Mode::kDriving);
     }
-    outcome.stood = outcome.stood || (tick > brakes && rig->plant.speed_mps < double{kStandingMps});
+    outcome.stood = outcome.stood || (tick > brakes && rig->plant.speed_mps < 0.05);
   }
   return outcome;
 }

@@ -13,7 +13,6 @@
 #include <string>
 #include <vector>
 
-#include "algo/core/standing.hpp"
 #include "firmware/can/frames.hpp"
 #include "hal/sim/bus.hpp"
 #include "hal/sim/null_devices.hpp"
@@ -251,7 +250,7 @@ Outcome follow(const Case& fault, const Reaction& reaction, int brakes, int onse
     }
     outcome.least_gap_m = std::min(outcome.least_gap_m, leader.gap_m(*road));
     outcome.speed_mps = road->speed_mps();
-    outcome.stood = tick > brakes && outcome.speed_mps < double{kStandingMps};
+    outcome.stood = tick > brakes && outcome.speed_mps < 0.05;
   }
   return outcome;
 }

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <vector>
 
+#include "tests/support/lane_change_road.hpp"
 #include "tests/support/shared_ground.hpp"
 
 namespace s4tp::safety {
@@ -116,14 +117,7 @@ TEST(GuardUnseen, WhoLeadsUsIsNearerThanWhoeverMayStandAhead) {
 }
 
 /// We are in the right one of two lanes, at 100 m, at 10 m/s, and change to the left one.
-struct Change {
-  LaneMap map = straight_road(2, 400.0F);
-  scene::Scene scene;
-  Parameters parameters;
-  Change() {
-    add_way(scene, map, path_of(map, {0}));
-    add_way(scene, map, path_of(map, {1}), scene::Manoeuvre::kLeft);
-  }
+struct Change : LaneChangeRoad {
   [[nodiscard]] Verdict judge(int path) {
     const TrajectoryPoint start = state_on(map, scene.ego_paths[0].path, 98.5F, 10.0F);
     put_ego(scene, start);

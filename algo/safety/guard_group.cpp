@@ -1,0 +1,140 @@
+// Whether a plan that goes through a group of conflict zones may.
+#include "algo/core/inline.hpp"
+#include "algo/core/standing.hpp"
+#include "algo/safety/guard.hpp"
+#include "algo/safety/guard_own.hpp"
+
+namespace s4tp::safety {
+namespace {
+
+using occupancy::Pace;
+
+constexpr float kRoundingS = 0.5F * kStepS;  // plans are looked at in steps
+constexpr float kLateS = 0.3F;               // so much later, who has let us go still waits
+
+}  // namespace
+
+bool Guard::passes_threat(const scene::EgoPath& path, const Sight& sight, const Threat& threat,
+                          const Own& own, Verdict& verdict) const {
+  const scene::ConflictZone& zone = path.zones[threat.zone];
+  const ZoneOccupancy& when = threat.when;
+  if (when.claim != Claim::kMayCome) return true;
+  float cap_mps = 0.0F;
+  for (const ZoneGroup& group : sight.groups) {
+    if (threat.zone >= group.first && threat.zone < group.end) cap_mps = group.cap_mps;
+  }
+  const float in_s = own.time_at_s(zone.entry_s_m, cap_mps);
+  const float out_s = own.time_at_s(zone.exit_s_m, cap_mps);
+  if (when.until_s < in_s) return true;  // it is certain to have left
+  if (!zone.merging && when.from_s > out_s) return true;
+  if (zone.merging) {
+    const bool unseen = threat.agent == kUnseen;
+    const float its_half_m =
+        unseen ? scene::kUsualHalfLengthM : 0.5F * scene_->agents[threat.agent].track.length_m;
+    // Along the common lane: our centre's way and its centre's way to where the zone ends.
+    const float half_m = 0.5F * parameters_->vehicle.length_m + its_half_m;
+    const float its_to_exit_m = when.to_exit_m - (its_half_m - scene::kUsualHalfLengthM);
+    const bool ahead = when.to_entry_m <= 0.0F && zone.exit_s_m - own.s_m[0] > its_to_exit_m;
+    if (ahead) {
+      const float its_mps = unseen ? 0.0F : scene_->agents[threat.agent].track.speed_mps;
+      const float stop_m = occupancy::stopping_way_m(its_mps, parameters_->law.braking_max_mps2);
+      const float behind_s_m = zone.exit_s_m - its_to_exit_m + stop_m - half_m;
+      if (own.stop_s_m(parameters_->guard.braking_mps2) <= behind_s_m - parameters_->guard.margin_m)
+        return true;
+    } else {
+      const float respond_s = max(in_s, 0.0F) + parameters_->law.duty_response_s;
+      const Pace fastest =
+          unseen ? fastest_legal(*scene_, threat.lane, scene_->map->lanes[threat.lane].speed_limit_mps, zone,
+                                 *parameters_)
+                 : fastest_legal(*scene_, scene_->agents[threat.agent], zone, *parameters_);
+      const float its_mps = occupancy::speed_after_mps(fastest, respond_s + lead_s_);
+      const auto gap_m = [&](float time_s) {
+        return its_to_exit_m - occupancy::way_after_m(fastest, time_s + lead_s_) -
+               (zone.exit_s_m - own.place_at_m(time_s, cap_mps));
+      };
+      const float slower_mps = max(0.0F, its_mps - own.speed_at_mps(respond_s, cap_mps));
+      const float needed_m = half_m + parameters_->guard.margin_m +
+                             occupancy::stopping_way_m(slower_mps, parameters_->law.duty_braking_mps2);
+      // Nor may it come in beside us or before us.
+      const float both_in_s = max(in_s, max(when.from_s, 0.0F));
+      if (gap_m(respond_s) >= needed_m && gap_m(both_in_s) >= half_m + parameters_->guard.margin_m)
+        return true;
+    }
+  }
+  verdict = {Cause::kZone, threat.agent, when.from_s, out_s};
+  return false;
+}
+
+float Guard::time_left_s() const {
+  return 1e-3F * static_cast<float>(static_cast<std::int32_t>(clear_by_ms_ - scene_->time_ms)) - lead_s_;
+}
+
+bool Guard::leaves_in_time(const ZoneGroup& group, const Own& own, float late_s) const {
+  if (goes_through_ && own.time_at_s(group.exit_s_m, group.cap_mps) <= time_left_s() + late_s) return true;
+  for (int i = 1; i < kTrajectoryPoints && own.s_m[i - 1] < group.exit_s_m; ++i) {
+    if (own.speed_mps[i] < own.speed_mps[0]) return false;
+  }
+  return !goes_through_;
+}
+
+bool Guard::passes_group(const scene::EgoPath& path, const Sight& sight, const ZoneGroup& group,
+                         const Own& own, Verdict& verdict) const {
+  const bool inside = own.s_m[0] > group.entry_s_m;
+  const bool entered = inside || (goes_through_ && sight.stop_s_m > group.stop_s_m);
+  const bool stands = own.end_s_m() < group.exit_s_m && own.speed_mps[kHorizonSteps] < kStandingMps;
+  if (!entered && group.yields) {
+    if (stands) {
+      verdict = {Cause::kNoRoom};
+      return false;
+    }
+    // Room beyond it, if whoever is ahead brakes hard.
+    const float rear_to_front_m = front_m_ - centre_m_;
+    if (sight.leader_stop_s_m - rear_to_front_m - parameters_->guard.margin_m < group.exit_s_m) {
+      verdict = {Cause::kNoRoom, sight.leader};
+      return false;
+    }
+  }
+  if (sight.too_many && !inside) {
+    verdict = {Cause::kZone};
+    return false;
+  }
+  const float bound_s_m = own.at_once_s_m(parameters_->vehicle.braking_max_mps2);
+  for (const Threat& threat : sight.threats) {
+    if (threat.zone < group.first || threat.zone >= group.end) continue;
+    const scene::ConflictZone& zone = path.zones[threat.zone];
+    if (own.s_m[0] > zone.exit_s_m) continue;
+    if (threat.licensed && (own.blocked || leaves_in_time(group, own, kLateS))) continue;
+    Verdict refused = verdict;
+    if (passes_threat(path, sight, threat, own, refused)) continue;
+    // Who cannot stay out any more leaves it as soon as it was to.
+    const bool bound = bound_s_m > zone.entry_s_m;
+    const bool behind_it = zone.merging && threat.when.to_entry_m <= 0.0F;
+    if (bound && (behind_it || own.blocked || leaves_in_time(group, own, kRoundingS))) continue;
+    // Who entered by right stops short of one that comes after all: before we were to be gone.
+    const float left_s = time_left_s();
+    const bool no_reason = goes_through_ && !stops_short_ && !own.blocked && !zone.merging && left_s > 0.0F &&
+                           threat.when.from_s > left_s;
+    verdict.stops_short = entered && !no_reason && stops_short(path, sight, group, own);
+    if (!verdict.stops_short) verdict = refused;
+    return verdict.stops_short;
+  }
+  return true;
+}
+
+bool Guard::stops_short(const scene::EgoPath& path, const Sight& sight, const ZoneGroup& group,
+                        const Own& own) const {
+  const float stop_s_m = own.stop_s_m(parameters_->guard.braking_mps2);
+  const float bound_s_m = own.at_once_s_m(parameters_->vehicle.braking_max_mps2);
+  for (const Threat& threat : sight.threats) {
+    if (threat.zone < group.first || threat.zone >= group.end) continue;
+    const scene::ConflictZone& zone = path.zones[threat.zone];
+    const bool stands_there = own.s_m[0] <= zone.exit_s_m && stop_s_m > zone.entry_s_m;
+    // D2 binds the others to ground we are on, or cannot stay out of; to no more. Who has let us go is not
+    // stopped for.
+    const bool ours = bound_s_m > zone.entry_s_m && (own.blocked || !threat.licensed);
+    if (stands_there && !(ours && threat.when.can_stop)) return false;
+  }
+  return true;
+}
+
+}  // namespace s4tp::safety

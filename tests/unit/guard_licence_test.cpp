@@ -1,0 +1,186 @@
+// What the guard makes of a licence: how long it holds, for whom, and when a stop in the zone is in order.
+//
+// A plan brakes in 0.35 s at the earliest, then with 6 m/s^2 (guard_test.cpp). Places are those of the box centre, 2.5 m
+// behind the front bumper.
+
+#include <gtest/gtest.h>
+
+#include "algo/safety/guard.hpp"
+#include "tests/support/shared_ground.hpp"
+
+namespace s4tp::safety {
+namespace {
+
+using namespace test;  // NOLINT: the map builders are the language of these tests
+
+/// Behind the first zone, with a lane of its own, from where it is as far as to the first.
+/// \return the way of those who come there
+scene::LanePath add_second_zone(SharedGround& road, float entry_s_m, float exit_s_m) {
+  scene::ConflictZone zone = road.zone();
+  zone.entry_s_m = entry_s_m;
+  zone.exit_s_m = exit_s_m;
+  zone.other_lane = add_lane(road.map, {{14.0F, -100.0F}, {14.0F, 300.0F}});
+  (void)road.scene.ego_paths[0].zones.push(zone);
+  return path_of(road.map, {zone.other_lane});
+}
+
+// GUARD-006 A licence used is not withdrawn half way: 40 m off at 6 m/s it can stop gently (32 m), and we
+// commit ourselves. 8 m off it could not be asked any more; to us it still stays out. To one who has not committed, or
+// has given it up since, it does not; nor to one who was to be out after 2.4 s, and at a steady 3 m/s is after 2.9.
+TEST(Guard, ALicenceUsedHolds) {
+  for (const bool committed : {true, false}) {
+    SharedGround road(Priority::kFirstYields);
+    road.other(96.0F - 40.0F, 6.0F);
+    const Verdict begun = road.judge(94.0F, 3.0F, 1.0F);
+    ASSERT_TRUE(begun.safe() && begun.clears);
+    if (committed) road.guard.commit(0, begun);
+    road.scene.agents.clear();
+    road.other(96.0F - 8.0F, 6.0F);
+    EXPECT_EQ(road.safe(95.2F, 3.0F, 1.0F), committed);
+    EXPECT_FALSE(road.safe(95.2F, 3.0F, 0.0F));
+  }
+  SharedGround road(Priority::kFirstYields);
+  road.other(96.0F - 40.0F, 6.0F);
+  road.guard.commit(0, road.judge(94.0F, 3.0F, 1.0F));
+  road.guard.commit(0, road.judge(80.0F, 0.0F, 0.0F));  // it stops before the zone after all
+  road.scene.agents.clear();
+  road.other(96.0F - 8.0F, 6.0F);
+  EXPECT_FALSE(road.safe(95.2F, 3.0F, 0.0F));
+}
+
+// GUARD-006 A licence is used by going. Half a metre into the zone at 0.5 m/s it holds; to who has come to a stand
+// there, and was to be out sooner than from rest, the one that comes is asked anew.
+TEST(Guard, WhoHasComeToAStandAsksAnew) {
+  for (const float speed_mps : {0.5F, 0.0F}) {
+    SharedGround road(Priority::kFirstYields);
+    road.other(96.0F - 40.0F, 6.0F);
+    road.guard.commit(0, road.judge(94.0F, 3.0F, 1.0F));
+    road.scene.agents.clear();
+    road.other(96.0F - 8.0F, 6.0F);
+    EXPECT_EQ(road.safe(96.5F, speed_mps, 2.0F), speed_mps > 0.0F) << speed_mps;
+  }
+}
+
+// GUARD-006 Both stand, it in sight of us (L2), and we set off. Then it does too, at 1 m/s 8 m before the zone
+// (0.35 s at our speed, then the way of a stop with 6 m/s^2). At 95.4 and 0.8 m/s we can still stand at 95.73,
+// before the zone at 96: the licence is not used, and we do. At 95.4 and 1.6 m/s that would be 96.17: it holds.
+TEST(Guard, ALicenceIsNotUsedBeforeWeAreBound) {
+  for (const float speed_mps : {0.8F, 1.6F}) {
+    SharedGround road(Priority::kFirstYields);
+    road.other(96.0F - 8.0F, 0.0F).stood_ms = 1000;
+    road.scene.waited_s = 1.0F;
+    const Verdict begun = road.judge(95.3F, 0.0F, 2.0F);
+    ASSERT_TRUE(begun.safe() && begun.clears);
+    road.guard.commit(0, begun);
+    road.scene.agents.clear();
+    road.other(96.0F - 8.0F, 3.0F);
+    const Verdict now = road.judge(95.4F, speed_mps, 2.0F);
+    EXPECT_TRUE(now.safe()) << speed_mps;
+    EXPECT_EQ(now.stops_short, speed_mps < 1.0F) << speed_mps;
+  }
+}
+
+// GUARD-006 It lets us go (L1: 40 m away, 6 m/s), we do, and it gains speed. At 95.5 and 5 m/s 8 m/s^2 end at
+// 97.1, in the zone: going on is what was licensed, and out in 1.7 s. It could still stop for us, 14 m after a
+// second where 4.5 would do, but nobody brakes for it who was let go.
+TEST(Guard, WhoWasLetGoDoesNotBreakOff) {
+  SharedGround road(Priority::kFirstYields);
+  road.other(96.0F - 40.0F, 6.0F);
+  const Verdict begun = road.judge(94.0F, 4.5F, 1.0F);
+  ASSERT_TRUE(begun.safe() && begun.clears);
+  road.guard.commit(0, begun);
+  road.scene.agents.clear();
+  road.other(96.0F - 20.0F, 6.0F).track.acceleration_mps2 = 2.0F;
+  EXPECT_TRUE(road.safe(95.5F, 5.0F, 1.0F));
+  EXPECT_FALSE(road.safe(95.5F, 5.0F, -6.0F));
+}
+
+// GUARD-011 Gone in as nobody was near, to be out in 1.8 s. Who can be there after 2.4 s (20 m at 6 m/s, 2 m/s^2) is no
+// reason to stop; who is there after 1.4 s (6 m at 3 m/s), and can still stop for us, is.
+TEST(Guard, NobodyStopsShortOfWhoComesWhenWeAreGone) {
+  for (const bool late : {true, false}) {
+    SharedGround road(Priority::kFirstYields);
+    const Verdict begun = road.judge(94.0F, 4.5F, 1.0F);
+    ASSERT_TRUE(begun.safe() && begun.clears);
+    road.guard.commit(0, begun);
+    road.other(late ? 96.0F - 20.0F : 96.0F - 6.0F, late ? 6.0F : 3.0F).track.acceleration_mps2 = 2.0F;
+    EXPECT_TRUE(road.safe(95.5F, 5.0F, 1.0F));
+    EXPECT_EQ(road.safe(95.5F, 5.0F, -6.0F), !late) << late;
+  }
+}
+
+// GUARD-006 A licence holds for the ground it was given for. At 10 m/s, 26 m before the first zone, the other
+// owes us the way; 40 m before the second, where it goes first, it comes after 3.1 s, and we are gone
+// after 2.5 s. It breaks its duty, and is 5 m before the second zone, which we enter after 1.2 s: nobody said
+// it would stay out of that. From 95 m at 8 m/s we stand at 103.1, short of it; from 98 m nowhere short of it.
+TEST(Guard, ALicenceHoldsForItsZone) {
+  SharedGround road(Priority::kFirstHasPriority);
+  const LaneIndex beyond = add_lane(road.map, {{0.0F, 0.0F}, {6.0F, 2.0F}, {50.0F, 2.0F}});
+  scene::ConflictZone& first = road.zone();
+  Lane& before = road.map.lanes[first.other_lane];
+  before.points[1].y_m = 0.0F;
+  before.length_m = road.theirs.length_m = 100.0F;
+  link(road.map, first.other_lane, beyond);
+  first.other_entry_m = 86.0F;
+  first.other_exit_m = 94.0F;
+  scene::ConflictZone second = first;
+  second.entry_s_m = 104.5F;
+  second.exit_s_m = 110.0F;
+  second.other_lane = beyond;
+  second.other_entry_m = 0.0F;
+  second.other_exit_m = 8.0F;
+  second.priority = Priority::kFirstYields;
+  (void)road.scene.ego_paths[0].zones.push(second);
+  road.other(60.0F, 10.0F);
+  const Verdict begun = road.judge(90.0F, 8.0F, 0.0F);
+  ASSERT_TRUE(begun.safe() && begun.clears);
+  road.guard.commit(0, begun);
+  road.scene.agents.clear();
+  road.other(95.0F, 12.0F);
+  EXPECT_TRUE(road.judge(95.0F, 8.0F, 0.0F).stops_short);
+  EXPECT_FALSE(road.safe(98.0F, 8.0F, 0.0F));
+}
+
+// GUARD-011 Gone in by right at 6 m/s, from 97 m we stand at 102.1, short of the second zone at 104.5, whose
+// vehicle is nearly there. Another one with priority at the ground we would stand on: 30 m off at 8 m/s it stops
+// for us there (8 m with 4 m/s^2; it has known us for long); 5 m off it cannot.
+TEST(Guard, StopsShortOnlyWhereOthersCanStopForIt) {
+  for (const float off_m : {30.0F, 5.0F}) {
+    SharedGround road(Priority::kFirstYields);
+    const scene::LanePath beside = add_second_zone(road, 104.5F, 110.0F);
+    const Verdict begun = road.judge(94.0F, 6.0F, 0.0F);
+    ASSERT_TRUE(begun.safe() && begun.clears);
+    road.guard.commit(0, begun);
+    add_vehicle(road.scene, road.map, beside, 96.0F - 4.0F, 8.0F);
+    road.other(96.0F - off_m, 8.0F);
+    EXPECT_EQ(road.safe(97.0F, 6.0F, 0.0F), off_m > 20.0F) << off_m;
+  }
+}
+
+// GUARD-006 A licence is used by who goes through its group: 40 m off at 6 m/s it could stop gently before
+// both of two groups 6 m apart. Leaving the first one at 103.9 and 8 m/s we could not stop at ease before the
+// second; it is 8 m before that now, and has not been asked to stay out of it.
+TEST(Guard, LicencesOfLaterGroupsAreNotUsedYet) {
+  SharedGround road(Priority::kFirstYields);
+  const scene::LanePath beside = add_second_zone(road, 110.0F, 118.0F);
+  add_vehicle(road.scene, road.map, beside, 96.0F - 40.0F, 6.0F);
+  const Verdict begun = road.judge(94.0F, 8.0F, 0.0F);
+  ASSERT_TRUE(begun.safe() && begun.clears);
+  road.guard.commit(0, begun);
+  road.scene.agents.clear();
+  add_vehicle(road.scene, road.map, beside, 96.0F - 8.0F, 6.0F);
+  EXPECT_FALSE(road.safe(103.9F, 8.0F, 0.0F));
+}
+
+// GUARD-007 In a zone, with one who may come in 0.9 s, we are out after 0.5 s at 8 m/s. At 96.5 and 5 m/s we
+// are not, and cannot stay out any more: we go on, and do not stop in it.
+TEST(Guard, WhoIsInTheZoneLeavesIt) {
+  SharedGround road(Priority::kFirstYields);
+  road.other(96.0F - 12.0F, 12.0F);
+  EXPECT_TRUE(road.safe(100.0F, 8.0F, 0.0F));
+  EXPECT_TRUE(road.safe(96.5F, 5.0F, 0.0F));
+  EXPECT_FALSE(road.safe(96.5F, 5.0F, -4.0F));
+}
+
+}  // namespace
+}  // namespace s4tp::safety
