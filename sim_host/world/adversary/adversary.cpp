@@ -18,8 +18,16 @@ constexpr double kHorizon_s = 3.0;
 constexpr double kEgoMayGain_mps2 = 2.0;  // meanwhile, either way
 constexpr double kRoom_m = 0.1;           // a line is kept off by
 constexpr double kAtLine_m = 0.3;         // who waits for a licence of those who stand is so near
+constexpr double kGentle_mps2 = 3.0;
+constexpr double kSearching = 0.5;           // share of drivers who look for what comes nearest
+constexpr double kShortestMood_s = 0.5;      // of the others; the longest is ...
+constexpr double kMoreOfMood_s = 2.0;        // ... so much longer
+constexpr double kUsualChange_s = 3.0;       // as Traffic changes lanes: ...
+constexpr double kSlowChange_mps = 15.0;     // ... below 5 m/s in proportion
+constexpr double kChangesAtLeast_mps = 1.0;  // slower ones are reckoned with as this
 
 enum Action { kFull, kRolls, kBrakes, kBrakesHard, kActions };
+constexpr double kUpTo[kActions] = {0.5, 0.7, 0.85, 1.0};  // draws that mean each
 
 std::vector<Stretch> stretches_of(const RoadIndex& road, const std::vector<WayPart>& way) {
   std::vector<Stretch> stretches;
@@ -131,7 +139,9 @@ void AdversaryTraffic::watch(const Actor& ego, const TrafficView& others) {
     near = near || (group.entry_m > 0.0 && group.entry_m < law_.shown_within_m);
   }
   if (ego_->inside >= 0) {
-    if (!was_inside) bind(ego_->groups[static_cast<std::size_t>(ego_->inside)], others);
+    const ZoneGroup& group = ego_->groups[static_cast<std::size_t>(ego_->inside)];
+    const bool goes_in = !was_inside || group.entry_m > -kDecision_s * ego.speed_mps;
+    if (goes_in) bind(group, others);
   } else {
     for (auto& [id, mind] : minds_) mind.owes_zone = false;
   }
@@ -187,8 +197,8 @@ void AdversaryTraffic::ego_ahead(const TrafficCar& car, const Actor& self, Mind&
   }
   Obstacle obstacle{leader.gap_m, leader.actor->speed_mps, true, 0.0};
   const bool at_distance = leader.gap_m >= rss_gap_m(law_.rss, car.speed_mps, obstacle.speed_mps);
-  if (leader.merging &&
-      mind.ego_ahead_s < 0.0) {  // the duty that began with its going in goes on in the lane
+  if (leader.merging && mind.ego_ahead_s < 0.0) {
+    // The duty that began with its going in goes on in the lane.
     mind.ego_ahead_s = mind.owes_since_s;
     mind.owes_ahead = true;
   } else if (mind.ego_ahead_s < 0.0) {
@@ -274,18 +284,18 @@ double AdversaryTraffic::nearest_m(const Actor& self, double acceleration_mps2) 
 double AdversaryTraffic::choose(const TrafficCar& car, const Actor& self, Mind& mind,
                                 double most_mps2) const {
   const double hard = -law_.rss.front_braking_mps2;
-  const double options[kActions] = {most_mps2, std::min(0.0, most_mps2), std::min(-3.0, most_mps2),
+  const double options[kActions] = {most_mps2, std::min(0.0, most_mps2), std::min(-kGentle_mps2, most_mps2),
                                     std::min(hard, most_mps2)};
   if (car.change_done < 0.5) return options[kRolls];  // the gaps that were left are kept until the line
   if (mind.stood_s >= kStands_s) mind.drives_until_s = time_s() + kDrives_s;
   if (time_s() < mind.drives_until_s) return options[kFull];
   const std::uint64_t own = next_seed(next_seed(seed_ ^ 0xAD7E) + static_cast<std::uint64_t>(car.id));
-  const bool searches = hash_uniform(own) < 0.5;
-  if (!searches) {
+  if (hash_uniform(own) >= kSearching) {
     if (time_s() >= mind.action_until_s) {
       const double draw = hash_uniform(next_seed(own + ++mind.draws));
-      mind.action = draw < 0.5 ? kFull : draw < 0.7 ? kRolls : draw < 0.85 ? kBrakes : kBrakesHard;
-      mind.action_until_s = time_s() + 0.5 + 2.0 * hash_uniform(next_seed(own + ++mind.draws));
+      mind.action = static_cast<int>(std::upper_bound(std::begin(kUpTo), std::end(kUpTo), draw) - kUpTo);
+      mind.action_until_s =
+          time_s() + kShortestMood_s + kMoreOfMood_s * hash_uniform(next_seed(own + ++mind.draws));
     }
     return options[mind.action];
   }
@@ -305,11 +315,13 @@ bool AdversaryTraffic::may_change(const TrafficCar& car, const WayPart& beside) 
   self.speed_mps = car.speed_mps;
   self.length_m = car.length_m;
   self.guide = &plan_->ways[car.way].guide;
-  Actor ego =
-      ego_->actor;  // where it may be by then: it may come over, too, and a change begun is not given up
+  // Where it may be by then: it may come over, too, and a change begun is not given up.
+  Actor ego = ego_->actor;
   if (ego.lane != kNoLane && lane(ego.lane).edge == lane(beside.lane).edge) ego.lane = beside.lane;
   const TrafficView two(*road_, {ego, self});
-  const double to_line_s = 0.5 / std::min(1.0 / 3.0, std::max(car.speed_mps, 1.0) / 15.0);
+  const double rate =
+      std::min(1.0 / kUsualChange_s, std::max(car.speed_mps, kChangesAtLeast_mps) / kSlowChange_mps);
+  const double to_line_s = 0.5 / rate;
   const double slack_m = 0.5 * kEgoMayGain_mps2 * to_line_s * to_line_s;
   const double gained_mps = kEgoMayGain_mps2 * to_line_s;
   const auto left = [&](const Leader& found, double rear_mps, double front_mps) {
