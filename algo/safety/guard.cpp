@@ -22,7 +22,8 @@ constexpr Settling kSettlings[] = {{2.0F, 1.0F}, {0.0F, 1.0F}, {0.0F, 0.6F}, {0.
 constexpr float kEasesOff = 0.25F;  // share of the fail-safe's braking that is not asked for behind a cut-in
 constexpr float kEndShare =
     0.5F;  // of that braking, at least, past the last place to stop before the road's end
-constexpr float kEndRoundingM = 0.01F;
+constexpr float kRoundingM = 0.01F;
+constexpr int kWayOverStride = 2;  // points between those looked at
 
 // Work (WorkMeter's units).
 constexpr int kJudgeWork = 16;
@@ -30,13 +31,14 @@ constexpr int kGroupWork = 12;
 constexpr int kThreatWork = 14;
 constexpr int kFollowerWork = 90;
 constexpr int kLatchWork = 2;
+constexpr int kWayOverWork = 115;
 
 }  // namespace
 
 int Guard::judge_work(int path) const {
   const Sight& sight = sights_[path];
   return kJudgeWork + kGroupWork * sight.groups.size() + kThreatWork * sight.threats.size() +
-         kFollowerWork * sight.behind.size();
+         kFollowerWork * sight.behind.size() + kWayOverWork * sight.on_way_over.size();
 }
 
 int Guard::commit_work() const {
@@ -82,6 +84,21 @@ void Guard::commit(int path, const Verdict& verdict) {
         (void)latched_.push(latch);
     }
   }
+}
+
+float Guard::way_over_ends_s_m(std::uint8_t agent_index, const Trajectory& trajectory, const Own& own) const {
+  const scene::Agent& agent = scene_->agents[agent_index];
+  const float seen_mps = max(0.0F, agent.track.speed_mps - agent.coasted_mps);
+  const float stop_m =
+      occupancy::stopping_way_m(seen_mps, parameters_->law.braking_max_mps2) - agent.coasted_m;
+  const Box there{shift_ahead(agent.track.centre, stop_m), agent.track.length_m, agent.track.width_m};
+  float room_m = kBesideM;
+  for (int i = 0; i < kTrajectoryPoints; i += kWayOverStride) {
+    const float gap_m = separation(trajectory::ego_box(trajectory.points[i].rear_axle, *parameters_), there);
+    if (i == 0) room_m = min(room_m, gap_m - kRoundingM);  // whoever is nearer already comes no nearer
+    if (gap_m < room_m) return own.s_m[i - kWayOverStride];
+  }
+  return trajectory::kNoDeadEndM;
 }
 
 bool Guard::followers_can_brake(const Sight& sight, const Own& own, float brakes_from_s, float braking_mps2,
@@ -151,21 +168,29 @@ Verdict Guard::judge(int path_index, const Trajectory& trajectory) const {
   const float last_s_m = sight.end_s_m - front_m;
   const float at_once_s_m = own.at_once_s_m(guard.braking_mps2);
   const bool past = at_once_s_m > last_s_m;
-  if (stop_s_m > (past ? own.at_once_s_m(kEndShare * guard.braking_mps2) + kEndRoundingM : last_s_m)) {
+  if (stop_s_m > (past ? own.at_once_s_m(kEndShare * guard.braking_mps2) + kRoundingM : last_s_m)) {
     verdict.cause = Cause::kRoadEnd;
     return verdict;
   }
   // Behind a leader. The fail-safe in force stops behind whoever keeps to the law; a moving one nearer than
   // that has broken it: then it only must not get worse, and behind a slower one that takes braking.
   const float coasting_s_m = at_once_s_m + own.speed_mps[0] * guard.takeover_s;
-  float free_s_m = sight.leader_stop_s_m - front_m - guard.margin_m;
-  if (at_once_s_m > free_s_m) {
-    const bool slower = sight.leader_mps < own.speed_mps[0];
-    free_s_m = max(free_s_m, (slower ? lerp(at_once_s_m, coasting_s_m, kEasesOff) : coasting_s_m) + 0.01F);
+  const auto reachable_s_m = [&](float free_s_m, float its_mps) {
+    if (at_once_s_m <= free_s_m) return free_s_m;
+    const bool slower = its_mps < own.speed_mps[0];
+    return max(free_s_m, (slower ? lerp(at_once_s_m, coasting_s_m, kEasesOff) : coasting_s_m) + 0.01F);
+  };
+  float free_s_m = reachable_s_m(sight.leader_stop_s_m - front_m - guard.margin_m, sight.leader_mps);
+  std::uint8_t ahead = sight.leader;
+  for (const InLane& other : sight.on_way_over) {
+    const float ends_s_m = reachable_s_m(way_over_ends_s_m(other.agent, trajectory, own), other.speed_mps);
+    if (ends_s_m >= free_s_m) continue;
+    free_s_m = ends_s_m;
+    ahead = other.agent;
   }
   own.blocked = coasting_s_m > free_s_m;
   if (stop_s_m > free_s_m) {
-    verdict = {Cause::kLeader, sight.leader};
+    verdict = {Cause::kLeader, ahead};
     return verdict;
   }
   if (sight.changes && !sight.half_over &&

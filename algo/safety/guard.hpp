@@ -5,10 +5,10 @@
 /// without map or path nothing does. Who stands nearer to the group goes on standing, and comes no nearer.
 /// GUARD-002 Else it goes through when all others are gone, come later, or
 /// leave it to us. GUARD-003 Nobody stops in a group where it gives way, nor enters one without room beyond.
-/// GUARD-004 It can be stopped behind a leader who brakes as hard as can be; behind a cut-in it only must not
-/// get worse. GUARD-005 What is safe only by hard braking says so. GUARD-006 A licence used holds, for the
-/// ground it was given for, until we stand, for a plan that leaves that in time; used it is once we cannot stop
-/// before it any more.
+/// GUARD-004 It can be stopped behind a leader who brakes as hard as can be, and while our box comes over to the
+/// path, behind whoever leads where it still is; behind a cut-in it only must not get worse. GUARD-005 What is
+/// safe only by hard braking says so. GUARD-006 A licence used holds, for the ground it was given for, until we
+/// stand, for a plan that leaves that in time; used it is once we cannot stop before it any more.
 /// GUARD-007 Who cannot stay out of a zone any more leaves it no later than it was to. GUARD-008 Merging
 /// leaves room, in both orders. GUARD-009 A lane change leaves who is behind room to brake, and begins only
 /// when who is ahead is ahead of all of us by the time we are over the line, braking as hard as can be.
@@ -123,6 +123,7 @@ class Guard {
     float bumper_s_m = 0.0F;  ///< its rear bumper ahead of us, its front bumper behind us, at plan start
     float speed_mps = 0.0F;
   };
+  using InLaneList = BoundedVector<InLane, 4>;
   /// What one path offers to all plans on it.
   struct Sight {
     float start_s_m = 0.0F;        ///< of our rear axle at plan start
@@ -136,6 +137,7 @@ class Guard {
     bool changes = false;       ///< our box is, or comes, from another lane
     bool half_over = false;     ///< most of us is in the lane already
     BoundedVector<InLane, 4> behind;  ///< only where `changes`
+    InLaneList on_way_over;  ///< ahead, where our box may be before it has come over to the path's strip
     BoundedVector<ZoneGroup, kMaxPathZones> groups;
     BoundedVector<Threat, kMostThreats> threats;
     std::uint16_t staying_out[kMaxPathZones] = {};  ///< of each zone; bit i: agent i leaves it to us
@@ -149,6 +151,11 @@ class Guard {
   struct Own;
 
   void look_at_path(int path_index);
+  /// Whether a vehicle ahead, not in the path's strip, is where our box may be before it has come over to that, as far as
+  /// a plan may bring us before we can stand. \param other  its agent; receives the rest
+  [[nodiscard]] bool is_on_way_over(const scene::EgoPath& path, const Sight& sight, InLane& other);
+  /// Of many in a lane the nearest ones matter.
+  static void keep_nearest(InLaneList& list, const InLane& other, float own_s_m);
   void find_groups(const scene::EgoPath& path, Sight& sight) const;
   void find_threats(const scene::EgoPath& path, const occupancy::LaneReach (&reach)[kMaxTracks],
                     Sight& sight);
@@ -175,6 +182,9 @@ class Guard {
   [[nodiscard]] float time_left_s() const;
   /// Whether a plan that cannot stay out of the group any more is out of it at most `late_s` later than it was to be.
   [[nodiscard]] bool leaves_in_time(const ZoneGroup& group, const Own& own, float late_s) const;
+  /// Where our centre is before a plan brings our box to where the vehicle stands after braking as hard as can be.
+  [[nodiscard]] float way_over_ends_s_m(std::uint8_t agent_index, const Trajectory& trajectory,
+                                        const Own& own) const;
   [[nodiscard]] bool followers_can_brake(const Sight& sight, const Own& own, float brakes_from_s,
                                          float braking_mps2, Verdict& verdict) const;
 

@@ -5,6 +5,7 @@
 #include "algo/core/standing.hpp"
 #include "algo/safety/change_gaps.hpp"
 #include "algo/safety/guard.hpp"
+#include "algo/safety/guard_own.hpp"
 #include "algo/trajectory/along_path.hpp"
 #include "algo/trajectory/bicycle.hpp"
 
@@ -15,6 +16,9 @@ using occupancy::kNeverS;
 
 constexpr float kWaitingRoomM = 1.0F;  // between two zones there is room to stand, clear of both
 constexpr float kClearOfZoneM = 0.7F;  // before it
+constexpr float kInStripM = 0.3F;      // so far our box may reach beyond the path's strip and still follow it
+constexpr float kSwingM = 0.7F;
+constexpr float kSoonM = 10.0F;  // further than where we can stand, a plan may yet bring us
 constexpr float kCurvesMps2 = 3.0F;
 constexpr int kCapSamples = 4;
 
@@ -52,6 +56,35 @@ int Guard::look(const scene::Scene& scene, const TrajectoryPoint& start, float l
   return work_;
 }
 
+void Guard::keep_nearest(InLaneList& list, const InLane& other, float own_s_m) {
+  if (list.push(other)) return;
+  const auto away_m = [&](const InLane& one) { return abs(one.bumper_s_m - own_s_m); };
+  int furthest = 0;
+  for (int k = 1; k < list.size(); ++k) {
+    if (away_m(list[k]) > away_m(list[furthest])) furthest = k;
+  }
+  if (away_m(other) < away_m(list[furthest])) list[furthest] = other;
+}
+
+bool Guard::is_on_way_over(const scene::EgoPath& path, const Sight& sight, InLane& other) {
+  // From the strip to where our front or rear is, and some more: a turn back swings out.
+  const float sine = sin(wrap_angle(scene_->ego.rear_axle.heading_rad - path.frenet.heading_rad));
+  const float front_d_m = path.frenet.d_m + front_m_ * sine;
+  const float right_m = min(0.0F, min(path.frenet.d_m, front_d_m));
+  const float left_m = max(0.0F, max(path.frenet.d_m, front_d_m));
+  if (left_m - right_m < kInStripM) return false;
+  const scene::Agent& agent = scene_->agents[other.agent];
+  bool known = false;
+  const trajectory::OnPath seen = trajectory::see_on_path(*scene_, path, agent, *parameters_, true, known);
+  work_ += seen.work;
+  other.bumper_s_m = seen.centre_s_m - seen.half_length_m - agent.coasted_m;
+  other.speed_mps = max(0.0F, seen.along_mps);
+  const float room_m = 0.5F * parameters_->vehicle.width_m + seen.half_width_m + kSwingM;
+  return known && !seen.overlaps && !seen.crossing && seen.centre_s_m > path.frenet.s_m + centre_m_ &&
+         other.bumper_s_m < sight.stop_s_m + front_m_ + kSoonM && seen.centre_d_m > right_m - room_m &&
+         seen.centre_d_m < left_m + room_m;
+}
+
 void Guard::look_at_path(int path_index) {
   const scene::EgoPath& path = scene_->ego_paths[path_index];
   Sight& sight = sights_[path_index];
@@ -75,6 +108,8 @@ void Guard::look_at_path(int path_index) {
     const trajectory::OnPath seen =
         trajectory::see_on_path(*scene_, path, agent, *parameters_, joining, known);
     work_ += seen.work;
+    InLane on_way_over{static_cast<std::uint8_t>(i)};
+    if (is_on_way_over(path, sight, on_way_over)) keep_nearest(sight.on_way_over, on_way_over, centre_s_m);
     if (!known || !(seen.overlaps || joining) || seen.crossing) continue;
     const float along_mps = max(0.0F, seen.along_mps);
     if (seen.centre_s_m > centre_s_m) {
@@ -100,12 +135,7 @@ void Guard::look_at_path(int path_index) {
       behind.agent = static_cast<std::uint8_t>(i);
       behind.bumper_s_m = seen.centre_s_m + seen.half_length_m + along_mps * lead_s_;
       behind.speed_mps = along_mps;
-      if (sight.behind.push(behind)) continue;
-      int last = 0;  // the nearest ones matter
-      for (int k = 1; k < sight.behind.size(); ++k) {
-        if (sight.behind[k].bumper_s_m < sight.behind[last].bumper_s_m) last = k;
-      }
-      if (sight.behind[last].bumper_s_m < behind.bumper_s_m) sight.behind[last] = behind;
+      keep_nearest(sight.behind, behind, centre_s_m);
     }
   }
   find_groups(path, sight);

@@ -79,6 +79,9 @@ class OwnFolder {
 /// without the program
 [[nodiscard]] std::vector<std::string> with_lists_joined(const std::vector<std::string>& arguments);
 
+/// The first drive that a newcomer sees is one that reaches its goal: `run` and `demo` begin with it.
+inline constexpr std::uint64_t kFirstDriveSeed = 1;
+
 /// Options that commands share, with the same words and meaning everywhere.
 struct CommonOptions {
   std::filesystem::path scenario_root = processes::own_data("scenarios");

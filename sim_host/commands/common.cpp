@@ -76,7 +76,8 @@ OwnFolder CommonOptions::choose_out() {
 }
 
 void CommonOptions::add_to(CLI::App& command) {
-  command.add_option("--seed,--first-seed", seed, "first seed (default 0)")->check(kSeed);
+  command.add_option("--seed,--first-seed", seed, "first seed (default " + std::to_string(seed) + ")")
+      ->check(kSeed);
   command.add_option("--parameters", parameters_file, "TOML file of planner parameters (docs/parameters.md)");
   out_named = command.add_option("--out", out, "folder for pictures, JSON and report");
   command.add_option("--flavour", flavour,

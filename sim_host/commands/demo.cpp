@@ -122,6 +122,7 @@ Command add_demo(CLI::App& tool) {
   };
   const auto options = std::make_shared<Options>();
   options->common.out = std::filesystem::path("out") / "demo";
+  options->common.seed = kFirstDriveSeed;
   options->common.add_to(*app);
   app->add_option("--episodes", options->episodes, "per scenario and planner (default 20)")->check(kEpisodes);
   return {app, [options] {

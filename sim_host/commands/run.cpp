@@ -13,6 +13,7 @@ Command add_run(CLI::App& tool) {
   CLI::App* run = tool.add_subcommand("run", "one episode");
   const auto options = std::make_shared<RunOptions>();
   options->common.out = fs::path("out") / "run";
+  options->common.seed = kFirstDriveSeed;
   options->common.add_to(*run);
   options->common.add_traffic_to(*run);
   run->add_option("--scenario", options->scenario, "shipped name, folder or .toml file (default left_turn)");

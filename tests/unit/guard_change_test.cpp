@@ -69,14 +69,21 @@ struct Change : LaneChangeRoad {
     return add_vehicle(scene, map, path_of(map, {1}), s_m, speed_mps);
   }
   [[nodiscard]] Cause cause(float speed_mps, float acceleration_mps2, int path = 1) {
-    const TrajectoryPoint start = state_on(map, scene.ego_paths[0].path, 98.5F, speed_mps);
+    return cause_across(speed_mps, acceleration_mps2, path, 0.0F, path == 1 ? kLaneWidthM : 0.0F);
+  }
+  /// Of a plan that comes from `from_m` to `to_m` left of the right lane's centre within 3 s.
+  [[nodiscard]] Cause cause_across(float speed_mps, float acceleration_mps2, int path, float from_m,
+                                   float to_m) {
+    TrajectoryPoint start = state_on(map, scene.ego_paths[0].path, 98.5F, speed_mps);
+    start.rear_axle.y_m += from_m;
     put_ego(scene, start);
     Trajectory trajectory;
     trajectory.points[0] = start;
     for (int i = 1; i < kTrajectoryPoints; ++i) {
       trajectory.points[i] =
           trajectory::bicycle_step(trajectory.points[i - 1], acceleration_mps2, 0.0F, kStepS);
-      if (path == 1) trajectory.points[i].rear_axle.y_m = kLaneWidthM * static_cast<float>(i) / 30.0F;
+      trajectory.points[i].rear_axle.y_m =
+          start.rear_axle.y_m + (to_m - from_m) * static_cast<float>(i) / 30.0F;
     }
     Guard guard;
     guard.look(scene, start, 0.0F, parameters);
@@ -122,6 +129,40 @@ TEST(Guard, NobodyChangesIntoOneThatPasses) {
     EXPECT_EQ(change.cause(9.0F, 0.0F), ahead_m > 0.0F ? Cause::kNone : Cause::kLeader) << ahead_m;
     EXPECT_EQ(change.cause(9.0F, 0.0F, 0), Cause::kNone);
   }
+}
+
+// GUARD-004 GUARD-009 A change begun at 10 m/s, which takes 11.8 m to stop, while one stands ahead in the lane we leave: our
+// box is clear of it after 1.9 s, 19 m further.
+TEST(Guard, AChangeStopsBehindTheLeaderInTheLaneItLeaves) {
+  for (const float gap_m : {14.0F, 10.0F}) {
+    Change change;
+    add_vehicle(change.scene, change.map, path_of(change.map, {0}), 100.0F + 5.0F + gap_m, 0.0F);
+    EXPECT_EQ(change.cause(10.0F, 0.0F), gap_m > 12.0F ? Cause::kNone : Cause::kLeader) << gap_m;
+  }
+}
+
+// GUARD-004 A change given up: 1.4 m left of our lane's centre our box reaches into the left lane, where one stands
+// ahead. Rolling on like that it has to be stopped for, as if it were in our lane; coming back we are clear of it in 5 m.
+TEST(Guard, WhoIsBetweenTwoLanesHasALeaderInEach) {
+  const auto cause = [](float gap_m, float to_m) {
+    Change change;
+    change.in_left_lane(100.0F + 5.0F + gap_m, 0.0F);
+    return change.cause_across(10.0F, 0.0F, 0, 1.4F, to_m);
+  };
+  EXPECT_EQ(cause(14.0F, 1.4F), Cause::kNone);
+  EXPECT_EQ(cause(10.0F, 1.4F), Cause::kLeader);
+  EXPECT_EQ(cause(10.0F, 0.0F), Cause::kNone);
+}
+
+// GUARD-004 Beside one that stands half in our lane, nearer than the 0.2 m kept: from rest we may leave it, and come no nearer.
+TEST(Guard, WhoStandsTooNearBesideAnotherMayOnlyLeaveIt) {
+  const auto cause = [](float to_m) {
+    Change change;
+    change.in_left_lane(103.0F, 0.0F);
+    return change.cause_across(0.0F, 1.0F, 0, 1.4F, to_m);
+  };
+  EXPECT_EQ(cause(0.0F), Cause::kNone);
+  EXPECT_EQ(cause(1.6F), Cause::kLeader);
 }
 
 }  // namespace

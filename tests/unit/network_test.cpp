@@ -334,7 +334,8 @@ TEST(Network, ErrorsSayWhatWasExpected) {
       {replaced(kCross, "-50,0 -10,0", "-5e7,0 -10,0"), {"<net>", "50000 km long", "at most 20000 km"}},
       {replaced(kCross, "\":c_0_0 :c_1_0\"", "\":c_0_0 :c_1_0 :c_0_0\""),
        {"junction \"c\"", "listed already"}},
-      {ways_of(21, 990.0), {"junction \"c\"", "20 km long together"}},
+      {ways_of(9, 990.0), {"junction \"c\"", "8 km long together"}},
+      {ways_of(257, 9.0), {"junction \"c\"", "more than 256 ways"}},
       {in_a_row(101), {"junction", "more than 100 lanes"}},
       {leading_to(65), {"\"a_0\"", "more than 64 lanes"}},
       {replaced(kCross, R"(speed="10" length="40" shape="-50)", R"(speed="fast" shape="-50)"),
@@ -354,9 +355,10 @@ TEST(Network, ErrorsSayWhatWasExpected) {
   EXPECT_THROW(static_cast<void>(load_network("/nowhere/network.net.xml")), std::runtime_error);
 }
 
-// NET-004 What is just within the limits is read: ways of 19.8 km together, of 100 parts, and 64 lanes to go to.
+// NET-004 What is just within the limits is read: ways of 7.9 km together, 256 ways, a way of 100 parts, and 64 lanes to go to.
 TEST(Network, WhatIsWithinTheLimitsIsRead) {
-  EXPECT_EQ(network_of(ways_of(20, 990.0)).lanes.size(), 60U);
+  EXPECT_EQ(network_of(ways_of(8, 990.0)).lanes.size(), 24U);
+  EXPECT_EQ(network_of(ways_of(256, 9.0)).lanes.size(), 768U);
   EXPECT_EQ(network_of(in_a_row(100)).lanes.size(), 102U);
   EXPECT_EQ(lane(network_of(leading_to(64)), "a_0").successors.size(), 64U);
 }

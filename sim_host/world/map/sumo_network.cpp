@@ -17,11 +17,11 @@ namespace {
 
 // NET-004. Shapes are followed step by step, so a number in a small file must not say how many steps that are.
 constexpr double kLongestThroughJunction_m = 1'000.0;  // of one way
-constexpr double kWaysThroughJunction_m =
-    20'000.0;                               // of all ways of one junction: each is compared with each
-constexpr std::size_t kPartsOfWay = 100;    // lanes in a row, inside a junction
-constexpr double kLanesTogether_m = 2e7;    // of the whole network: those of a capital are 1.5e7
-constexpr std::size_t kSuccessorsMax = 64;  // of one lane
+constexpr double kWaysThroughJunction_m = 8'000.0;  // of all ways of one junction: each is compared with each
+constexpr std::size_t kLinksMax = 256;              // of one junction: as many as SUMO builds
+constexpr std::size_t kPartsOfWay = 100;            // lanes in a row, inside a junction
+constexpr double kLanesTogether_m = 2e7;            // of the whole network: those of a capital are 1.5e7
+constexpr std::size_t kSuccessorsMax = 64;          // of one lane
 
 class Reader {
  public:
@@ -250,6 +250,7 @@ class Reader {
       if (names.empty() && bridges != bridges_.end()) {
         names = bridges->second;
       }
+      if (names.size() > kLinksMax) fail_at(where, "it has more than 256 ways through it");
       for (const std::string& name : names) {
         const auto inside = lane_of_.find(name);
         if (inside != lane_of_.end() && !listed.insert(inside->second).second) {
@@ -258,7 +259,7 @@ class Reader {
         junction.links.push_back(inside == lane_of_.end() ? Link{} : link_through(inside->second));
         for (const LaneId part : junction.links.back().inside) ways_m += lane(part).centre.length_m();
         if (ways_m > kWaysThroughJunction_m) {
-          fail_at(where, "its ways are more than 20 km long together");
+          fail_at(where, "its ways are more than 8 km long together");
         }
       }
       if (junction.links.empty()) {
