@@ -12,13 +12,12 @@ namespace {
 constexpr float kFullTrust = 0.95F;  // above it nothing is blended in
 constexpr float kNoTrust = 0.2F;     // below it the network is not asked
 static_assert(kNetworkAgentWork == satp::kMcuShape.modes * satp::kDecoderSteps);
-constexpr float kStaysM = 0.5F;  // driven no further in 3 s, a vehicle goes on standing
+// Driven no further in 3 s, a vehicle goes on standing.
+constexpr float kStaysM = kStandingMps * static_cast<float>(kHorizonSteps) * kStepS;
 
-float way_of(const Mode& mode, const Pose& from) {
-  float way_m = distance(position(from), position(mode.steps[0]));
-  for (int i = 1; i < kHorizonSteps; ++i)
-    way_m += distance(position(mode.steps[i - 1]), position(mode.steps[i]));
-  return way_m;
+// By where it ends: a network's poses jitter on the way.
+float moved_m(const Mode& mode, const Pose& from) {
+  return distance(position(from), position(mode.steps[kHorizonSteps - 1]));
 }
 
 // Room for one future more: the least likely one goes, its mass to the others.
@@ -68,7 +67,7 @@ void SatpPredictor::believe(int index, const satp::Futures& futures, AgentPredic
   float sum = 0.0F;
   for (int k = 0; k < result.modes.size(); ++k) {
     Mode& mode = result.modes[k];
-    const bool stays = stands && way_of(mode, encoded_.anchor[index]) < kStaysM;
+    const bool stays = stands && moved_m(mode, encoded_.anchor[index]) < kStaysM;
     const float prior = stands ? (stays ? 1.0F : 0.0F) : futures.yields[k];
     const float seen = prior * seen_if_yielding + (1.0F - prior);
     mode.probability = mode.probability * seen;
