@@ -8,7 +8,7 @@ namespace s4tp::planner {
 [[nodiscard]] bool is_valid(const EgoState& ego);
 
 /// Whether a running plan is one of ours (CORE-014); of kind none it is.
-[[nodiscard]] bool is_valid(const Plan& running, const Parameters& parameters);
+[[nodiscard]] bool is_valid(const Plan& plan, const Parameters& parameters);
 
 /// Of the input's times and tracks.
 [[nodiscard]] bool are_others_valid(const PlannerInput& input);
