@@ -111,7 +111,10 @@ class RosReader final : public dds::DataReaderListener {
     reader_ = node.subscriber().create_datareader(shown, qos, this);
     if (reader_ == nullptr) throw std::runtime_error(topic + ": no Fast DDS reader");
   }
-  ~RosReader() { node_.subscriber().delete_datareader(reader_); }
+  ~RosReader() {
+    reader_->set_listener(nullptr);  // messages still come, and this object goes first
+    node_.subscriber().delete_datareader(reader_);
+  }
 
   void on_subscription_matched(dds::DataReader*, const dds::SubscriptionMatchedStatus& status) override {
     const std::lock_guard lock(mutex_);
