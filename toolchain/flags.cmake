@@ -25,6 +25,9 @@ function(s4tp_use_eigen target)
     EIGEN_DONT_VECTORIZE EIGEN_MAX_ALIGN_BYTES=0 EIGEN_NO_MALLOC EIGEN_GEMM_TO_COEFFBASED_THRESHOLD=64 EIGEN_NO_IO)
 endfunction()
 
+# A precompiled header only saves time: where the compiler cannot read one, it reads the headers.
+set(CMAKE_PCH_WARN_INVALID OFF)
+
 # The host side and tests: C++20, ordinary C++; of debug information only what a backtrace needs, as more of it would
 # double the time to build.
 function(s4tp_host_target target)

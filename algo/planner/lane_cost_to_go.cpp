@@ -10,6 +10,7 @@ namespace {
 
 constexpr float kFarM = 150.0F;  // the map's horizon
 constexpr float kHorizonS = static_cast<float>(kHorizonSteps) * kStepS;
+constexpr float kFastestMps = 100.0F;
 constexpr float kCrawlMps = 3.0F;  // who stands or crawls will not do so all the way
 constexpr float kRoomM = 60.0F;    // for each lane change left to do; with no more, nothing else counts
 constexpr float kInsideM = 1.0F;   // aimed at within a gap that has room for it
@@ -17,7 +18,7 @@ constexpr float kInsideM = 1.0F;   // aimed at within a gap that has room for it
 // Work (WorkMeter's units).
 constexpr int kLaneWork = 20;   // of a lane, and of each vehicle that counts there: ...
 constexpr int kGapWork = 8;     // ... to find the gaps, ...
-constexpr int kAskingWork = 2;  // ... to ask how long it delays us, ...
+constexpr int kAskingWork = 4;  // ... to ask how long it delays us and how to close up on it, ...
 constexpr int kAskingLaneWork = 6;
 constexpr int kOtherWork = 2;  // ... to see that it does not count
 
@@ -168,6 +169,19 @@ float LaneCostToGo::delay_s(int path, float s_m, float speed_mps) const {
     longest_s = max(longest_s, behind_s(other, lane.target_s_m));
   }
   return weight_ * max(0.0F, kHorizonS + longest_s - ideal_s);
+}
+
+float LaneCostToGo::closing_up_mps(int path, float start_s_m, float s_m, float time_s) const {
+  float square_mps = square(kFastestMps);
+  for (const LaneVehicle& other : lanes_[path].seen) {
+    if (!other.in_lane || other.s_m - kHorizonS * other.speed_mps < start_s_m + centre_m_) continue;
+    const float gap_m =
+        0.5F * (parameters_->vehicle.length_m + other.length_m) + parameters_->comfort.standstill_gap_m;
+    const float room_m = other.s_m - (kHorizonS - time_s) * other.speed_mps - gap_m - centre_m_ - s_m;
+    square_mps = min(square_mps, square(max(other.speed_mps, 0.0F)) +
+                                     2.0F * parameters_->comfort.braking_mps2 * max(room_m, 0.0F));
+  }
+  return sqrt(square_mps);
 }
 
 float LaneCostToGo::time_to_gap_s(int path, float s_m, float speed_mps) const {

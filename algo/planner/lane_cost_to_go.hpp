@@ -25,6 +25,10 @@ class LaneCostToGo {
   /// Counts less, then nothing, as the room for lane changes that we have to make shortens.
   [[nodiscard]] float delay_s(int path, float s_m, float speed_mps) const;
 
+  /// Speed at which one closes up on whoever is ahead in the lane of `path`, to stand as far behind it as behind one that
+  /// stands; large where nobody is. \param start_s_m  of our rear axle at plan start \param s_m  `time_s` later
+  [[nodiscard]] float closing_up_mps(int path, float start_s_m, float s_m, float time_s) const;
+
   /// Time [s] from the horizon's end until who is at `s_m` of `path` with `speed_mps` then is in the gap
   /// there that we can meet; 0 when there is none, or no need of one.
   [[nodiscard]] float time_to_gap_s(int path, float s_m, float speed_mps) const;

@@ -138,6 +138,8 @@ CostBreakdown score_motion(const scene::Scene& scene, const LaneCostToGo& cost_t
     if (bend * wanted_mps * wanted_mps > parameters.comfort.lateral_mps2) {
       wanted_mps = sqrt(parameters.comfort.lateral_mps2 / bend);
     }
+    wanted_mps = min(wanted_mps,
+                     cost_to_go.closing_up_mps(path_index, start_s_m, s_m, static_cast<float>(i) * kStepS));
     if (careful) wanted_mps = min(wanted_mps, kCarefulSpeedShare * centre.speed_limit_mps);
     const float excess_mps = point.speed_mps - wanted_mps;
     // Too fast is worse than too slow by as much: the limit is a limit.

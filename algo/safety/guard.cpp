@@ -88,11 +88,10 @@ void Guard::commit(int path, const Verdict& verdict) {
 
 float Guard::way_over_ends_s_m(std::uint8_t agent_index, const Trajectory& trajectory, const Own& own) const {
   const scene::Agent& agent = scene_->agents[agent_index];
-  const float seen_mps = max(0.0F, agent.track.speed_mps - agent.coasted_mps);
   const float stop_m =
-      occupancy::stopping_way_m(seen_mps, parameters_->law.braking_max_mps2) - agent.coasted_m;
+      occupancy::stopping_way_m(seen_mps(agent), parameters_->law.braking_max_mps2) - agent.coasted_m;
   const Box there{shift_ahead(agent.track.centre, stop_m), agent.track.length_m, agent.track.width_m};
-  float room_m = kBesideM;
+  float room_m = trajectory::kStripM;
   for (int i = 0; i < kTrajectoryPoints; i += kWayOverStride) {
     const float gap_m = separation(trajectory::ego_box(trajectory.points[i].rear_axle, *parameters_), there);
     if (i == 0) room_m = min(room_m, gap_m - kRoundingM);  // whoever is nearer already comes no nearer
@@ -178,7 +177,7 @@ Verdict Guard::judge(int path_index, const Trajectory& trajectory) const {
   const auto reachable_s_m = [&](float free_s_m, float its_mps) {
     if (at_once_s_m <= free_s_m) return free_s_m;
     const bool slower = its_mps < own.speed_mps[0];
-    return max(free_s_m, (slower ? lerp(at_once_s_m, coasting_s_m, kEasesOff) : coasting_s_m) + 0.01F);
+    return max(free_s_m, (slower ? lerp(at_once_s_m, coasting_s_m, kEasesOff) : coasting_s_m) + kRoundingM);
   };
   float free_s_m = reachable_s_m(sight.leader_stop_s_m - front_m - guard.margin_m, sight.leader_mps);
   std::uint8_t ahead = sight.leader;

@@ -136,8 +136,8 @@ class Guard {
     std::uint8_t beside = 255;  ///< ... because of whom
     bool changes = false;       ///< our box is, or comes, from another lane
     bool half_over = false;     ///< most of us is in the lane already
-    BoundedVector<InLane, 4> behind;  ///< only where `changes`
-    InLaneList on_way_over;  ///< ahead, where our box may be before it has come over to the path's strip
+    InLaneList behind;          ///< only where `changes`
+    InLaneList on_way_over;     ///< ahead, where our box may be before it has come over to the path's strip
     BoundedVector<ZoneGroup, kMaxPathZones> groups;
     BoundedVector<Threat, kMostThreats> threats;
     std::uint16_t staying_out[kMaxPathZones] = {};  ///< of each zone; bit i: agent i leaves it to us

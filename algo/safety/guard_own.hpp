@@ -9,7 +9,6 @@ namespace s4tp::safety {
 
 inline constexpr float kHorizonS = static_cast<float>(kHorizonSteps) * kStepS;
 inline constexpr float kGoesOnMps2 = 1.5F;  // how a plan is driven on beyond its horizon
-inline constexpr float kBesideM = 0.2F;     // room our box keeps from others beside it
 
 /// A plan seen along its path.
 struct Guard::Own {

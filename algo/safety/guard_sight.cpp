@@ -5,7 +5,6 @@
 #include "algo/core/standing.hpp"
 #include "algo/safety/change_gaps.hpp"
 #include "algo/safety/guard.hpp"
-#include "algo/safety/guard_own.hpp"
 #include "algo/trajectory/along_path.hpp"
 #include "algo/trajectory/bicycle.hpp"
 
@@ -17,8 +16,8 @@ using occupancy::kNeverS;
 constexpr float kWaitingRoomM = 1.0F;  // between two zones there is room to stand, clear of both
 constexpr float kClearOfZoneM = 0.7F;  // before it
 constexpr float kInStripM = 0.3F;      // so far our box may reach beyond the path's strip and still follow it
-constexpr float kSwingM = 0.7F;
-constexpr float kSoonM = 10.0F;  // further than where we can stand, a plan may yet bring us
+constexpr float kSwingM = 0.7F;        // room for that beside our box: a turn back swings out
+constexpr float kSoonM = 10.0F;        // further than where we can stand, a plan may yet bring us
 constexpr float kCurvesMps2 = 3.0F;
 constexpr int kCapSamples = 4;
 
@@ -67,7 +66,7 @@ void Guard::keep_nearest(InLaneList& list, const InLane& other, float own_s_m) {
 }
 
 bool Guard::is_on_way_over(const scene::EgoPath& path, const Sight& sight, InLane& other) {
-  // From the strip to where our front or rear is, and some more: a turn back swings out.
+  // From the strip to where our front or rear is.
   const float sine = sin(wrap_angle(scene_->ego.rear_axle.heading_rad - path.frenet.heading_rad));
   const float front_d_m = path.frenet.d_m + front_m_ * sine;
   const float right_m = min(0.0F, min(path.frenet.d_m, front_d_m));
@@ -115,11 +114,11 @@ void Guard::look_at_path(int path_index) {
     if (seen.centre_s_m > centre_s_m) {
       // It may have begun to brake when it was last seen.
       const float seen_s_m = seen.centre_s_m - seen.half_length_m - agent.coasted_m;
-      const float seen_mps = max(0.0F, along_mps - agent.coasted_mps);
+      const float last_mps = max(0.0F, along_mps - agent.coasted_mps);
       const float stop_s_m =
-          seen_s_m + occupancy::stopping_way_m(seen_mps, parameters_->law.braking_max_mps2);
+          seen_s_m + occupancy::stopping_way_m(last_mps, parameters_->law.braking_max_mps2);
       const float slowest_mps =
-          max(0.0F, seen_mps - parameters_->law.braking_max_mps2 * (lead_s_ + kOverLineS));
+          max(0.0F, last_mps - parameters_->law.braking_max_mps2 * (lead_s_ + kOverLineS));
       const float over_line_s_m =
           stop_s_m - occupancy::stopping_way_m(slowest_mps, parameters_->law.braking_max_mps2);
       if (over_line_s_m < sight.beside_s_m) {

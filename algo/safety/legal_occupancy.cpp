@@ -27,11 +27,6 @@ float seconds(std::uint16_t time_ms) {
   return 1e-3F * static_cast<float>(time_ms);
 }
 
-// All that is known is the last sight; from then on the law alone bounds where a vehicle can be.
-float seen_mps(const scene::Agent& agent) {
-  return max(agent.track.speed_mps - agent.coasted_mps, 0.0F);
-}
-
 /// D1 and D2: whoever owes us the way, or finds us there by right, stops before the zone if the duty's braking
 /// does it after the response.
 bool can_stop(const scene::Agent& agent, float to_entry_m, float response_s, const Parameters& parameters) {
@@ -60,11 +55,15 @@ bool stands_in_sight(const scene::Scene& scene, const scene::Agent& agent, const
 
 }  // namespace
 
-Pace fastest_legal(const scene::Scene& scene, LaneIndex lane, float seen_mps, const scene::ConflictZone& zone,
-                   const Parameters& parameters) {
+float seen_mps(const scene::Agent& agent) {
+  return max(agent.track.speed_mps - agent.coasted_mps, 0.0F);
+}
+
+Pace fastest_legal(const scene::Scene& scene, LaneIndex lane, float speed_mps,
+                   const scene::ConflictZone& zone, const Parameters& parameters) {
   float limit_mps = scene.map->lanes[zone.other_lane].speed_limit_mps;
   if (lane != kNoLaneIndex) limit_mps = max(limit_mps, scene.map->lanes[lane].speed_limit_mps);
-  return {seen_mps, parameters.law.gain_mps2, max(parameters.law.over_limit * limit_mps, seen_mps)};
+  return {speed_mps, parameters.law.gain_mps2, max(parameters.law.over_limit * limit_mps, speed_mps)};
 }
 
 Pace fastest_legal(const scene::Scene& scene, const scene::Agent& agent, const scene::ConflictZone& zone,

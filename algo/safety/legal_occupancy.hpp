@@ -43,12 +43,15 @@ struct ZoneOccupancy {
   bool can_stop = false;  ///< D2: before it, for whoever is there by right
 };
 
+/// Its speed when it was last seen: from then on the law alone bounds where a vehicle can be.
+[[nodiscard]] float seen_mps(const scene::Agent& agent);
+
 /// Speed, gain and top speed of a vehicle that drives as fast as the law lets it to the zone's lane.
 [[nodiscard]] occupancy::Pace fastest_legal(const scene::Scene& scene, const scene::Agent& agent,
                                             const scene::ConflictZone& zone, const Parameters& parameters);
 
-/// The same for one that was last seen at `seen_mps` on `lane`, or on none.
-[[nodiscard]] occupancy::Pace fastest_legal(const scene::Scene& scene, LaneIndex lane, float seen_mps,
+/// The same for one that was last seen at `speed_mps` on `lane`, or on none.
+[[nodiscard]] occupancy::Pace fastest_legal(const scene::Scene& scene, LaneIndex lane, float speed_mps,
                                             const scene::ConflictZone& zone, const Parameters& parameters);
 
 /// \param reach  measured for the agent

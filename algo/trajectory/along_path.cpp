@@ -6,7 +6,6 @@
 namespace s4tp::trajectory {
 namespace {
 
-constexpr float kStripM = 0.2F;          // room on both sides of our width that a vehicle may not reach into
 constexpr float kInOwnLaneM = 0.6F;      // nearer to its own lane's centre it is not in ours
 constexpr float kCrossingCos = 0.7071F;  // 45 degrees
 constexpr float kMovingMps = 1.5F;

@@ -134,5 +134,38 @@ TEST(LaneCostToGo, GapsAreAimedAt) {
   EXPECT_EQ(aim.speed_mps, 10.0F);
 }
 
+// Behind a leader with its centre at 60 m and 5 m/s one stands with the rear axle at 60 - 5 - 2.5 - 1.5 = 51 m, and 10 m
+// further 2 s later. There its speed is wanted, and nearer, too; 10 m before it sqrt(5^2 + 2 * 2.5 * 10) = 8.66 m/s; no
+// jump from one to the other.
+TEST(LaneCostToGo, WhoClosesUpIsAsFastAsTheLeaderWhereItHasItsPlace) {
+  Road road;
+  road.vehicle(0, 60.0F, 5.0F);
+  road.look();
+  const auto wanted_mps = [&](float s_m, float time_s) {
+    return road.cost_to_go.closing_up_mps(0, 20.0F, s_m, time_s);
+  };
+  EXPECT_NEAR(wanted_mps(51.0F, 0.0F), 5.0F, 0.01F);
+  EXPECT_NEAR(wanted_mps(61.0F, 2.0F), 5.0F, 0.01F);
+  EXPECT_NEAR(wanted_mps(53.0F, 0.0F), 5.0F, 0.01F);
+  EXPECT_NEAR(wanted_mps(41.0F, 0.0F), 8.66F, 0.01F);
+  for (float s_m = 30.0F; s_m < 55.0F; s_m += 0.1F)
+    EXPECT_LT(wanted_mps(s_m, 0.0F) - wanted_mps(s_m + 0.1F, 0.0F), 0.06F) << s_m;
+}
+
+// Behind one that stands with its centre at 60 m no speed is wanted from 51 m on. Who is behind us, or in the lane beside,
+// asks for nothing.
+TEST(LaneCostToGo, OnlyWhoIsAheadIsClosedUpOn) {
+  Road road;
+  road.vehicle(0, 60.0F, 0.0F);
+  road.vehicle(0, 10.0F, 0.0F);
+  road.look();
+  EXPECT_EQ(road.cost_to_go.closing_up_mps(0, 20.0F, 51.5F, 1.0F), 0.0F);
+  EXPECT_GT(road.cost_to_go.closing_up_mps(1, 20.0F, 51.5F, 1.0F), 50.0F);
+  Road alone;
+  alone.vehicle(0, 10.0F, 5.0F);
+  alone.look();
+  EXPECT_GT(alone.cost_to_go.closing_up_mps(0, 20.0F, 51.5F, 1.0F), 50.0F);
+}
+
 }  // namespace
 }  // namespace s4tp::planner

@@ -63,5 +63,30 @@ TEST(Scoring, WhoWaitsForALaneChangeKeepsRoomForIt) {
   EXPECT_GE(Road(stands_m - 1.0F).lane_cost(false), kMissed);
 }
 
+// We stand in our lane behind one that stands: where that leaves 2.5 m to it, nothing asks us on; with 3 m more, something
+// does.
+TEST(Scoring, NobodyIsAskedIntoTheGapItKeepsAtAStand) {
+  float speed_costs[2] = {};
+  for (int i = 0; i < 2; ++i) {
+    Road road(250.0F);
+    const float gap_m = road.parameters.comfort.standstill_gap_m + (i == 0 ? 0.0F : 3.0F);
+    const float front_m = 40.0F + trajectory::rear_axle_to_front_m(road.parameters);
+    scene::Agent& leader =
+        add_vehicle(road.scene, road.map, road.scene.ego_paths[0].path, front_m + gap_m + 2.5F, 0.0F);
+    satp::KinematicSet standing;
+    (void)standing.agents.push(steady_future(road.map, leader));
+    road.cost_to_go.look(road.scene, standing, 0.0F, road.parameters);
+    Trajectory trajectory;
+    for (TrajectoryPoint& point : trajectory.points)
+      point = state_on(road.map, road.scene.ego_paths[0].path, 40.0F, 0.0F);
+    int work = 0;
+    speed_costs[i] =
+        score_motion(road.scene, road.cost_to_go, 0, 40.0F, trajectory, false, false, road.parameters, work)
+            .speed;
+  }
+  EXPECT_NEAR(speed_costs[0], 0.0F, 0.05F);
+  EXPECT_GT(speed_costs[1], 1.0F);
+}
+
 }  // namespace
 }  // namespace s4tp::planner
