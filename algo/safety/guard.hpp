@@ -163,7 +163,7 @@ class Guard {
   void look_beyond(const occupancy::LaneReach (&reach)[kMaxTracks]);
   void expect_from(LaneIndex lane, float s_m, const occupancy::LaneReach (&reach)[kMaxTracks]);
   void expect_everywhere();  ///< in every zone, and beside us
-  void expect_ahead(const scene::EgoPath& path, Sight& sight) const;
+  void expect_ahead(const scene::EgoPath& path, Sight& sight);
   [[nodiscard]] bool held_back(const Sight& sight, int zone, const scene::ConflictZone& ground,
                                const occupancy::LaneReach& straight_on,
                                const occupancy::LaneReach (&reach)[kMaxTracks], ZoneOccupancy& when) const;

@@ -14,7 +14,9 @@ constexpr float kLengthM = 2.0F * scene::kUsualHalfLengthM;  // of whom we expec
 
 // Work (WorkMeter's units).
 constexpr int kMostWork = 10'000;  // beyond, somebody is expected everywhere
-constexpr int kEdgesWork = 20;     // of a lane
+constexpr int kEdgesWork = 8;      // of a lane, ...
+constexpr int kChordWork = 2;      // ... of each of its chords, and ...
+constexpr int kTwoAheadWork = 1;   // ... of two chords along our path
 constexpr int kLedIntoWork = 290;
 constexpr int kExpectWork = 30;
 constexpr int kZoneWork = 8;  // and ...
@@ -53,7 +55,7 @@ void Guard::look_beyond(const LaneReach (&reach)[kMaxTracks]) {
     const Lane& lane = map.lanes[index];
     if (!scene::usable(lane)) continue;
     if (work_ > most) return expect_everywhere();
-    work_ += kEdgesWork;
+    work_ += kEdgesWork + kChordWork * (lane.point_count - 1);
     float start_m = 0.0F;
     for (int i = 1; i < lane.point_count; ++i) {
       const Point from = lane.points[i - 1];
@@ -163,12 +165,13 @@ bool Guard::held_back(const Sight& sight, int zone, const scene::ConflictZone& g
   return false;
 }
 
-void Guard::expect_ahead(const scene::EgoPath& path, Sight& sight) const {
+void Guard::expect_ahead(const scene::EgoPath& path, Sight& sight) {
   if (sight.leader != 255) return;
   const scene::KnownGround& known = scene_->known;
   const float centre_s_m = path.frenet.s_m + centre_m_;
   for (const scene::PathLane& part : path.path.lanes) {
     const Lane& lane = scene_->map->lanes[part.lane];
+    work_ += 1 + kTwoAheadWork * lane.point_count / 2;
     float start_s_m = part.start_s_m;
     for (int i = 1; i < lane.point_count; ++i) {
       const Point from = lane.points[i - 1];
