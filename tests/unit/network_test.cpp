@@ -317,6 +317,13 @@ std::string leading_to(int count) {
   return text + connections + "</net>";
 }
 
+/// A lane of 50 m with `count` points.
+std::string dense(int count) {
+  std::string shape;
+  for (int i = 0; i < count; ++i) shape += std::to_string(50.0 * i / (count - 1)) + ",0 ";
+  return "<net><edge id=\"a\"><lane id=\"a_0\" index=\"0\" shape=\"" + shape + "\"/></edge></net>";
+}
+
 // NET-001 NET-004 Every error names the file, the element and what was expected.
 TEST(Network, ErrorsSayWhatWasExpected) {
   const std::vector<std::pair<std::string, std::vector<std::string>>> cases = {
@@ -338,6 +345,7 @@ TEST(Network, ErrorsSayWhatWasExpected) {
       {ways_of(257, 9.0), {"junction \"c\"", "more than 256 ways"}},
       {in_a_row(101), {"junction", "more than 100 lanes"}},
       {leading_to(65), {"\"a_0\"", "more than 64 lanes"}},
+      {dense(601), {"\"a_0\"", "601 points", "10 a metre"}},
       {replaced(kCross, R"(speed="10" length="40" shape="-50)", R"(speed="fast" shape="-50)"),
        {"west_in_0", "speed=\"fast\"", "a number"}},
       {replaced(kCross, R"(via=":c_0_0")", R"(via=":c_7_0")"),
@@ -355,12 +363,14 @@ TEST(Network, ErrorsSayWhatWasExpected) {
   EXPECT_THROW(static_cast<void>(load_network("/nowhere/network.net.xml")), std::runtime_error);
 }
 
-// NET-004 What is just within the limits is read: ways of 7.9 km together, 256 ways, a way of 100 parts, and 64 lanes to go to.
+// NET-004 What is just within the limits is read: ways of 7.9 km together, 256 ways, a way of 100 parts, 64 lanes to go to,
+// and 600 points on 50 m.
 TEST(Network, WhatIsWithinTheLimitsIsRead) {
   EXPECT_EQ(network_of(ways_of(8, 990.0)).lanes.size(), 24U);
   EXPECT_EQ(network_of(ways_of(256, 9.0)).lanes.size(), 768U);
   EXPECT_EQ(network_of(in_a_row(100)).lanes.size(), 102U);
   EXPECT_EQ(lane(network_of(leading_to(64)), "a_0").successors.size(), 64U);
+  EXPECT_EQ(lane(network_of(dense(600)), "a_0").centre.points().size(), 600U);
 }
 
 }  // namespace

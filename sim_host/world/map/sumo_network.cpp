@@ -22,6 +22,8 @@ constexpr std::size_t kLinksMax = 256;              // of one junction: as many 
 constexpr std::size_t kPartsOfWay = 100;            // lanes in a row, inside a junction
 constexpr double kLanesTogether_m = 2e7;            // of the whole network: those of a capital are 1.5e7
 constexpr std::size_t kSuccessorsMax = 64;          // of one lane
+constexpr double kPointsPerMetre = 10.0;            // of one lane, and ...
+constexpr double kPointsBeside = 100.0;  // ... of the shortest: thinning them out is quadratic in a stretch
 
 class Reader {
  public:
@@ -199,11 +201,20 @@ class Reader {
     double together_m = 0.0;
     for (const NetworkLane& each : network_.lanes) {
       together_m += each.centre.length_m();
+      check_density(each);
       if (each.in_junction) check_through(each, each.centre.length_m());
     }
     if (together_m > kLanesTogether_m) {
       fail_at("<net>", "its lanes are " + std::to_string(std::lround(0.001 * together_m)) +
                            " km long together: expected at most 20000 km");
+    }
+  }
+
+  static void check_density(const NetworkLane& lane) {
+    const double most = kPointsBeside + kPointsPerMetre * lane.centre.length_m();
+    if (static_cast<double>(lane.centre.points().size()) > most) {
+      fail_at("lane \"" + lane.name + "\"", "its shape has " + std::to_string(lane.centre.points().size()) +
+                                                " points: expected at most 10 a metre, and 100");
     }
   }
 
