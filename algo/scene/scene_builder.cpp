@@ -214,7 +214,7 @@ void SceneBuilder::add_past(const Track& track, bool nameless, std::uint32_t lis
 
 KnownGround SceneBuilder::known_ground(std::uint32_t time_ms) const {
   KnownGround known = listed_;
-  if (kept_.left_out > 0 && elapsed_ms(kept_ms_, time_ms) <= kMissingMs) {
+  if (kept_.left_out > 0) {
     known.radius_m = min(known.radius_m, kept_.radius_m);
     const int left_out = known.left_out + kept_.left_out;
     known.left_out = static_cast<std::uint8_t>(left_out < 255 ? left_out : 255);
@@ -326,6 +326,7 @@ Status SceneBuilder::build(std::uint32_t time_ms, const EgoState& ego, const Tra
     take_list(tracks, list_time_ms);
   }
   scene.id_clashes = id_clashes_;
+  if (elapsed_ms(kept_ms_, time_ms) > kMissingMs) kept_ = KnownGround{};  // now: 25 days on, time has wrapped
   scene.known = known_ground(time_ms);
   started_ = true;
 

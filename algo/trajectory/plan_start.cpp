@@ -10,7 +10,8 @@ constexpr float kAlongM = 1.0F;
 constexpr float kSidewaysM = 0.5F;
 constexpr float kSpeedMps = 1.0F;
 constexpr float kHeadingRad = 0.15F;
-constexpr int kMaxSteps = 4;  // of kStepS: the start lies at most 200 ms ahead, more is cut
+constexpr float kLateralMps2 = 3.0F;  // between what our wheels and the plan's curvature ask for
+constexpr int kMaxSteps = 4;          // of kStepS: the start lies at most 200 ms ahead, more is cut
 
 }  // namespace
 
@@ -21,12 +22,14 @@ bool plan_covers(const Plan& plan, std::uint32_t time_ms) {
 
 TrajectoryPoint plan_start(const EgoState& ego, std::uint32_t now_ms, const Plan& running,
                            std::uint32_t start_ms, const Parameters& parameters) {
+  const float curvature_1pm = curvature_for(ego.steering_rad, parameters.vehicle.wheelbase_m);
   if (plan_covers(running, now_ms) && plan_covers(running, start_ms)) {
     const TrajectoryPoint planned = sample(running, now_ms);
     const Point error = to_local(planned.rear_axle, position(ego.rear_axle));
     const float heading_error_rad = wrap_angle(ego.rear_axle.heading_rad - planned.rear_axle.heading_rad);
     if (abs(error.x_m) <= kAlongM && abs(error.y_m) <= kSidewaysM && abs(heading_error_rad) <= kHeadingRad &&
-        abs(ego.speed_mps - planned.speed_mps) <= kSpeedMps) {
+        abs(ego.speed_mps - planned.speed_mps) <= kSpeedMps &&
+        square(ego.speed_mps) * abs(curvature_1pm - planned.curvature_1pm) <= kLateralMps2) {
       return sample(running, start_ms);
     }
   }
@@ -37,7 +40,7 @@ TrajectoryPoint plan_start(const EgoState& ego, std::uint32_t now_ms, const Plan
   state.acceleration_mps2 = clamp(ego.acceleration_mps2, -parameters.vehicle.braking_max_mps2,
                                   parameters.vehicle.acceleration_max_mps2);
   if (state.speed_mps <= 0.0F) state.acceleration_mps2 = 0.0F;
-  state.curvature_1pm = curvature_for(ego.steering_rad, parameters.vehicle.wheelbase_m);
+  state.curvature_1pm = curvature_1pm;
 
   std::int32_t left_ms = static_cast<std::int32_t>(start_ms - now_ms);
   for (int i = 0; i < kMaxSteps && left_ms > 0; ++i) {

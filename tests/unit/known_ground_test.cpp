@@ -92,6 +92,18 @@ TEST(KnownGround, EndsWhereTheSceneHasNoRoom) {
   EXPECT_EQ(lists.scene.known.left_out, 0);
 }
 
+// CORE-036 ECU-072 Once it is over it is over: 2^31 ms after somebody had no room that lies in the future.
+TEST(KnownGround, DoesNotComeBackWhenTimeWraps) {
+  Lists lists;
+  lists.step(queue(kMaxTracks, 10.0F));
+  lists.step(queue(kMaxTracks, 20.0F, 2));
+  ASSERT_EQ(lists.scene.known.left_out, 1);
+  for (int i = 0; i < 12; ++i) lists.step(queue(3, 10.0F));
+  lists.now_ms += 0x7FFFFFFFU;
+  lists.step(queue(3, 10.0F));
+  EXPECT_EQ(lists.scene.known.left_out, 0);
+}
+
 // CORE-036 The other way round: the furthest is missing, and somebody new stands in between; it is the missing one
 // that has no room.
 TEST(KnownGround, AMissingVehicleBeyondAllOthersIsLeftOut) {

@@ -175,6 +175,25 @@ TEST(Planner, TakesNoRunningPlanBeyondTheCarsLimits) {
   }
 }
 
+// CORE-014: a running plan true to itself that turns with 0.3 1/m at 10 m/s, 30 m/s^2 to the side, while our wheels stand
+// straight: it is not ours, and what it asks for is not gone on with.
+TEST(Planner, GoesOnFromNoCurvatureItsWheelsAreFarFrom) {
+  Drive drive = on_straight_road(10.0F);
+  ASSERT_EQ(drive.step(), Status::kOk);
+  for (int i = 0; i < kTrajectoryPoints; ++i) {
+    TrajectoryPoint& point = drive.running.trajectory.points[i];
+    point = drive.running.trajectory.points[i > 0 ? i - 1 : 0];
+    point.curvature_1pm = 0.3F;
+    if (i > 0) point = trajectory::bicycle_step(point, 0.0F, 0.0F, kStepS);
+  }
+  ASSERT_TRUE(trajectory::keeps_limits(drive.running.trajectory, Parameters{}));
+  Plan plan;
+  drive.input.running = &drive.running;
+  EXPECT_EQ(drive.planner->plan(drive.input, plan, drive.explanation), Status::kOk);
+  for (const TrajectoryPoint& point : plan.trajectory.points)
+    EXPECT_LE(point.speed_mps * point.speed_mps * std::abs(point.curvature_1pm), 4.0F);
+}
+
 // CORE-003, CAND-020: with any one parameter at the least or the most it may be, and with all that may be at their least, three
 // cycles behind a slower car give plans within the limits that these parameters say. A weight of 0 once left nothing to divide by.
 TEST(Planner, PlansWithParametersAtTheirEnds) {
