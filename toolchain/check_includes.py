@@ -15,11 +15,9 @@ ALGO = {
     "core": [],
     "scene": ["core/"],
     "occupancy": ["core/", "scene/"],
-    "prediction": ["core/", "scene/", "occupancy/"],
-    "satp": ["core/", "scene/", "occupancy/", "prediction/"],
-    "sadrf": ["core/", "scene/", "prediction/", "satp/", "trajectory/bicycle.hpp"],
-    "behavior": ["core/", "scene/", "occupancy/"],
-    "trajectory": ["core/", "scene/", "occupancy/", "prediction/", "satp/", "sadrf/", "behavior/"],
+    "satp": ["core/", "scene/", "occupancy/"],
+    "sadrf": ["core/", "scene/", "satp/", "trajectory/bicycle.hpp"],
+    "trajectory": ["core/", "scene/", "occupancy/", "satp/", "sadrf/"],
     # Never predictions, beliefs or the field: what protects must not rest on what decides.
     "safety": ["core/", "scene/", "occupancy/", *(f"trajectory/{name}.hpp" for name in (
         "along_path", "bicycle", "path_walk", "speed_profile"))],

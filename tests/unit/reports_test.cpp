@@ -20,16 +20,18 @@ wire::PlanReason sent(const planner::Explanation& explanation) {
   return reason;
 }
 
-// ECU-101 Four vehicles and 200 lanes were left out, of which 31 can be said; what holds us up is one of them, then
+// ECU-101 Four vehicles and 200 lanes were left out, of which 31 can be said; two bear one id; what holds us up is one of them, then
 // it is vehicle 7, then nobody.
 TEST(Reports, SayWhomThePlanWasNotToldOf) {
   planner::Explanation explanation;
   explanation.tracks_left_out = 4;
   explanation.lanes_left_out = 200;
+  explanation.id_clashes = 2;
   explanation.blocking.verdict.cause = safety::Cause::kZone;
   explanation.blocking.verdict.agent = safety::kUnseen;
   EXPECT_EQ(sent(explanation).tracks_left_out, 4);
   EXPECT_EQ(sent(explanation).lanes_left_out, 31);
+  EXPECT_EQ(sent(explanation).id_clashes, 2);
   EXPECT_EQ(sent(explanation).unseen, 1);
   explanation.blocking.verdict.agent = 3;
   explanation.blocking.track = 7;
