@@ -38,7 +38,13 @@ void check_toml_shape(std::string_view text) {
   for (std::size_t i = 0; i < text.size();) {
     const char letter = text[i];
     if (letter == '"' || letter == '\'') {
-      i = after_string(text, i);
+      const std::size_t end = after_string(text, i);
+      // toml11 reads past the end of the text where it meets one.
+      const auto beyond = [](char each) { return static_cast<unsigned char>(each) > 0x7F; };
+      if (letter == '\'' && std::any_of(&text[i], text.data() + end, beyond)) {
+        refuse(text, i, "letters beyond ASCII within single quotes: expected double quotes");
+      }
+      i = end;
       continue;
     }
     if (letter == '#') {
