@@ -9,14 +9,14 @@ set(unit_batches
   "lane_gap lane_map lane_path lateral_offset law live_view lockstep_bus log_follower"
   "map_node math meetings metrics mission_check modes network_input optimizer"
   "network_operators network pace parameters_file parameters perception plan_words planner_registry"
-  "planner polyline predictive_decision predictor presets processes record_limits safe_distance"
+  "planner_input planner polyline predictive_decision predictor presets processes record_limits safe_distance"
   "plausibility realtime records results rough_tracks route_file self_test"
   "replay route_guide s4tp_c s4tp_c_values sample_file satp_network satp_predictor scenario standing"
   "scene_builder scene_tracks secoc_can secoc_session shared_records slcan threshold"
   "scoring tight_corner"
   "slcan_can social_value static_drf summary sumo_routes toml_shape traci track_list traffic_statistics"
   "socket_can socket_pair tracker traffic_driver utf8 vehicle_clock vehicle_node vehicle weight_image"
-  "traffic_junction world yield_belief")
+  "network_limits traffic_junction world yield_belief")
 set(property_batches
   "candump_property codec_property collision_property cost_map decision_property ecu_frames polyline_property scenario_files_property"
   "field_slices gate_property refinement_property risk_properties safe_distance_property wire_lists_property"

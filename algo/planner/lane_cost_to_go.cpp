@@ -10,10 +10,10 @@ namespace {
 
 constexpr float kFarM = 150.0F;  // the map's horizon
 constexpr float kHorizonS = static_cast<float>(kHorizonSteps) * kStepS;
-constexpr float kFastestMps = 100.0F;
-constexpr float kCrawlMps = 3.0F;  // who stands or crawls will not do so all the way
-constexpr float kRoomM = 60.0F;    // for each lane change left to do; with no more, nothing else counts
-constexpr float kInsideM = 1.0F;   // aimed at within a gap that has room for it
+constexpr float kFastestMps = 100.0F;  // wanted where nobody is ahead
+constexpr float kCrawlMps = 3.0F;      // who stands or crawls will not do so all the way
+constexpr float kRoomM = 60.0F;        // for each lane change left to do; with no more, nothing else counts
+constexpr float kInsideM = 1.0F;       // aimed at within a gap that has room for it
 
 // Work (WorkMeter's units).
 constexpr int kLaneWork = 20;   // of a lane, and of each vehicle that counts there: ...
@@ -118,10 +118,13 @@ void LaneCostToGo::find_gaps(const scene::Scene& scene, float lead_s) {
   }
 }
 
+float LaneCostToGo::standing_gap_m(const LaneVehicle& other) const {
+  return 0.5F * (parameters_->vehicle.length_m + other.length_m) + parameters_->comfort.standstill_gap_m;
+}
+
 float LaneCostToGo::behind_s(const LaneVehicle& other, float to_s_m) const {
   const float speed = max(other.speed_mps, kCrawlMps);
-  const float gap_m = 0.5F * (parameters_->vehicle.length_m + other.length_m) +
-                      parameters_->comfort.standstill_gap_m + parameters_->comfort.headway_s * speed;
+  const float gap_m = standing_gap_m(other) + parameters_->comfort.headway_s * speed;
   return (to_s_m + centre_m_ + gap_m - other.s_m) / speed;
 }
 
@@ -175,9 +178,9 @@ float LaneCostToGo::closing_up_mps(int path, float start_s_m, float s_m, float t
   float square_mps = square(kFastestMps);
   for (const LaneVehicle& other : lanes_[path].seen) {
     if (!other.in_lane || other.s_m - kHorizonS * other.speed_mps < start_s_m + centre_m_) continue;
-    const float gap_m =
-        0.5F * (parameters_->vehicle.length_m + other.length_m) + parameters_->comfort.standstill_gap_m;
-    const float room_m = other.s_m - (kHorizonS - time_s) * other.speed_mps - gap_m - centre_m_ - s_m;
+    const float place_s_m =
+        other.s_m - (kHorizonS - time_s) * other.speed_mps - standing_gap_m(other) - centre_m_;
+    const float room_m = place_s_m - s_m;
     square_mps = min(square_mps, square(max(other.speed_mps, 0.0F)) +
                                      2.0F * parameters_->comfort.braking_mps2 * max(room_m, 0.0F));
   }

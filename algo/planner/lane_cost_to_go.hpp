@@ -49,7 +49,9 @@ class LaneCostToGo {
     float limit_mps = 1.0F;
   };
 
-  /// When we are at `to_s_m`, behind him.
+  /// From our centre to that of whoever stands ahead of us.
+  [[nodiscard]] float standing_gap_m(const LaneVehicle& other) const;
+  /// When we are at `to_s_m`, behind the other.
   [[nodiscard]] float behind_s(const LaneVehicle& other, float to_s_m) const;
   /// When we are at `to_s_m`, from `s_m`, alone or behind somebody in the lane. \param speed_mps  ours; then
   float arrival_s(const Lane& lane, float to_s_m, float s_m, float& speed_mps) const;

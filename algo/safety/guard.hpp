@@ -162,7 +162,8 @@ class Guard {
   // guard_unseen.cpp
   void look_beyond(const occupancy::LaneReach (&reach)[kMaxTracks]);
   void expect_from(LaneIndex lane, float s_m, const occupancy::LaneReach (&reach)[kMaxTracks]);
-  void expect_everywhere();  ///< in every zone, and beside us
+  void expect_everywhere();                ///< in every zone, and beside us
+  void expect_beside(Sight& sight) const;  ///< in the lane we change into, and nobody else there
   void expect_ahead(const scene::EgoPath& path, Sight& sight);
   [[nodiscard]] bool held_back(const Sight& sight, int zone, const scene::ConflictZone& ground,
                                const occupancy::LaneReach& straight_on,

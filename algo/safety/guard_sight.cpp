@@ -101,8 +101,7 @@ void Guard::look_at_path(int path_index) {
   sight.half_over = abs(path.frenet.d_m) < half_lane_m;
   // In a lane we have not set out for, a list that is not fresh vouches for nobody.
   const bool sets_out = sight.changes && abs(path.frenet.d_m) > 2.0F * half_lane_m - kInStripM;
-  if (sets_out && scene_->known.age_ms > scene::kFreshMs)
-    (void)sight.behind.push({kUnseen, sight.start_s_m + front_m_, start_.speed_mps});
+  if (sets_out && scene_->known.age_ms > scene::kFreshMs) expect_beside(sight);
   const float centre_s_m = path.frenet.s_m + centre_m_;
   for (int i = 0; i < scene_->agents.size(); ++i) {
     const scene::Agent& agent = scene_->agents[i];

@@ -93,9 +93,13 @@ void Guard::look_beyond(const LaneReach (&reach)[kMaxTracks]) {
 void Guard::expect_everywhere() {
   for (Sight& sight : sights_) {
     sight.too_many = true;
-    sight.behind.clear();
-    (void)sight.behind.push({kUnseen, sight.start_s_m + front_m_, start_.speed_mps});
+    expect_beside(sight);
   }
+}
+
+void Guard::expect_beside(Sight& sight) const {
+  sight.behind.clear();
+  (void)sight.behind.push({kUnseen, sight.start_s_m + front_m_, start_.speed_mps});
 }
 
 void Guard::expect_from(LaneIndex lane, float s_m, const LaneReach (&reach)[kMaxTracks]) {

@@ -326,7 +326,8 @@ Status SceneBuilder::build(std::uint32_t time_ms, const EgoState& ego, const Tra
     take_list(tracks, list_time_ms);
   }
   scene.id_clashes = id_clashes_;
-  if (elapsed_ms(kept_ms_, time_ms) > kMissingMs) kept_ = KnownGround{};  // now: 25 days on, time has wrapped
+  if (elapsed_ms(kept_ms_, time_ms) > kMissingMs)
+    kept_ = KnownGround{};  // for good: 2^31 ms on it would lie ahead
   scene.known = known_ground(time_ms);
   started_ = true;
 

@@ -84,4 +84,11 @@ inline const std::string kCross = R"(<net>
   <connection from=":c_1" to="north_out" fromLane="0" toLane="0"/>
 </net>)";
 
+/// Built without junction lanes: 10 m between two roads that go straight on.
+inline const std::string kBridged = R"(<net>
+    <edge id="a"><lane id="a_0" index="0" shape="0,0 50,0"/></edge>
+    <edge id="b"><lane id="b_0" index="0" shape="60,0 9000,0"/></edge>
+    <junction id="c" type="priority" incLanes="a_0" intLanes=""><request index="0" response="0" foes="0"/></junction>
+    <connection from="a" to="b" fromLane="0" toLane="0"/></net>)";
+
 }  // namespace s4tp::world::test

@@ -1,0 +1,106 @@
+// What the planner takes for its input, and what it answers to what cannot be: broken numbers, plans that are not its own.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "algo/planner/planner.hpp"
+#include "algo/trajectory/bicycle.hpp"
+#include "algo/trajectory/plan_limits.hpp"
+#include "tests/support/planner_drive.hpp"
+
+namespace s4tp::planner {
+namespace {
+
+using test::on_straight_road;
+using Drive = test::PlannerDrive;
+
+// CORE-005: one NaN anywhere in the input, and the plan is the minimum-risk manoeuvre, finite in every
+// number; the optimizer was asked nothing.
+TEST(Planner, NeverUsesABrokenInput) {
+  Drive drive = on_straight_road(10.0F);
+  ASSERT_EQ(drive.step(), Status::kOk);
+  EXPECT_NE(drive.planner->last_refinement(), nullptr);
+  drive.input.ego.speed_mps = std::numeric_limits<float>::quiet_NaN();
+  Plan plan;
+  EXPECT_EQ(drive.planner->plan(drive.input, plan, drive.explanation), Status::kInvalidInput);
+  EXPECT_EQ(plan.kind, PlanKind::kMinimumRisk);
+  EXPECT_EQ(drive.planner->last_refinement(), nullptr);
+  for (const TrajectoryPoint& point : plan.trajectory.points) {
+    EXPECT_TRUE(std::isfinite(point.rear_axle.x_m) && std::isfinite(point.speed_mps) &&
+                std::isfinite(point.curvature_1pm));
+  }
+}
+
+/// Any one number of a plan.
+float& number_of(Plan& plan, int which) {
+  TrajectoryPoint& point = plan.trajectory.points[which % kTrajectoryPoints];
+  float* const numbers[] = {&point.rear_axle.x_m, &point.rear_axle.y_m,     &point.rear_axle.heading_rad,
+                            &point.speed_mps,     &point.acceleration_mps2, &point.curvature_1pm};
+  return *numbers[which / kTrajectoryPoints];
+}
+
+// CORE-014, CAND-019: any single number of the running plan made absurd is a plan none of ours: invalid
+// input, and the answer is a stop from where we are, in range itself.
+TEST(Planner, TakesNoRunningPlanThatCannotBeOurs) {
+  Drive drive = on_straight_road(10.0F);
+  for (int i = 0; i < 3; ++i) ASSERT_EQ(drive.step(), Status::kOk);
+  const Plan good = drive.running;
+  for (int which = 0; which < 6 * kTrajectoryPoints; ++which) {
+    for (const float absurd : {1e30F, -1e30F, 200.0F, -14.0F}) {
+      const bool position = which < 2 * kTrajectoryPoints;
+      if (position && std::abs(number_of(drive.running, which) - absurd) < 3.0F) continue;
+      number_of(drive.running, which) = absurd;
+      Plan plan;
+      drive.input.running = &drive.running;
+      ASSERT_EQ(drive.planner->plan(drive.input, plan, drive.explanation), Status::kInvalidInput)
+          << which << " " << absurd;
+      ASSERT_EQ(plan.kind, PlanKind::kMinimumRisk);
+      ASSERT_TRUE(trajectory::keeps_limits(plan.trajectory, Parameters{}));
+      ASSERT_NEAR(plan.trajectory.points[0].rear_axle.x_m, drive.input.ego.rear_axle.x_m + 1.0F, 0.1F);
+      drive.running = good;
+    }
+  }
+}
+
+// CORE-014, CAND-020: a running plan that drives off with 5.8 m/s^2 where the car has 3.5, true to its own
+// speeds: the plan is not gone on with.
+TEST(Planner, TakesNoRunningPlanBeyondTheCarsLimits) {
+  Drive drive = on_straight_road(10.0F);
+  ASSERT_EQ(drive.step(), Status::kOk);
+  for (const float acceleration_mps2 : {3.5F, 5.8F}) {
+    for (int i = 0; i < kTrajectoryPoints; ++i) {
+      TrajectoryPoint& point = drive.running.trajectory.points[i];
+      point = drive.running.trajectory.points[i > 0 ? i - 1 : 0];
+      if (i > 0) point = trajectory::bicycle_step(point, acceleration_mps2, 0.0F, kStepS);
+    }
+    Plan plan;
+    drive.input.running = &drive.running;
+    const Status expected = acceleration_mps2 > 3.5F ? Status::kInvalidInput : Status::kOk;
+    EXPECT_EQ(drive.planner->plan(drive.input, plan, drive.explanation), expected);
+    EXPECT_TRUE(trajectory::keeps_limits(plan.trajectory, Parameters{}));
+  }
+}
+
+// CORE-014: a running plan true to itself that turns with 0.3 1/m at 10 m/s, 30 m/s^2 to the side, while our wheels stand
+// straight: it is not ours, and what it asks for is not gone on with.
+TEST(Planner, GoesOnFromNoCurvatureItsWheelsAreFarFrom) {
+  Drive drive = on_straight_road(10.0F);
+  ASSERT_EQ(drive.step(), Status::kOk);
+  for (int i = 0; i < kTrajectoryPoints; ++i) {
+    TrajectoryPoint& point = drive.running.trajectory.points[i];
+    point = drive.running.trajectory.points[i > 0 ? i - 1 : 0];
+    point.curvature_1pm = 0.3F;
+    if (i > 0) point = trajectory::bicycle_step(point, 0.0F, 0.0F, kStepS);
+  }
+  ASSERT_TRUE(trajectory::keeps_limits(drive.running.trajectory, Parameters{}));
+  Plan plan;
+  drive.input.running = &drive.running;
+  EXPECT_EQ(drive.planner->plan(drive.input, plan, drive.explanation), Status::kOk);
+  for (const TrajectoryPoint& point : plan.trajectory.points)
+    EXPECT_LE(point.speed_mps * point.speed_mps * std::abs(point.curvature_1pm), 4.0F);
+}
+
+}  // namespace
+}  // namespace s4tp::planner
