@@ -24,8 +24,9 @@
 ///
 /// AUTH-040 Undisturbed, an application plans what it would plan without authentication, to the bit.
 /// AUTH-041 Commands, motion, lists and map records that somebody else says, invented or recorded, change
-/// neither plan nor car. AUTH-042 What is kept out is missing, and supervision says so: kMotionMissing,
-/// kPoseMissing, kSteeringMissing, kTracksStale, kMapStale and what follows; the car brakes without commands.
+/// neither plan nor car, but by what they keep from its receiver (below). AUTH-042 What is kept out is missing,
+/// and supervision says so: kMotionMissing, kPoseMissing, kSteeringMissing, kTracksStale, kMapStale and what
+/// follows; the car brakes without commands.
 ///
 /// Whoever floods the bus, or slips a frame into a group, keeps that group from its receiver: then it is
 /// missing, and the supervision of the application says so. Static memory: 29 KiB, most of it the map

@@ -53,8 +53,10 @@ bool MapHead::take(const wire::Frame& frame) {
 
 bool MapHead::said_before() const {
   constexpr unsigned kBehindCounter = 0xF0;
-  if (before_.length == 0) return false;
-  bool same = (before_.data[1] & kBehindCounter) == (frames_[0].data[1] & kBehindCounter);
+  wire::E2eReceiver receiver;
+  static_cast<void>(receiver.check(before_));
+  bool same = receiver.check(frames_[0]) == wire::E2eState::kOk &&
+              (before_.data[1] & kBehindCounter) == (frames_[0].data[1] & kBehindCounter);
   for (int i = 2; i < 8; ++i) same = same && before_.data[i] == frames_[0].data[i];
   return same;
 }

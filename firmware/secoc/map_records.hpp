@@ -25,7 +25,8 @@ class MapHead {
   [[nodiscard]] std::uint16_t digest() const { return digest_; }
   [[nodiscard]] const wire::Frame& frame(int i) const { return frames_[i]; }
   /// The header before. A receiver of the map trusts only the second header that it sees: where the one
-  /// before says the same but for CRC and counter, the two may be shown to it together.
+  /// before says the same under the counter before, it is bit for bit what the sender of this one says before
+  /// it, whoever said it, and the two may be shown together.
   [[nodiscard]] const wire::Frame& before() const { return before_; }
   [[nodiscard]] bool said_before() const;
 

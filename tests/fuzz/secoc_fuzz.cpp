@@ -1,12 +1,14 @@
 // Two authentic ends and a stranger between them who loses, repeats, exchanges, changes, records and invents frames, and
-// restarts an end. What comes out at the ECU is what the world said, group by group, in its order, never twice; and once
-// the stranger is gone both ways work again.
+// restarts an end. What comes out at the ECU is what the world said, motion groups and track lists whole, in their order,
+// never twice, the map as the world sealed it, never an older one after a newer; and once the stranger is gone both ways
+// work again.
 
 #include <deque>
+#include <map>
 #include <memory>
 #include <optional>
-#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "firmware/can/frames.hpp"
@@ -15,11 +17,13 @@
 #include "firmware/wire/lane_map.hpp"
 #include "hal/linux/mbedtls_authenticator.hpp"
 #include "tests/fuzz/frames.hpp"
+#include "tests/fuzz/secoc_oracles.hpp"
 #include "tests/support/wire_samples.hpp"
 
 using namespace s4tp;
 using fuzz::expect;
 using fuzz::Input;
+using fuzz::text_of;
 
 namespace {
 
@@ -62,12 +66,6 @@ struct Port final : hal::Can {
   std::vector<hal::CanFrame> out;
 };
 
-std::string text_of(const hal::CanFrame& frame) {
-  std::string text(1, static_cast<char>(frame.id));
-  text.append(reinterpret_cast<const char*>(frame.data), 8);
-  return text;
-}
-
 struct Bus {
   Bus() {
     restart_ecu();
@@ -78,8 +76,12 @@ struct Bus {
   void restart_world() { world.emplace(world_port, world_keys, secoc::End::kWorld); }
 
   void send(const wire::Frame& frame) {
-    said.insert(text_of(to_hal(frame)));
+    said[text_of(to_hal(frame))] = number;
+    secoc::Group group{};
+    if (secoc::find_group(frame.id, group)) ++frames_said[{group, number}];
+    map_taken.said(to_hal(frame));
     expect(world->send(to_hal(frame)), "the bus takes all");
+    if (world_port.out.back().id == wire::kMapAuthId) map_taken.sealed();
   }
   template <class Message>
   void say(const Message& message, wire::E2eSender& sender) {
@@ -112,38 +114,36 @@ struct Bus {
     wire::Frame frame;
     expect(wire::encode(message, frame), "every value fits");
     command.protect(frame);
-    commanded.insert(text_of(to_hal(frame)));
+    commanded[text_of(to_hal(frame))] = commands;
     expect(ecu->send(to_hal(frame)), "the bus takes all");
   }
   /// What the ECU's application gets.
   void take() {
+    const bool all = ecu_port.in.size() <= secoc::AuthenticCan::kLookedAt;
     motion_came = false;
-    int pending_number = -1;
     for (hal::CanFrame frame; ecu->receive(frame);) {
       secoc::Group group{};
-      if (secoc::find_group(frame.id, group))
-        expect(said.count(text_of(frame)) == 1, "what comes out was said by the world");
-      wire::Frame of_wire{frame.id, 8, {}};
-      for (int i = 0; i < 8; ++i) of_wire.data[i] = frame.data[i];
-      wire::Motion message;
-      wire::Steering angle;
-      if (wire::decode(of_wire, message)) {
-        expect(message.vehicle_time_ms > newest, "newer than all before");
-        newest = pending_number = message.vehicle_time_ms;
-        motion_came = true;
-      } else if (wire::decode(of_wire, angle)) {
-        const int own = static_cast<int>(angle.steering_rad * 10000.0F + 0.5F);
-        expect(own == pending_number % 30000, "of one group");
+      if (!secoc::find_group(frame.id, group)) continue;
+      const auto words = said.find(text_of(frame));
+      expect(words != said.end(), "what comes out was said by the world");
+      if (group == secoc::Group::kMap) {
+        map_taken.take(frame);
+      } else {
+        taken[group].take(frame, words->second, frames_said[{group, words->second}]);
       }
+      motion_came = motion_came || frame.id == wire::kMotionId;
     }
+    for (const auto& [group, of_group] : taken) of_group.end();
+    if (all) map_taken.end();
   }
   /// \return whether a command came
   bool world_takes() {
     bool came = false;
     for (hal::CanFrame frame; world->receive(frame);) {
       if (frame.id != wire::kCommandId) continue;
-      expect(commanded.count(text_of(frame)) == 1, "a command that comes out was made by the ECU");
-      commanded.erase(text_of(frame));
+      const auto words = commanded.find(text_of(frame));
+      expect(words != commanded.end(), "a command that comes out was made by the ECU");
+      command_taken.take(frame, words->second, 1);
       came = true;
     }
     return came;
@@ -169,12 +169,15 @@ struct Bus {
   wire::E2eSender motion, steering, tick, command;
   wire::TrackListSender lists;
   wire::MapSender map;
-  std::set<std::string> said;
-  std::set<std::string> commanded;  ///< and not yet taken
+  std::map<std::string, int> said;       ///< by the world, and when last
+  std::map<std::string, int> commanded;  ///< by the ECU, and when
+  std::map<std::pair<secoc::Group, int>, int> frames_said;
+  std::map<secoc::Group, fuzz::Taken> taken;
+  fuzz::Taken command_taken;
+  fuzz::MapTaken map_taken;
   std::vector<hal::CanFrame> recorded;
   int number = 0;
   int commands = 0;
-  int newest = -1;
   bool motion_came = false;
 };
 
@@ -192,8 +195,13 @@ void meddle(Input& input, std::vector<hal::CanFrame>& frames) {
     case 2:
       std::swap(frames[at], frames[other]);
       break;
-    default:
-      frames[at].data[input.below(8)] = input.byte();
+    default: {
+      wire::Frame changed = to_wire(frames[at]);
+      const bool protects = wire::e2e_crc_fits(changed);  // companions have no CRC
+      changed.data[input.below(8)] = input.byte();
+      if (protects) wire::e2e_seal(changed);
+      frames[at] = to_hal(changed);
+    }
   }
 }
 
@@ -204,13 +212,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto bus = std::make_unique<Bus>();
   fuzz::Counters counters;
   for (int steps = 0; !input.empty() && steps < 300; ++steps) {
-    switch (input.below(12)) {
-      case 0:
-        meddle(input, bus->world_port.out);
-        break;
-      case 1:
-        meddle(input, bus->ecu_port.out);
-        break;
+    switch (const int step = input.below(12)) {
       case 2:
         if (!bus->recorded.empty()) {
           const std::size_t from = input.take<std::uint16_t>() % bus->recorded.size();
@@ -234,12 +236,16 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         bus->map.update(
             wire::sample_map(2 + input.below(4), 2 + input.below(3), input.below(4), input.byte()));
         break;
-      default:
+      default: {  // 10 ms; in 1 the stranger gets hold of what one of the ends says
+        const int held = step == 1 ? 1 + input.below(2) : 0;
         bus->world_tick();
+        if (held == 1) meddle(input, bus->world_port.out);
         bus->deliver();
         bus->ecu_tick();
+        if (held == 2) meddle(input, bus->ecu_port.out);
         static_cast<void>(bus->world_takes());
         bus->deliver();
+      }
     }
   }
   bool both = false;

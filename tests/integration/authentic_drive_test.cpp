@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "firmware/ecu/records.hpp"
+#include "firmware/secoc/frames.hpp"
 #include "hal/sim/null_devices.hpp"
 #include "sim_host/baselines/any_ecu.hpp"
 #include "sim_host/world/world.hpp"
@@ -234,6 +235,41 @@ TEST(AuthenticDrive, ForgedMotionIsNotBelieved) {
   EXPECT_EQ(alone->plans.digests, attacked->plans.digests);
   EXPECT_EQ(attacked->core().faults(), alone->core().faults());
   EXPECT_GT(attacked->ecu_end->tally().refused, 500U);
+}
+
+// AUTH-041 Whole recorded lists with their companions, as they were and in turn with the time of now, said
+// between the genuine ones: the same plans as without the stranger, each companion refused.
+TEST(AuthenticDrive, ReplayedListsAreNotBelieved) {
+  const world::Scenario road = scenario("left_turn");
+  const auto alone = std::make_unique<Drive>(road, true);
+  alone->run();
+  const auto attacked = std::make_unique<Drive>(road, true);
+  std::vector<Frames> recorded(1);  // the last one is still being said
+  std::uint32_t said = 0;
+  attacked->before_world = [&] {
+    for (const wire::Frame& frame : attacked->wire.seen) {
+      const bool closes = frame.id == wire::kTrackListAuthId;
+      if (closes || frame.id == wire::kTrackListId || secoc::is_member(frame.id))
+        recorded.back().push_back(frame);
+      if (closes) recorded.emplace_back();
+    }
+    // A list slipped into a genuine one would keep that out.
+    if (!recorded.back().empty() || recorded.size() < 30) return;
+    Frames old = recorded[said % (recorded.size() - 10)];
+    wire::TrackList header;
+    ASSERT_TRUE(wire::decode(old.front(), header));
+    header.vehicle_time_ms = static_cast<std::uint16_t>(1000.0 * attacked->world().time_s());
+    if (++said % 2 == 0) {
+      ASSERT_TRUE(wire::encode(header, old.front()));
+      wire::e2e_seal(old.front());
+    }
+    for (const wire::Frame& frame : old) attacked->inject(frame);
+  };
+  attacked->run();
+  EXPECT_GT(said, 300U);
+  EXPECT_EQ(alone->plans.digests, attacked->plans.digests);
+  EXPECT_EQ(attacked->core().faults(), alone->core().faults());
+  EXPECT_GE(attacked->ecu_end->tally().refused + 1, said) << "the last one is heard by nobody";
 }
 
 // AUTH-042 What authentication keeps out is missing, and that is seen: with companions of the motion group
