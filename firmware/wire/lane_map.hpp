@@ -137,13 +137,14 @@ class MapReceiver {
     std::uint8_t revision = 0xFF;
     std::uint16_t parts = 0;  ///< bit i: part i arrived
     std::uint16_t checks[Parts] = {};
+    std::uint16_t check = 0;  ///< of the record, as far as it is there: what it adds to the digest
 
     [[nodiscard]] bool has(int count) const;
-    [[nodiscard]] std::uint16_t check(int count) const;
     /// Clears parts and record when the revision is another one. \return whether it is
     template <typename Record>
     [[nodiscard]] bool open(std::uint8_t new_revision, Record& record);
-    void note(int part, const Frame& frame);
+    /// Takes a part of a record that consists of `count`.
+    void note(int part, const Frame& frame, int count);
   };
 
   /// What a header says a whole map is.
@@ -161,9 +162,10 @@ class MapReceiver {
   [[nodiscard]] bool accept_lane_part(const Frame& frame);
   template <typename Message>
   [[nodiscard]] bool accept_conflict_part(const Frame& frame);
-  void sum_up();
-  [[nodiscard]] std::uint16_t lane_check(int slot) const;
-  [[nodiscard]] std::uint16_t conflict_check(int slot) const;
+  // Records that come into use or go out of it change the digest.
+  void announce(const Announced& announced);
+  void use_lanes(int half, std::uint32_t lanes);
+  void change_digest(std::uint16_t out, std::uint16_t in);
   [[nodiscard]] bool complete() const;
   [[nodiscard]] bool plausible() const;
   [[nodiscard]] bool finish_if_whole();

@@ -87,27 +87,22 @@ bool MapReceiver::Progress<Parts>::has(int count) const {
 }
 
 template <int Parts>
-std::uint16_t MapReceiver::Progress<Parts>::check(int count) const {
-  unsigned sum = 0;
-  for (int part = 0; part < count; ++part) sum += checks[part];
-  return static_cast<std::uint16_t>(sum);
-}
-
-template <int Parts>
 template <typename Record>
 bool MapReceiver::Progress<Parts>::open(std::uint8_t new_revision, Record& record) {
   if (revision == new_revision) return false;
+  *this = Progress{};
   revision = new_revision;
-  parts = 0;
-  for (std::uint16_t& check : checks) check = 0;
   record = Record{};
   return true;
 }
 
 template <int Parts>
-void MapReceiver::Progress<Parts>::note(int part, const Frame& frame) {
+void MapReceiver::Progress<Parts>::note(int part, const Frame& frame, int count) {
   parts = static_cast<std::uint16_t>(parts | (1U << part));
   checks[part] = frame_check(frame);
+  unsigned sum = 0;
+  for (int i = 0; i < count; ++i) sum += checks[i];
+  check = static_cast<std::uint16_t>(sum);
 }
 
 bool MapReceiver::Announced::same(const Announced& other) const {
@@ -158,8 +153,7 @@ bool MapReceiver::accept_header(const Frame& frame) {
   announced.digest = header.digest;
   header_seen_ = true;
   generation_ = header.generation;
-  announced_ = announced;
-  sum_up();
+  announce(announced);
   confirmed_ = have_whole_ && announced_.same(whole_announced_);
   return finish_if_whole();
 }
@@ -171,9 +165,8 @@ bool MapReceiver::accept_slots(const Frame& frame) {
     return false;
   }
   if (!header_seen_ || slots.generation != generation_) return false;
-  in_use_[slots.half] = slots.in_use;
+  use_lanes(slots.half, slots.in_use);
   halves_ = static_cast<std::uint8_t>(halves_ | (1U << slots.half));
-  sum_up();
   return finish_if_whole();
 }
 
@@ -186,11 +179,11 @@ bool MapReceiver::accept_lane_part(const Frame& frame) {
   }
   Lane& lane = assembling_.lanes[message.lane];
   auto& progress = lane_progress_[message.lane];
-  const std::uint16_t before = lane_check(message.lane);
+  const std::uint16_t before = progress.check;
   if (progress.open(message.revision, lane)) revised_ = true;
   fill(message, lane);
-  progress.note(part_of(message), frame);
-  digest_ = static_cast<std::uint16_t>(digest_ - before + lane_check(message.lane));
+  progress.note(part_of(message), frame, part_count(lane));
+  if (contains(in_use_, message.lane)) change_digest(before, progress.check);
   return finish_if_whole();
 }
 
@@ -203,27 +196,39 @@ bool MapReceiver::accept_conflict_part(const Frame& frame) {
   }
   Conflict& conflict = assembling_.conflicts[message.conflict];
   auto& progress = conflict_progress_[message.conflict];
-  const std::uint16_t before = conflict_check(message.conflict);
+  const std::uint16_t before = progress.check;
   if (progress.open(message.revision, conflict)) revised_ = true;
   fill(message, conflict);
-  progress.note(part_of(message), frame);
-  digest_ = static_cast<std::uint16_t>(digest_ - before + conflict_check(message.conflict));
+  progress.note(part_of(message), frame, part_count(conflict));
+  if (message.conflict < announced_.conflict_count) change_digest(before, progress.check);
   return finish_if_whole();
 }
 
-/// What a record adds to the digest; nothing when it is not in use.
-std::uint16_t MapReceiver::lane_check(int slot) const {
-  return contains(in_use_, slot) ? lane_progress_[slot].check(part_count(assembling_.lanes[slot])) : 0U;
-}
-std::uint16_t MapReceiver::conflict_check(int slot) const {
-  return slot < announced_.conflict_count ? conflict_progress_[slot].check(kConflictParts) : 0U;
+void MapReceiver::announce(const Announced& announced) {
+  const int before = announced_.conflict_count;
+  const int now = announced.conflict_count;
+  announced_ = announced;
+  for (int slot = before; slot < now; ++slot) change_digest(0, conflict_progress_[slot].check);
+  for (int slot = now; slot < before; ++slot) change_digest(conflict_progress_[slot].check, 0);
 }
 
-void MapReceiver::sum_up() {
-  unsigned sum = 0;
-  for (int slot = 0; slot < kMaxLanes; ++slot) sum += lane_check(slot);
-  for (int slot = 0; slot < kMaxConflicts; ++slot) sum += conflict_check(slot);
-  digest_ = static_cast<std::uint16_t>(sum);
+void MapReceiver::use_lanes(int half, std::uint32_t lanes) {
+  const std::uint32_t before = in_use_[half];
+  in_use_[half] = lanes;
+  int slot = 32 * half;
+  for (std::uint32_t changed = before ^ lanes; changed != 0; changed >>= 1U, ++slot) {
+    if ((changed & 1U) == 0U) continue;
+    const std::uint16_t check = lane_progress_[slot].check;
+    if (contains(in_use_, slot)) {
+      change_digest(0, check);
+    } else {
+      change_digest(check, 0);
+    }
+  }
+}
+
+void MapReceiver::change_digest(std::uint16_t out, std::uint16_t in) {
+  digest_ = static_cast<std::uint16_t>(digest_ - out + in);
 }
 
 /// Whether every record in use is there.
