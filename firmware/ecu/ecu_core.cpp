@@ -123,7 +123,7 @@ void EcuCore::take_result() {
   plan_late_ = result.start_ms != boundary_ms_;
   if (plan_late_) return;  // its instant has passed
   if (result.plan.kind == PlanKind::kNone || refused_ || !is_finite(result.plan)) return;
-  if ((faults_ & kLyingFaults) != 0) return;
+  if ((plausibility_.faults() & kLyingFaults) != 0) return;
   plan_ = result.plan;
   explanation_ = result.explanation;
   plan_age_.renew();

@@ -28,7 +28,7 @@ void tell(Lie lie, float, wire::Motion& motion) {
       motion.acceleration_mps2 = std::max(-20.0F, motion.acceleration_mps2 - 20.0F);
       break;
     case Lie::kSpeedLow:
-      motion.speed_mps *= 0.8F;
+      motion.speed_mps *= 0.9F;
       break;
     case Lie::kSpeedHigh:
       motion.speed_mps *= 1.2F;
@@ -88,7 +88,7 @@ const char* lie_name(Lie lie) {
                                                   "acceleration - 20 m/s^2",
                                                   "steering 3 rad",
                                                   "steering + 0.1 rad",
-                                                  "speed x 0.8",
+                                                  "speed x 0.9",
                                                   "speed x 1.2",
                                                   "speed and acceleration 0",
                                                   "clock 10 % fast"};

@@ -18,7 +18,7 @@ enum class Lie : std::uint8_t {
   kBraking,       ///< - 20 m/s^2
   kSteeringFar,   ///< 3 rad
   kSteeringOff,   ///< + 0.1 rad
-  kSpeedLow,      ///< 0.8 of it
+  kSpeedLow,      ///< 0.9 of it
   kSpeedHigh,     ///< 1.2 of it
   kSpeedZero,     ///< 0, acceleration too
   kFastClock,     ///< stamps run 10 % fast
