@@ -95,16 +95,16 @@ Status PlanningCycle::plan(const PlannerInput& input, Plan& plan, Explanation& e
       work_.spend(Stage::kScene, scene_.work + drivable_work + aside_work);
     }
     start_ = trajectory::plan_start(input.ego, input.now_ms, running_, start_ms_, parameters_);
-    if (status == Status::kOk && scene_.list_refused) status = Status::kStaleTracks;
     if (status == Status::kOk) {
-      {
-        const StageScope scope(probe, Stage::kCheck);
-        const int look_work =
-            guard_.look(scene_, start_, 0.001F * static_cast<float>(start_ms_ - scene_.time_ms), parameters_);
-        // What comes last is paid for first.
-        work_.spend(Stage::kCheck, look_work + judge_work() + guard_.commit_work());
-        work_.spend(Stage::kExplain, work::kExplain);
-      }
+      const StageScope scope(probe, Stage::kCheck);
+      const int look_work =
+          guard_.look(scene_, start_, 0.001F * static_cast<float>(start_ms_ - scene_.time_ms), parameters_);
+      // What comes last is paid for first.
+      work_.spend(Stage::kCheck, look_work + judge_work() + guard_.commit_work());
+      work_.spend(Stage::kExplain, work::kExplain);
+      if (scene_.list_refused) status = Status::kStaleTracks;
+    }
+    if (status == Status::kOk) {
       predict(explanation);
       rank(input.degraded != 0, explanation);
       status = choose(explanation);
@@ -137,8 +137,8 @@ void PlanningCycle::give_up(Status status, Plan& plan) {
   const float braking_mps2 = planned_mps2 > 0.0F ? planned_mps2 : parameters_.guard.braking_mps2;
   drive_fail_safe(running_, start_, start_ms_, braking_mps2, parameters_, plan);
   // Where the one ahead has broken the law it takes more.
-  const bool too_near =
-      status == Status::kNoSafePlan && guard_.judge(0, plan.trajectory).cause == safety::Cause::kLeader;
+  const bool looked = status == Status::kNoSafePlan || status == Status::kStaleTracks;
+  const bool too_near = looked && guard_.judge(0, plan.trajectory).cause == safety::Cause::kLeader;
   if (too_near)
     drive_fail_safe(running_, start_, start_ms_, parameters_.vehicle.braking_max_mps2, parameters_, plan);
   chosen_ = plan.trajectory;

@@ -16,7 +16,7 @@
 #include "algo/safety/guard.hpp"
 #include "algo/satp/prediction_trust.hpp"
 #include "algo/satp/satp_predictor.hpp"
-#include "algo/scene/scene.hpp"
+#include "algo/scene/scene_builder.hpp"
 #include "algo/trajectory/optimizer.hpp"
 
 namespace s4tp::planner {
@@ -40,8 +40,8 @@ struct PlannerInput {
 struct WorkAllowance {
   int candidates =
       kMaxCandidates;  ///< candidates tried; of none there is no plan but the minimum-risk manoeuvre
-  int prediction =
-      satp::kMaxPredictionWork;  ///< agent-mode-steps of one prediction; whom it leaves out just keeps going
+  /// Agent-mode-steps of one prediction; whom it leaves out keeps its velocity.
+  int prediction = satp::kMaxPredictionWork;
   /// CORE-076 Of the whole cycle, WorkMeter's units: what stages that are not cut have taken, fewer decisions, less
   /// exact risks and fewer passes of the optimizer make up for.
   std::int32_t cycle = kCycleWork;
@@ -186,7 +186,7 @@ class PlanningCycle {
   sadrf::RiskProfile best_risk_;  ///< of the best decision so far
   bool risk_outdated_ = false;    ///< chosen_ is refined_, explanation.risk not of it
 
-  /// Scratch of stages that never need it at once: the predictor's ways have served when the optimizer
+  /// Scratch of stages that never need it at once: the path hypotheses have served when the optimizer
   /// begins.
   union Arena {
     Arena() : predictor() {}

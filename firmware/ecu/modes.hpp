@@ -36,7 +36,7 @@ enum class FaultBit : std::uint32_t {
   kMotionTiming = 1U << 1,     ///< ECU-011 interval outside 8 .. 12 ms for 3 ticks, early or late
   kPoseMissing = 1U << 2,      ///< ECU-012 no valid pose for 100 ms
   kSteeringMissing = 1U << 3,  ///< ECU-013 no valid steering frame for 100 ms
-  kTracksStale = 1U << 4,      ///< ECU-014 no whole track list for 300 ms
+  kTracksStale = 1U << 4,      ///< ECU-014 no whole track list for 250 ms: two are missing
   kTracksLost = 1U << 5,       ///< ECU-015 none for 1000 ms
   kMapStale = 1U << 6,         ///< ECU-016 map not confirmed for 1 s
   kMapLost = 1U << 7,          ///< ECU-017 none for 5 s

@@ -15,7 +15,7 @@ constexpr Limit kLimits[] = {
     {FaultBit::kMotionTiming, &Observations::motion_mistimed_ticks, 3},
     {FaultBit::kPoseMissing, &Observations::pose_age_ms, 100},
     {FaultBit::kSteeringMissing, &Observations::steering_age_ms, 100},
-    {FaultBit::kTracksStale, &Observations::tracks_age_ms, 300},
+    {FaultBit::kTracksStale, &Observations::tracks_age_ms, 250},
     {FaultBit::kTracksLost, &Observations::tracks_age_ms, 1000},
     {FaultBit::kMapStale, &Observations::map_age_ms, 1000},
     {FaultBit::kMapLost, &Observations::map_age_ms, 5000},

@@ -4,15 +4,12 @@
 
 #include <cstdint>
 
+#include "algo/core/vehicle_time.hpp"
+
 namespace s4tp::ecu {
 
 inline constexpr std::uint32_t kTickMs = 10;            ///< control period
 inline constexpr std::uint32_t kNeverMs = 0xFFFFFFFFU;  ///< age of what has not been seen yet
-
-/// How much later `to_ms` is, negative for earlier; right for times up to 24 days apart.
-[[nodiscard]] constexpr std::int32_t elapsed_ms(std::uint32_t from_ms, std::uint32_t to_ms) {
-  return static_cast<std::int32_t>(to_ms - from_ms);
-}
 
 /// How long ago something was, however long that is.
 class Age {

@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include "algo/scene/scene_builder.hpp"
 #include "sim_host/clips/forecaster.hpp"
 #include "sim_host/world/traffic/box.hpp"
 

@@ -8,7 +8,7 @@
 #include "algo/core/parameters.hpp"
 #include "algo/satp/predictor.hpp"
 #include "algo/satp/yield_belief.hpp"
-#include "algo/scene/scene.hpp"
+#include "algo/scene/scene_builder.hpp"
 #include "sim_host/train/sample.hpp"
 
 namespace s4tp::train {

@@ -91,5 +91,54 @@ TEST(BlindLeader, IsNotHit) {
   }
 }
 
+struct Stand {
+  double fastest_mps = 0.0;
+  double least_gap_m = 1e3;
+  double speed_mps = 0.0;  ///< after 20 s
+};
+
+/// At some 8 m/s a vehicle stands 25 m ahead; two lists say so, and then they go on, or stop.
+Stand approach(bool lists_go_on) {
+  const auto rig = std::make_unique<BasicRig<planner::Planner>>();
+  EXPECT_EQ(rig->start(), Status::kOk);
+  rig->plant.speed_mps = 6.0;
+  rig->engage = true;
+  EXPECT_GE(rig->until(Mode::kDriving), 0);
+  rig->seconds(1.0);
+  const Parameters parameters;
+  const double to_front_m =
+      static_cast<double>(parameters.vehicle.length_m - parameters.vehicle.rear_overhang_m);
+  rig->track_list.count = 1;
+  wire::Track& track = rig->track_list.items[0];
+  track.id = 7;
+  track.x_m = static_cast<float>(rig->plant.x_m + to_front_m + 25.0 + 0.5 * kLength_m);
+  track.length_m = static_cast<float>(kLength_m);
+  track.width_m = 1.8F;
+  rig->seconds(0.2);
+  rig->tracks = lists_go_on;
+  Stand stand;
+  for (int tick = 0; tick < 2000; ++tick) {
+    rig->tick();
+    const double gap_m = static_cast<double>(track.x_m) - 0.5 * kLength_m - rig->plant.x_m - to_front_m;
+    stand.least_gap_m = std::min(stand.least_gap_m, gap_m);
+    stand.fastest_mps = std::max(stand.fastest_mps, rig->plant.speed_mps);
+  }
+  stand.speed_mps = rig->plant.speed_mps;
+  return stand;
+}
+
+// CORE-030: who stands ahead as lists stop is not forgotten: no faster than with lists, and 20 s later behind it.
+TEST(BlindLeader, StandingAheadIsNotForgotten) {
+  const Stand blind = approach(false);
+  const Stand seeing = approach(true);
+  EXPECT_LT(blind.speed_mps, 0.05);
+  EXPECT_GT(blind.least_gap_m, 0.5);
+  EXPECT_LT(blind.fastest_mps, seeing.fastest_mps + 0.05);
+  std::printf(
+      "25 m ahead stands a vehicle: up to %.2f m/s and %.2f m near without lists, %.2f m/s and %.2f m with "
+      "them\n",
+      blind.fastest_mps, blind.least_gap_m, seeing.fastest_mps, seeing.least_gap_m);
+}
+
 }  // namespace
 }  // namespace s4tp::ecu

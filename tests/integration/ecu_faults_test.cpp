@@ -101,18 +101,18 @@ TEST(EcuFaults, SteeringMissing) {
   EXPECT_FALSE(rig->fault(FaultBit::kSteeringMissing));
 }
 
-// ECU-014 ECU-015 ECU-004 ECU-039: the last list arrived with number % 10 == 4. 300 ms later stale: degraded,
+// ECU-014 ECU-015 ECU-004 ECU-039: the last list arrived with number % 10 == 4. 250 ms later two are missing: degraded,
 // and the planner is told; 1000 ms later lost: stopping.
 TEST(EcuFaults, TracksStaleAndLost) {
   const auto rig = driving_rig();
   while (rig->number % 10 != 4) rig->tick();
   rig->tracks = false;
-  EXPECT_EQ(ticks_until(*rig, FaultBit::kTracksStale, 40), 30);
+  EXPECT_EQ(ticks_until(*rig, FaultBit::kTracksStale, 40), 25);
   EXPECT_EQ(rig->ecu.mode(), Mode::kDegraded);
   EXPECT_EQ(rig->ecu.planner().seen.degraded, 0);
   rig->ticks(10);
   EXPECT_EQ(rig->ecu.planner().seen.degraded, 1);
-  EXPECT_EQ(ticks_until(*rig, FaultBit::kTracksLost, 100), 60);
+  EXPECT_EQ(ticks_until(*rig, FaultBit::kTracksLost, 100), 65);
   EXPECT_EQ(rig->ecu.mode(), Mode::kMinimumRisk);
   EXPECT_TRUE(took(*rig, TransitionId::kDegradedMinimumRisk));
   rig->tracks = true;

@@ -6,7 +6,7 @@
 #include <random>
 
 #include "algo/satp/predictor.hpp"
-#include "algo/scene/scene.hpp"
+#include "algo/scene/scene_builder.hpp"
 #include "tests/support/lane_maps.hpp"
 #include "tests/support/scene_support.hpp"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "algo/core/trajectory.hpp"
-#include "algo/scene/scene.hpp"
+#include "algo/scene/scene_builder.hpp"
 
 namespace s4tp::test {
 

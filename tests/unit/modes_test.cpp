@@ -149,7 +149,7 @@ TEST(Supervision, LimitsToTheUnit) {
       {&Observations::motion_mistimed_ticks, 3, bit(FaultBit::kMotionTiming)},
       {&Observations::pose_age_ms, 100, bit(FaultBit::kPoseMissing)},
       {&Observations::steering_age_ms, 100, bit(FaultBit::kSteeringMissing)},
-      {&Observations::tracks_age_ms, 300, bit(FaultBit::kTracksStale)},
+      {&Observations::tracks_age_ms, 250, bit(FaultBit::kTracksStale)},
       {&Observations::tracks_age_ms, 1000, tracks},
       {&Observations::map_age_ms, 1000, bit(FaultBit::kMapStale)},
       {&Observations::map_age_ms, 5000, map},

@@ -1,10 +1,11 @@
+#include "algo/scene/scene_builder.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
 #include "algo/core/math.hpp"
-#include "algo/scene/scene.hpp"
 #include "tests/support/lane_maps.hpp"
 #include "tests/support/scene_support.hpp"
 

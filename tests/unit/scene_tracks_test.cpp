@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
+#include <vector>
 
-#include "algo/scene/scene.hpp"
+#include "algo/scene/scene_builder.hpp"
 #include "tests/support/lane_maps.hpp"
 #include "tests/support/scene_support.hpp"
 
@@ -19,17 +21,16 @@ class Drive {
 
   void step(const std::vector<Track>& tracks, std::uint32_t latency_ms = 0) {
     now_ms += 100;
-    EXPECT_EQ(builder.build(now_ms, test::ego_at(10.0F, 0.0F, 0.0F, 0.0F), test::track_list(tracks),
-                            now_ms - latency_ms, &map_, parameters, scene),
-              Status::kOk);
+    EXPECT_EQ(
+        builder.build(now_ms, ego, test::track_list(tracks), now_ms - latency_ms, &map_, parameters, scene),
+        Status::kOk);
   }
   void step_without_list(std::uint32_t last_list_ms) {
     now_ms += 100;
-    EXPECT_EQ(builder.build(now_ms, test::ego_at(10.0F, 0.0F, 0.0F, 0.0F), TrackList{}, last_list_ms, &map_,
-                            parameters, scene),
-              Status::kOk);
+    EXPECT_EQ(builder.build(now_ms, ego, TrackList{}, last_list_ms, &map_, parameters, scene), Status::kOk);
   }
 
+  EgoState ego = test::ego_at(10.0F, 0.0F, 0.0F, 10.0F);
   std::uint32_t now_ms = 5000;
   scene::SceneBuilder builder;
   scene::Scene scene;
@@ -129,16 +130,56 @@ TEST(SceneBuilder, NobodyIsMissingInAnothersPlace) {
   }
 }
 
-// CORE-030 Lists that stop coming are refused after 500 ms; what they told of goes no later than a missing one.
-TEST(SceneBuilder, ListsThatStopAreRefused) {
+// CORE-030 Lists that stop coming are refused after 500 ms, and nobody goes: a vehicle at 10 m/s is taken to be 10 m on
+// after a second and no further after five, its age counts on. A list that comes then and lacks it says that it is gone.
+TEST(SceneBuilder, WithoutListsAllStay) {
   Drive drive;
   drive.step({test::car(1, 50.0F, 0.0F, 0.0F, 10.0F)});
   const std::uint32_t last_ms = drive.now_ms;
-  for (int i = 1; i <= 11; ++i) {
+  for (int i = 1; i <= 50; ++i) {
     drive.step_without_list(last_ms);
     EXPECT_EQ(drive.scene.list_refused, i > 5) << i;
-    EXPECT_EQ(drive.scene.agents.size(), i <= 10 ? 1 : 0) << i;
+    ASSERT_EQ(drive.scene.agents.size(), 1) << i;
+    EXPECT_EQ(drive.scene.agents[0].age_ms, 100 * i);
+    EXPECT_NEAR(drive.scene.agents[0].coasted_m, static_cast<float>(std::min(i, 10)), 1e-2F);
   }
+  drive.step({});
+  EXPECT_EQ(drive.scene.agents.size(), 0);
+}
+
+// CORE-030 Without lists a vehicle that was missing already stays as well, until we stand, a second at least; without
+// standing, a minute at most.
+TEST(SceneBuilder, WithoutListsAllStayUntilWeStand) {
+  for (const bool stand : {true, false}) {
+    Drive drive;
+    drive.step({test::car(1, 50.0F, 0.0F, 0.0F, 10.0F)});
+    drive.step({});
+    const std::uint32_t last_ms = drive.now_ms;
+    for (int i = 1; i <= 601; ++i) {
+      if (stand && i == 30) drive.ego.speed_mps = 0.0F;
+      drive.step_without_list(last_ms);
+      ASSERT_EQ(drive.scene.agents.size(), i < (stand ? 30 : 601) ? 1 : 0) << i;
+    }
+  }
+}
+
+// CORE-030 Sixteen who were there before a time without lists take no room from the sixteen who are there after it.
+TEST(SceneBuilder, AfterATimeWithoutListsWhoIsThereIsKnown) {
+  Drive drive;
+  std::vector<Track> before;
+  std::vector<Track> after;
+  for (int i = 0; i < kMaxTracks; ++i) {
+    const float x_m = 30.0F + 8.0F * static_cast<float>(i);
+    before.push_back(test::car(i, x_m, 0.0F, 0.0F, 0.0F));
+    after.push_back(test::car(100 + i, x_m + 200.0F, 0.0F, 0.0F, 0.0F));
+  }
+  drive.step(before);
+  const std::uint32_t last_ms = drive.now_ms;
+  for (int i = 0; i < 20; ++i) drive.step_without_list(last_ms);
+  drive.step(after);
+  ASSERT_EQ(drive.scene.agents.size(), kMaxTracks);
+  for (const scene::Agent& agent : drive.scene.agents) EXPECT_GE(agent.track.id, 100);
+  EXPECT_EQ(drive.scene.known.left_out, 0);
 }
 
 // Eleven samples 1 m apart after eleven cycles at 10 m/s; before, the missing ones are masked.
