@@ -44,6 +44,7 @@ TARGETS = {
         "scenario/route_file", "scenario/vehicle_types", "scenario/flow_attributes", "map/xml_values")]),
     "secoc": Target(512, ["firmware/secoc"]),
     "slcan": Target(96, ["hal/slcan.cpp"]),
+    "texts": Target(4096, ["sim_host/faults/script.cpp", "hal/linux/key_file.cpp", "sim_host/clips/clip.cpp"]),
     "toml": Target(2048, [f"{WORLD}/scenario/{name}.cpp" for name in ("scenario", "toml_table", "toml_shape")]
                    + ["sim_host/campaign/parameters_file.cpp"]),
     "traci": Target(256, [f"sim_host/sumo/{name}.cpp" for name in ("traci_client", "traci_message")]),

@@ -23,7 +23,7 @@ install(TARGETS ${package_targets} EXPORT s4tp
 install(EXPORT s4tp NAMESPACE s4tp:: FILE s4tp-targets.cmake DESTINATION ${package_config})
 
 install(DIRECTORY algo DESTINATION ${package_headers} FILES_MATCHING PATTERN *.hpp PATTERN *.def
-  PATTERN api EXCLUDE PATTERN c_conversion.hpp EXCLUDE PATTERN inline.hpp EXCLUDE PATTERN guard_own.hpp EXCLUDE PATTERN linear_algebra.hpp EXCLUDE
+  PATTERN api EXCLUDE PATTERN c_conversion.hpp EXCLUDE PATTERN inline.hpp EXCLUDE PATTERN sort.hpp EXCLUDE PATTERN guard_own.hpp EXCLUDE PATTERN linear_algebra.hpp EXCLUDE
   PATTERN embedding.hpp EXCLUDE PATTERN requantize.hpp EXCLUDE PATTERN output.hpp EXCLUDE
   PATTERN kernel_*.hpp EXCLUDE PATTERN lanes*.hpp EXCLUDE PATTERN slices.hpp EXCLUDE
   PATTERN ilqr_model.hpp EXCLUDE PATTERN ilqr_backward.hpp EXCLUDE)

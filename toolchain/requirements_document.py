@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """The list of requirements: id, text, where it is promised, by what it is verified.
 
-    requirements_document.py [ROOT] > requirements.md
+    requirements_document.py [ROOT] > docs/requirements.md
 
-Promises stand beside the code that keeps them, and move with it; this list is made from them. Exit code 1 when one is
-verified by no test.
+Promises stand beside the code that keeps them, and move with it; this list is made from them (check_docs.py compares).
+Exit code 1 when one is verified by no test.
 """
 
 import pathlib
@@ -17,7 +17,7 @@ PROMISE = re.compile(r"\b([A-Z]+-\d{3})\b")
 MARK = re.compile(r"^\s*(?:///?<?|\*+/?|/\*+)\s?")
 TEST = re.compile(r"^\s*(?:TEST(?:_[FP])?|RC_GTEST(?:_FIXTURE)?_PROP|TYPED_TEST)\s*\(\s*(\w+)\s*,\s*(\w+)")
 PYTHON_TEST = re.compile(r"^\s+def (test_\w+)")
-END = re.compile(r"\\(?:param|return|note|pre|post|code)\b|\bWork:")
+END = re.compile(r"\\(?:param|return|throws|note|pre|post|code)\b|\bWork:")
 RANGED = re.compile(r"\s*(?:\.\.+|to)\s*$")
 
 

@@ -73,7 +73,7 @@ std::uint32_t parameters_crc(const Parameters& parameters) {
     const float value = get_parameter(parameters, i);
     std::uint32_t bits = 0;
     std::memcpy(&bits, &value, sizeof(bits));
-    for (unsigned shift = 0; shift < 32U; shift += 8U) crc = crc32_byte(crc, bits >> shift);
+    crc = crc32_word(crc, bits);
   }
   return crc ^ 0xFFFFFFFFU;
 }

@@ -1,5 +1,6 @@
 #pragma once
-/// What the planner is told about the world at one instant: the input side of the core.
+/// What the planner is told about the world at one instant: the input side of the core. Ranges are as
+/// input_ranges.hpp has them.
 /// Positions are in the local odometry frame; the reference point is named per type.
 
 #include <cstdint>

@@ -1,6 +1,7 @@
 #include "algo/planner/decision.hpp"
 
 #include "algo/core/inline.hpp"
+#include "algo/core/sort.hpp"
 
 namespace s4tp::planner {
 namespace {
@@ -56,12 +57,7 @@ void DecisionList::offer(DecisionKey key, int candidate, float score) {
 }
 
 void DecisionList::shortlist(int count, bool has_must_keep, DecisionKey must_keep) {
-  for (int i = 1; i < decisions_.size(); ++i) {  // insertion sort: at most 24 entries
-    const Decision moving = decisions_[i];
-    int j = i;
-    for (; j > 0 && moving.score < decisions_[j - 1].score; --j) decisions_[j] = decisions_[j - 1];
-    decisions_[j] = moving;
-  }
+  sort(decisions_, [](const Decision& a, const Decision& b) { return a.score < b.score; });
   if (decisions_.size() <= count || count <= 0) return;
   if (has_must_keep) {
     for (int i = count; i < decisions_.size(); ++i) {

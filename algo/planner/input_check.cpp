@@ -1,34 +1,36 @@
 #include "algo/planner/input_check.hpp"
 
 #include "algo/core/inline.hpp"
+#include "algo/core/input_ranges.hpp"
 #include "algo/trajectory/plan_limits.hpp"
 
 namespace s4tp::planner {
 namespace {
 
 constexpr std::uint32_t kMaxLeadMs = 200;  // plan start after the snapshot
-constexpr float kFarthestM = 1e5F;         // from the frame's origin
 
 bool within(float x, float low, float high) {
   return is_finite(x) && x >= low && x <= high;
 }
 
 bool valid(const Pose& pose) {
-  return abs(pose.x_m) < kFarthestM && abs(pose.y_m) < kFarthestM && within(pose.heading_rad, -kPi, kPi);
+  return abs(pose.x_m) < kFarthestInputM && abs(pose.y_m) < kFarthestInputM &&
+         within(pose.heading_rad, -kPi, kPi);
 }
 
 bool valid(const Track& track) {
-  return valid(track.centre) && within(track.speed_mps, 0.0F, 61.0F) &&
-         within(track.acceleration_mps2, -13.0F, 13.0F) && within(track.yaw_rate_radps, -1.3F, 1.3F) &&
-         within(track.length_m, 0.5F, 26.0F) && within(track.width_m, 0.3F, 3.2F);
+  return valid(track.centre) && is_taken(track.speed_mps, kTrackSpeedMps) &&
+         is_taken(track.acceleration_mps2, kTrackAccelerationMps2) &&
+         is_taken(track.yaw_rate_radps, kTrackYawRateRadps) && is_taken(track.length_m, kTrackLengthM) &&
+         is_taken(track.width_m, kTrackWidthM);
 }
 
 }  // namespace
 
 bool is_valid(const EgoState& ego) {
-  return valid(ego.rear_axle) && within(ego.speed_mps, 0.0F, 60.0F) &&
-         within(ego.acceleration_mps2, -12.0F, 12.0F) && within(ego.yaw_rate_radps, -2.1F, 2.1F) &&
-         within(ego.steering_rad, -0.8F, 0.8F);
+  return valid(ego.rear_axle) && is_taken(ego.speed_mps, kEgoSpeedMps) &&
+         is_taken(ego.acceleration_mps2, kEgoAccelerationMps2) &&
+         is_taken(ego.yaw_rate_radps, kEgoYawRateRadps) && is_taken(ego.steering_rad, kEgoSteeringRad);
 }
 
 bool is_valid(const Plan& plan, const Parameters& parameters) {

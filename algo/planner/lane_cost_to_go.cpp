@@ -159,15 +159,15 @@ float LaneCostToGo::delay_s(int path, float s_m, float speed_mps) const {
   }
   float meanwhile_mps = speed_mps;
   const float back_s = arrival_s(lane, back_s_m, s_m, meanwhile_mps);
-  bool behind = false;  // the one ahead of him
+  bool behind = false;  // the vehicle ahead of `other`
   for (const LaneVehicle& other : lane.seen) {
     if (other.in_lane) continue;
-    // While we brake to his speed we get ahead of him still.
+    // While we brake to its speed we get ahead of it still.
     const float ahead_m = back_s_m + centre_m_ + per_braking * square(max(0.0F, back_mps - other.speed_mps)) -
                           (other.s_m + other.speed_mps * back_s);
     const float needed_m = 0.5F * (parameters_->vehicle.length_m + other.length_m) +
                            safety::change_gap_to_follower_m(other.speed_mps, other.speed_mps, *parameters_);
-    if (ahead_m >= needed_m && !(behind && other.tight)) break;  // there is room in front of him
+    if (ahead_m >= needed_m && !(behind && other.tight)) break;  // there is room in front of it
     behind = true;
     longest_s = max(longest_s, behind_s(other, lane.target_s_m));
   }

@@ -1,6 +1,6 @@
 #pragma once
 /// What driving on in each lane promises beyond the horizon: overtaking when it pays (method.md 4.7).
-/// 3 s see a slow car ahead, but not that the lane beside it would have saved 8 s by the goal. The outlook
+/// 3 s see a slow car ahead, but not that the lane beside it would have saved 8 s by the goal. This
 /// drives on in thought, in closed form: we at the limit, everybody else as fast as now.
 
 #include "algo/core/bounded.hpp"
@@ -21,7 +21,7 @@ class LaneCostToGo {
 
   /// Time lost [s] against driving at the limit, until the goal or 150 m from here, by whoever is at `s_m`
   /// with `speed_mps` at the horizon's end and then stays in the lane of `path`: behind the slower ones in
-  /// it, and behind those in the lanes of the route that he cannot pass before he has to be back there.
+  /// it, and behind those in the lanes of the route that cannot be passed before the way back into them.
   /// Counts less, then nothing, as the room for lane changes that we have to make shortens.
   [[nodiscard]] float delay_s(int path, float s_m, float speed_mps) const;
 
@@ -44,7 +44,7 @@ class LaneCostToGo {
     LaneVehicles seen;
     bool returns = false;     ///< somebody is in a lane we have to return to
     LaneGap gap;              ///< that we can meet, in a lane beside ours
-    float target_s_m = 0.0F;  ///< how far the outlook goes
+    float target_s_m = 0.0F;  ///< how far we drive on in thought
     float room_s_m = 0.0F;    ///< where we must have come to rest if a change due has not been made
     float limit_mps = 1.0F;
   };

@@ -1,18 +1,22 @@
 #include "algo/planner/lane_gap.hpp"
 
 #include "algo/core/inline.hpp"
+#include "algo/core/sort.hpp"
+#include "algo/occupancy/pace.hpp"
 #include "algo/safety/change_gaps.hpp"
 #include "algo/trajectory/bicycle.hpp"
 
 namespace s4tp::planner {
 namespace {
 
+using occupancy::kNeverS;
+using occupancy::stopping_way_m;
+
 constexpr float kHorizonS = static_cast<float>(kHorizonSteps) * kStepS;
 constexpr float kPatienceS = 8.0F;
 constexpr float kDuePatienceS = 20.0F;
-constexpr float kInsetM = 0.2F;  // from both ends of a gap: vehicles do not keep their speeds exactly
-constexpr float kShare = 0.8F;   // of comfortable drive and braking
-constexpr float kNeverS = 1e3F;
+constexpr float kInsetM = 0.2F;    // from both ends of a gap: vehicles do not keep their speeds exactly
+constexpr float kShare = 0.8F;     // of comfortable drive and braking
 constexpr float kAlikeMps = 0.5F;  // speeds in a column differ by this from one moment to the next
 
 /// Time to gain `way_m` >= 0 and end with no speed, from `speed` (relative ones), with `up` while gaining
@@ -49,7 +53,7 @@ LaneGap gap_between(const LaneVehicle* front, const LaneVehicle* rear, float lim
   return gap;
 }
 
-/// Who is hardly faster than the one ahead is in a column with him, and comes no nearer.
+/// A vehicle hardly faster than the one ahead is in a column with it, and comes no nearer.
 void keep_distance(const LaneVehicle& ahead, LaneVehicle& vehicle) {
   const float faster_mps = vehicle.speed_mps - ahead.speed_mps;
   if (faster_mps <= 0.0F || faster_mps > kAlikeMps) return;
@@ -60,12 +64,7 @@ void keep_distance(const LaneVehicle& ahead, LaneVehicle& vehicle) {
 }  // namespace
 
 void put_in_order(LaneVehicles& vehicles, const Parameters& parameters) {
-  for (int i = 1; i < vehicles.size(); ++i) {
-    const LaneVehicle moving = vehicles[i];
-    int j = i;
-    for (; j > 0 && vehicles[j - 1].s_m < moving.s_m; --j) vehicles[j] = vehicles[j - 1];
-    vehicles[j] = moving;
-  }
+  sort(vehicles, [](const LaneVehicle& a, const LaneVehicle& b) { return a.s_m > b.s_m; });
   const LaneVehicle* front[2] = {nullptr, nullptr};
   for (LaneVehicle& vehicle : vehicles) {
     const LaneVehicle*& ahead = front[vehicle.in_lane ? 1 : 0];
@@ -84,7 +83,7 @@ float time_to_meet_s(const LaneGap& gap, float ahead_s, float s_m, float speed_m
   const float now_m = s_m + gap.speed_mps * ahead_s;
   const float speed = speed_mps - gap.speed_mps;
   const float matched_m =
-      now_m + (speed > 0.0F ? square(speed) / (2.0F * braking) : -square(speed) / (2.0F * drive));
+      now_m + (speed > 0.0F ? stopping_way_m(speed, braking) : -stopping_way_m(speed, drive));
   if (gap.bounded_behind && matched_m < gap.rear_s_m) {
     return time_to_gain_s(gap.rear_s_m - now_m, speed, drive, braking, limit_mps - gap.speed_mps);
   }
@@ -113,7 +112,7 @@ LaneGap find_lane_gap(const LaneVehicles& vehicles, const GapSeeker& us, const P
     const float moved_m = gap.speed_mps * (time_s - kHorizonS);
     if (gap.bounded_behind) place_m = max(place_m, gap.rear_s_m + moved_m);
     if (gap.bounded_ahead) place_m = min(place_m, gap.front_s_m + moved_m);
-    const float stop_m = square(gap.speed_mps) / (2.0F * parameters.comfort.braking_mps2);
+    const float stop_m = stopping_way_m(gap.speed_mps, parameters.comfort.braking_mps2);
     if (us.change_due && place_m + stop_m > us.end_s_m) continue;
     const float leader_s_m = us.leader_s_m + us.leader_mps * time_s - parameters.comfort.standstill_gap_m;
     if (us.has_leader && place_m > leader_s_m) continue;

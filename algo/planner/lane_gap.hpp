@@ -1,6 +1,6 @@
 #pragma once
 /// Gaps between the vehicles of a lane beside: which one we can be in, and how soon. A driver who has to
-/// change lanes looks for his gap early and takes on its speed before he signals.
+/// change lanes looks for a gap early, and takes on its speed before signalling.
 
 #include "algo/core/bounded.hpp"
 #include "algo/core/config.hpp"
@@ -41,11 +41,11 @@ struct GapSeeker {
   float leader_mps = 0.0F;
 };
 
-/// Foremost first; and says who is tight behind whom. Who is faster than the one ahead by 0.5 m/s at most is
-/// in a column with him and comes no nearer (GAP-004).
+/// Foremost first; and says who is tight behind whom. A vehicle faster than the one ahead by 0.5 m/s at
+/// most is in a column with it and comes no nearer (GAP-004).
 void put_in_order(LaneVehicles& vehicles, const Parameters& parameters);
 
-/// Time [s] until we are in the gap at its speed, by comfortable drive and braking. 1e3: never.
+/// Time [s] until we are in the gap at its speed, by comfortable drive and braking; occupancy::kNeverS: never.
 /// \param ahead_s  when we are at `s_m`, before (positive) the horizon's end
 [[nodiscard]] float time_to_meet_s(const LaneGap& gap, float ahead_s, float s_m, float speed_mps,
                                    float limit_mps, const Parameters& parameters);

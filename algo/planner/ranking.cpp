@@ -54,7 +54,7 @@ class PlanningCycle::Ranking final : public trajectory::CandidateVisitor {
     if (rejection == trajectory::Rejection::kNone) {
       score(index, candidate, previous);
     } else {
-      note_held_up(candidate.path, verdict);
+      note_blocking(candidate.path, verdict);
     }
   }
 
@@ -102,7 +102,7 @@ class PlanningCycle::Ranking final : public trajectory::CandidateVisitor {
     planner_.work_.spend(Stage::kRank, before - risk_work_.left);
   }
 
-  void note_held_up(int path, const safety::Verdict& verdict) {
+  void note_blocking(int path, const safety::Verdict& verdict) {
     const scene::Manoeuvre manoeuvre = planner_.scene_.ego_paths[path].manoeuvre;
     BlockingReason& blocking =
         manoeuvre == scene::Manoeuvre::kKeep ? explanation_.blocking : explanation_.beside;

@@ -1,6 +1,7 @@
 #include "algo/planner/scoring.hpp"
 
 #include "algo/core/inline.hpp"
+#include "algo/occupancy/pace.hpp"
 #include "algo/trajectory/along_path.hpp"
 #include "algo/trajectory/bicycle.hpp"
 
@@ -25,7 +26,7 @@ float route_cost(const scene::EgoPath& path, float end_s_m, float end_mps, const
   const float missed = kMissedRoute * parameters.scoring.lane_route * count;
   // Whoever cannot stop before the end has missed it. The last place to wait leaves room to change from rest.
   const float to_place_m = room_m - trajectory::rear_axle_to_front_m(parameters) -
-                           square(end_mps) / (2.0F * parameters.comfort.braking_mps2);
+                           occupancy::stopping_way_m(end_mps, parameters.comfort.braking_mps2);
   if (to_place_m < 0.0F) return missed;
   const float shortage = max(0.0F, 1.0F - to_place_m / (trajectory::kChangeWayM * count));
   const float pressing = 1.0F + kChangeRoomM * count / (room_m + 10.0F);

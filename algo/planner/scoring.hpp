@@ -15,7 +15,7 @@ namespace s4tp::planner {
                                                       const Parameters& parameters);
 
 /// All terms but risk. From the lane we are in, one we had rather be in also asks how soon the end leads into
-/// a gap there: a driver who has to merge looks for his gap before he signals. \param path  index of the ego
+/// a gap there: a driver who has to merge looks for a gap before signalling. \param path  index of the ego
 /// path the trajectory follows \param start_s_m  of its start, along it \param other_lane  than the running
 /// plan's: starting a lane change has its price, and so has dropping one \param careful  degraded driving:
 /// the speed wanted is lower \param work  what it took is added [WorkMeter's units]

@@ -1,5 +1,5 @@
 #pragma once
-/// How another driver moves along a predicted future: what his own field needs.
+/// How another driver moves along a predicted future: what its own field needs.
 
 #include "algo/sadrf/field.hpp"
 #include "algo/satp/prediction.hpp"

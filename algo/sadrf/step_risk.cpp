@@ -176,8 +176,8 @@ void for_boxes_in_our_field(const StepInputs& inputs, const Field& field, int st
   for (int i = 0; i < boxes.size(); ++i) each(boxes[i], own_part(field, boxes, i, work), risks[i]);
 }
 
-/// True when we are surely behind a driver or further away than he looks: found from where he is and has come
-/// to in `moved`, without a root.
+/// True when we are surely behind a driver or beyond its look-ahead distance: found from where it is and has
+/// come to in `moved`, without a root.
 bool unseen(Point moved, float look_ahead_per_moved, Point towards_us, float margin_m) {
   const float moved_squared = dot(moved, moved);
   const float distance_squared = dot(towards_us, towards_us);

@@ -76,10 +76,10 @@ void Guard::commit(int path, const Verdict& verdict) {
   latched_.clear();
   if (!verdict.clears || path < 0 || path >= scene_->ego_paths.size()) return;
   // Groups further on are not entered yet: what holds there now need not hold then.
-  const scene::EgoPath& way = scene_->ego_paths[path];
-  for (int z = 0; z < way.zones.size() && z < verdict.cleared_end; ++z) {
+  const scene::EgoPath& ego_path = scene_->ego_paths[path];
+  for (int z = 0; z < ego_path.zones.size() && z < verdict.cleared_end; ++z) {
     for (int i = 0; i < scene_->agents.size(); ++i) {
-      const Latch latch{scene_->agents[i].track.id, way.zones[z].other_lane};
+      const Latch latch{scene_->agents[i].track.id, ego_path.zones[z].other_lane};
       if ((sights_[path].staying_out[z] >> i & 1U) != 0 && !is_latched(latch.track, latch.lane))
         (void)latched_.push(latch);
     }

@@ -109,9 +109,9 @@ void Guard::expect_from(LaneIndex lane, float s_m, const LaneReach (&reach)[kMax
   somebody.track.length_m = kLengthM;
   somebody.age_ms = scene_->known.age_ms;
   somebody.lane = lane;
-  scene::LanePath way;
-  (void)way.lanes.push({lane, 0.0F});
-  (void)somebody.paths.push(way);
+  scene::LanePath lane_path;
+  (void)lane_path.lanes.push({lane, 0.0F});
+  (void)somebody.paths.push(lane_path);
   somebody.frenet[0].s_m = s_m;
   LaneReach anyhow;
   LaneReach straight_on;

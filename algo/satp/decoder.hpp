@@ -9,8 +9,8 @@ namespace s4tp::satp {
 /// The futures of one vehicle in its own frame; pose i at (i + 1) * kStepS after plan start.
 struct Futures {
   float probability[kMcuShape.modes];
-  float yields[kMcuShape
-                   .modes];  ///< how likely it lets us pass first, if that is how it drives and our ways meet
+  /// How likely it lets us pass first, if that is how it drives and our paths meet.
+  float yields[kMcuShape.modes];
   Pose poses[kMcuShape.modes][kHorizonSteps];
 };
 

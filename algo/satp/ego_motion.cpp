@@ -113,14 +113,14 @@ bool EgoMotion::inside(const PathConflict& conflict) const {
   return s_m_[0] > entry_s_m + kZoneMarginM && s_m_[0] < exit_s_m;
 }
 
-EgoPassage EgoMotion::passage(const PathConflict& conflict) const {
-  EgoPassage passage;
+TimeInZone EgoMotion::time_in_zone(const PathConflict& conflict) const {
+  TimeInZone ours;
   float entry_s_m = 0.0F;
   float exit_s_m = 0.0F;
-  if (!zone_on_our_path(conflict, entry_s_m, exit_s_m) || s_m_[0] >= exit_s_m) return passage;
+  if (!zone_on_our_path(conflict, entry_s_m, exit_s_m) || s_m_[0] >= exit_s_m) return ours;
   const float end_mps = speed_[kEgoKnots - 1];
   const float end_s = kEgoKnotS * static_cast<float>(kEgoKnots - 1);
-  // When the arc length `goal` is reached; 1e3: not within 5 s.
+  // When the arc length `goal` is reached; kNeverS: we come to a stand before.
   const auto time_at = [&](float goal_s_m) {
     if (s_m_[0] >= goal_s_m) return 0.0F;
     for (int i = 0; i + 1 < kEgoKnots; ++i) {
@@ -128,14 +128,14 @@ EgoPassage EgoMotion::passage(const PathConflict& conflict) const {
       const float part = (goal_s_m - s_m_[i]) / max(s_m_[i + 1] - s_m_[i], 1e-3F);
       return kEgoKnotS * (static_cast<float>(i) + clamp(part, 0.0F, 1.0F));
     }
-    if (end_mps < kMovingMps) return 1e3F;
+    if (end_mps < kMovingMps) return occupancy::kNeverS;
     return end_s + (goal_s_m - s_m_[kEgoKnots - 1]) / end_mps;
   };
   const float entry_s = time_at(entry_s_m);
-  if (entry_s > kBeyondHorizonS) return passage;
-  passage.entry_s = entry_s;
-  passage.exit_s = time_at(exit_s_m);
-  return passage;
+  if (entry_s > kBeyondHorizonS) return ours;
+  ours.entry_s = entry_s;
+  ours.exit_s = time_at(exit_s_m);
+  return ours;
 }
 
 }  // namespace s4tp::satp

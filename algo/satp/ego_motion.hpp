@@ -1,9 +1,10 @@
 #pragma once
-/// Our own motion as another driver sees it: along his path where we are on it or about to be, and through
-/// the zones where our ways cross.
+/// Our own motion as another driver sees it: along that driver's path where we are on it or about to be, and
+/// through the zones where the paths cross.
 
 #include "algo/core/parameters.hpp"
 #include "algo/core/trajectory.hpp"
+#include "algo/occupancy/pace.hpp"
 #include "algo/satp/path_hypothesis.hpp"
 #include "algo/scene/scene.hpp"
 
@@ -24,8 +25,8 @@ struct EgoOnPath {
 };
 
 /// When we are in a zone; entry > exit: never.
-struct EgoPassage {
-  float entry_s = 1e3F;
+struct TimeInZone {
+  float entry_s = occupancy::kNeverS;
   float exit_s = 0.0F;
 };
 
@@ -37,7 +38,7 @@ class EgoMotion {
   [[nodiscard]] bool conditioned() const { return plan_ != nullptr; }
   /// \param their_s_m  where the vehicle is on its path at plan start
   [[nodiscard]] EgoOnPath on_path(const scene::LanePath& path, float their_s_m, const Track& track) const;
-  [[nodiscard]] EgoPassage passage(const PathConflict& conflict) const;
+  [[nodiscard]] TimeInZone time_in_zone(const PathConflict& conflict) const;
   /// Whether our box is inside the crossing at plan start.
   [[nodiscard]] bool inside(const PathConflict& conflict) const;
 

@@ -159,7 +159,7 @@ void join(const std::int8_t* first, const std::int8_t* second, const std::int8_t
 }
 
 // How strongly our plan enters the vehicles' futures. \param inputs  our history, theirs, pair \param shares
-// NetworkInput::shares_way
+// NetworkInput::paths_meet
 void interaction_gates(const Weights& weights, Rows<const std::int8_t> inputs, const std::uint8_t* shares,
                        int count, std::int16_t* gates) {
   alignas(4) std::int8_t inner[kMaxBatch][kWidth];
@@ -177,7 +177,7 @@ void start(const Weights& weights, const NetworkInput& input, int first, int cou
   encode_pairs(weights, input.pair + first, count, pairs);
   for (int i = 0; i < count; ++i)
     join(scratch.histories[0], scratch.histories[1 + first + i], pairs[i], joined[i]);
-  interaction_gates(weights, scenes, input.shares_way + first, count, encoded.gate + first);
+  interaction_gates(weights, scenes, input.paths_meet + first, count, encoded.gate + first);
   for (int i = 0; i < count; ++i) join(scratch.mixed[1 + first + i], maps[first + i], pairs[i], joined[i]);
   auto& states = encoded.start[first];
   constexpr int kStates = kMcuShape.modes * kMcuShape.hidden;

@@ -16,8 +16,8 @@ inline constexpr int kMaxFeatures = 8;
 struct Encoded {
   int hdvs = 0;
   std::int16_t start[kMaxAgents][kMcuShape.modes][kMcuShape.hidden];  ///< 2^-15
-  std::int16_t
-      gate[kMaxAgents];  ///< how strongly our plan enters its futures, 2^-15; 0: not at all, we share no way
+  /// How strongly our plan enters its futures, 2^-15; 0: not at all, our paths do not meet.
+  std::int16_t gate[kMaxAgents];
   float speed_mps[kMaxAgents];
   float pair[kMaxAgents][kPairFeatures];
   Pose anchor[kMaxAgents];

@@ -106,7 +106,7 @@ bool on_our_path(const scene::Scene& scene, LaneIndex lane, float centre_m, floa
   return false;
 }
 
-// NetworkInput::shares_way but for zones.
+// NetworkInput::paths_meet but for zones.
 bool shares_lane(const scene::Scene& scene, const scene::Agent& agent) {
   if (agent.paths.empty() || scene.ego_paths.empty()) return true;
   for (const scene::LanePath& path : agent.paths) {
@@ -127,7 +127,7 @@ bool goes_on_in(const LaneMap& map, LaneIndex lane, const scene::LanePath& path)
   return false;
 }
 
-// The first zone on the likeliest way that has one ahead of both of us.
+// The first zone on the likeliest path that has one ahead of both of us.
 void fill_zone(const scene::Scene& scene, const scene::Agent& agent,
                const PathHypothesis (&hypotheses)[kPathsPerAgent], float centre_m,
                float (&row)[kPairFeatures]) {
@@ -152,10 +152,10 @@ void fill_zone(const scene::Scene& scene, const scene::Agent& agent,
   }
 }
 
-// Who of the two is ahead on the other's way, bumper to bumper.
-void fill_same_way(const scene::Scene& scene, const Parameters& parameters, const scene::Agent& agent,
-                   const PathHypothesis (&hypotheses)[kPathsPerAgent], float lead_s,
-                   float (&row)[kPairFeatures]) {
+// Who of the two is ahead on the other's path, bumper to bumper.
+void fill_same_path(const scene::Scene& scene, const Parameters& parameters, const scene::Agent& agent,
+                    const PathHypothesis (&hypotheses)[kPathsPerAgent], float lead_s,
+                    float (&row)[kPairFeatures]) {
   if (scene.ego_paths.empty()) return;
   const float half_lengths_m = 0.5F * (agent.track.length_m + parameters.vehicle.length_m);
   const float centre_m = centre_ahead_m(parameters) + scene.ego.speed_mps * lead_s;
@@ -185,7 +185,7 @@ void fill_pair(const scene::Scene& scene, const Parameters& parameters, const sc
                const Pose& ego_anchor, float (&row)[kPairFeatures]) {
   const float centre_m = centre_ahead_m(parameters) + scene.ego.speed_mps * lead_s;
   fill_zone(scene, agent, hypotheses, centre_m, row);
-  fill_same_way(scene, parameters, agent, hypotheses, lead_s, row);
+  fill_same_path(scene, parameters, agent, hypotheses, lead_s, row);
   at(row, PairFeature::kStoodS) = min(0.001F * static_cast<float>(agent.stood_ms), kLongestStandS);
   at(row, PairFeature::kWeStoodS) = min(scene.waited_s, kLongestStandS);
   at(row, PairFeature::kLengthM) = agent.track.length_m;
@@ -260,7 +260,7 @@ void build_network_input(const scene::Scene& scene, const Parameters& parameters
     fill_pair(scene, parameters, agent, hypotheses[i], lead_s, input.anchor[i], input.ego_anchor,
               input.pair[i]);
     const bool zone = at(input.pair[i], PairFeature::kZone) > 0.0F;
-    input.shares_way[i] = zone || shares_lane(scene, agent) ? 1 : 0;
+    input.paths_meet[i] = zone || shares_lane(scene, agent) ? 1 : 0;
   }
 }
 

@@ -10,10 +10,10 @@
 
 namespace s4tp::satp {
 
-/// The ways of the watched vehicles, as read_path_hypothesis gives them.
+/// The path hypotheses of the watched vehicles, as read_path_hypothesis gives them.
 using PathHypotheses = PathHypothesis[kMaxAgents][kPathsPerAgent];
 
-/// Reads every way of the watched vehicles. \param lead_s  plan start minus scene time, >= 0
+/// Reads every path of the watched vehicles. \param lead_s  plan start minus scene time, >= 0
 void read_path_hypotheses(const scene::Scene& scene, float lead_s, PathHypotheses& hypotheses);
 
 /// SATP-001 Every value is finite and what is missing is 0 and masked; the same scene gives the same bits.

@@ -33,7 +33,7 @@ inline constexpr int kPlanValues = 9;
 
 /// Columns of NetworkInput::pair: how one vehicle and we stand to each other.
 enum class PairFeature : std::uint8_t {
-  kZone,             ///< 0 or 1: our ways share a zone
+  kZone,             ///< 0 or 1: our paths share a zone
   kEntryM,           ///< of the first one, along its path from the vehicle's anchor
   kExitM,            ///<
   kOurEntryM,        ///< along our path from our anchor
@@ -41,15 +41,15 @@ enum class PairFeature : std::uint8_t {
   kYields,           ///< 0 or 1: it has to give way there
   kFirstCome,        ///< 0 or 1
   kHasPriority,      ///< 0 or 1
-  kMerging,          ///< 0 or 1: both ways go on in one lane
+  kMerging,          ///< 0 or 1: both paths go on in one lane
   kStoodS,           ///< how long it has stood, at most 20 s
   kWeStoodS,         ///< how long we have stood at the junction, at most 20 s
   kLengthM,          ///<
   kWidthM,           ///<
-  kLeader,           ///< 0 or 1: it follows another vehicle on its likeliest way
+  kLeader,           ///< 0 or 1: it follows another vehicle on its likeliest path
   kLeaderGapM,       ///< bumper to bumper, at most 100 m
   kLeaderMps,        ///< the leader's speed
-  kWeAhead,          ///< 0 or 1: we are ahead on its way
+  kWeAhead,          ///< 0 or 1: we are ahead on its path
   kAheadGapM,        ///< bumper to bumper, -20 .. 100 m
   kWeBehind,         ///< 0 or 1: it is ahead on one of our paths
   kBehindGapM,       ///<
@@ -64,7 +64,7 @@ enum class PairFeature : std::uint8_t {
   kOurCos,           ///<
   kLikeliest,        ///< probability of its first path
   kSecond,           ///< of its second path
-  kHoldS,            ///< how long others with priority keep it waiting on its likeliest way
+  kHoldS,            ///< how long others with priority keep it waiting on its likeliest path
   kCount
 };
 inline constexpr int kPairFeatures = static_cast<int>(PairFeature::kCount);
@@ -80,9 +80,9 @@ struct NetworkInput {
   float history[kMaxAgents][kHistorySamples][kHistoryFeatures] = {};
   float place[1 + kMaxAgents][kPlaceFeatures] = {};           ///< in our frame; row 0 is ours
   std::uint8_t lane_points[kMaxAgents][kPathsPerAgent] = {};  ///< points there, from the first on
-  /// 0 or 1: a way it may go and one we may go have a lane or a zone in common, or one of us is on no lane.
+  /// 0 or 1: a path it may take and one of ours have a lane or a zone in common, or one of us is on no lane.
   /// Where they have not, no plan of ours enters what is expected of it.
-  std::uint8_t shares_way[kMaxAgents] = {};
+  std::uint8_t paths_meet[kMaxAgents] = {};
   float lane[kMaxAgents][kPathsPerAgent][kLanePoints][kLaneFeatures] = {};
   float pair[kMaxAgents][kPairFeatures] = {};
 };

@@ -1,6 +1,7 @@
 #include "algo/satp/path_hypothesis.hpp"
 
 #include "algo/core/inline.hpp"
+#include "algo/core/sort.hpp"
 #include "algo/satp/car_following.hpp"
 #include "algo/scene/agent_paths.hpp"
 #include "algo/scene/conflict_view.hpp"
@@ -15,7 +16,7 @@ constexpr float kSlowAheadM = 60.0F;
 constexpr float kStartingMps = 6.0F;  // below this a vehicle is on its way to the limit
 constexpr float kGainingMps2 = 0.5F;
 constexpr float kHardlyMovingMps = 0.5F;  // who is slower is not counted as coming
-constexpr float kUnlikely = 0.2F;         // ways of others less likely than this make nobody wait
+constexpr float kUnlikely = 0.2F;         // paths of others less likely than this make nobody wait
 constexpr float kZoneMarginM = 1.0F;      // how far before a zone a vehicle waits
 constexpr float kZoneMarginS = 1.0F;      // between others leaving and entering
 constexpr float kFirmBrakingMps2 = 4.0F;  // who would have to brake harder goes through
@@ -58,7 +59,7 @@ void read_slow_stretch(const LaneMap& map, const scene::LanePath& path, float li
     if (from_s_m > hypothesis.start_s_m + kSlowAheadM) break;
     const float turn_mps =
         max(turn_speed(map.lanes[path.lanes[i].lane], to_s_m - from_s_m, over_limit), kSlowestTurnMps);
-    // Who is in the turn already has chosen his speed for it.
+    // A vehicle in the turn already has chosen its speed for it.
     const float speed_mps = from_s_m <= hypothesis.start_s_m ? max(turn_mps, hypothesis.speed_mps) : turn_mps;
     if (turn_mps >= hypothesis.after_mps) continue;
     const float distance_m = max(from_s_m - hypothesis.start_s_m, 0.0F);
@@ -122,16 +123,8 @@ void add_conflict(const scene::ConflictView& view, float lane_start_s_m, PathHyp
                               lane_start_s_m + view.own_exit_m,
                               view.other_entry_m,
                               view.other_exit_m};
-  if (hypothesis.conflicts.full()) {
-    if (conflict.entry_s_m >= hypothesis.conflicts[kMaxPathConflicts - 1].entry_s_m) return;
-    hypothesis.conflicts.truncate(kMaxPathConflicts - 1);
-  }
-  int place = hypothesis.conflicts.size();
-  (void)hypothesis.conflicts.push(conflict);
-  for (; place > 0 && conflict.entry_s_m < hypothesis.conflicts[place - 1].entry_s_m; --place) {
-    hypothesis.conflicts[place] = hypothesis.conflicts[place - 1];
-  }
-  hypothesis.conflicts[place] = conflict;
+  insert(hypothesis.conflicts, conflict,
+         [](const PathConflict& a, const PathConflict& b) { return a.entry_s_m < b.entry_s_m; });
 }
 
 void read_zones(const scene::Scene& scene, int index, const scene::LanePath& path,

@@ -1,6 +1,6 @@
 #pragma once
 /// One way a vehicle may go, as the predictor reads it from the scene: what it drives towards, whom it
-/// follows, whom it lets pass, and where our ways may cross. Times count from plan start, arc lengths along
+/// follows, whom it lets pass, and where our paths may cross. Times count from plan start, arc lengths along
 /// its path.
 
 #include "algo/core/bounded.hpp"
@@ -40,7 +40,7 @@ struct PathHypothesis {
   BoundedVector<PathConflict, kMaxPathConflicts> conflicts;  ///< nearest first
 };
 
-/// Reads way `path` of agent `index`. \pre scene.map is there and the agent has that path
+/// Reads path `path` of agent `index`. \pre scene.map is there and the agent has that path
 [[nodiscard]] PathHypothesis read_path_hypothesis(const scene::Scene& scene, int index, int path,
                                                   float lead_s);
 

@@ -47,8 +47,8 @@ float acceleration_alone(const PathHypothesis& hypothesis, float time_s, float s
   return max(alone_mps2, -kHardestMps2);
 }
 
-// What our being on its path leaves room for. Who finds us entering ahead of him opens the gap at once (the
-// model's plain form); who has followed us all along keeps the headway he has.
+// What our being on its path leaves room for. A vehicle that finds us entering ahead opens the gap at once
+// (the model's plain form); one that has followed us all along keeps the headway it has.
 float ego_acceleration(const EgoOnPath& ego, float time_s, float s_m, float speed_mps, float half_length_m,
                        float free_mps2) {
   if (!ego.ever) return kUnbound;

@@ -2,16 +2,18 @@
 
 #include "algo/core/inline.hpp"
 #include "algo/core/standing.hpp"
+#include "algo/occupancy/pace.hpp"
 #include "algo/satp/path_motion.hpp"
 
 namespace s4tp::satp {
 namespace {
 
+using occupancy::kNeverS;
+
 constexpr float kZoneMarginS = 0.5F;
 constexpr float kZoneMarginM = 1.0F;
 constexpr float kCertain = 0.95F;
 constexpr float kGoesOnStanding = 0.05F;  // prior chance, where its way is open
-constexpr float kNeverS = 1e3F;
 
 // Straight on, or on the arc it drives.
 void place_on_arc(const Track& track, float lead_s, Mode& mode) {
@@ -46,7 +48,7 @@ float yielding(const EgoMotion& ego, const PathHypothesis& hypothesis, const Pat
                Hold& hold) {
   float chance = -1.0F;
   for (const PathConflict& conflict : hypothesis.conflicts) {
-    const EgoPassage ours = ego.passage(conflict);
+    const TimeInZone ours = ego.time_in_zone(conflict);
     if (ours.entry_s > ours.exit_s) continue;
     const float their_entry_s = time_at(hypothesis, undisturbed, conflict.entry_s_m);
     const float their_exit_s = time_at(hypothesis, undisturbed, conflict.exit_s_m);

@@ -29,11 +29,11 @@ class Predictor {
   void encode(const scene::Scene& scene, const Parameters& parameters, std::uint32_t start_ms,
               const YieldBeliefs* beliefs = nullptr);
 
-  /// What each watched vehicle would do now if it went first, and if it let us go first: on its likeliest way
+  /// What each watched vehicle would do now if it went first, and if it let us go first: on its likeliest path
   /// that crosses ours.
   void hypotheses(YieldHypotheses (&result)[kMaxAgents]) const;
 
-  /// Futures of the watched vehicles. A future brakes for us (Mode::yields_percent is 100, else 0) where our way and its way cross.
+  /// Futures of the watched vehicles. A future brakes for us (Mode::yields_percent is 100, else 0) where our path and its path cross.
   /// CORE-040 Every pose is finite; each vehicle's probabilities add up to 1 and it has at least one mode.
   /// CORE-041 A vehicle behind whose lane our plan enters slows down for us.
   /// CORE-042 Without plan we are taken to keep lane and speed only as far as we are in their way already,
@@ -53,7 +53,7 @@ class Predictor {
   /// kMaxPredictionWork a decode.
   [[nodiscard]] int work() const { return work_; }
 
-  /// The ways of the watched vehicles, as read in encode().
+  /// The path hypotheses of the watched vehicles, as read in encode().
   [[nodiscard]] const PathHypothesis (&hypotheses() const)[kMaxAgents][kPathsPerAgent] { return hypotheses_; }
 
  private:

@@ -1,6 +1,7 @@
 #include "algo/scene/agent_paths.hpp"
 
 #include "algo/core/inline.hpp"
+#include "algo/core/sort.hpp"
 
 namespace s4tp::scene {
 namespace {
@@ -97,8 +98,8 @@ float fit_weight(const LaneTable& table, const LaneFit& fit, const Track& track)
   return exp(clamp(-0.5F * misfit, -10.0F, 0.0F));
 }
 
-// Whether one continues the other, or both end in the same lane: not another way to go.
-bool same_way(const LaneTable& table, LaneIndex a, LaneIndex b) {
+// Whether one continues the other, or both end in the same lane: not another path.
+bool same_path(const LaneTable& table, LaneIndex a, LaneIndex b) {
   for (LaneIndex of_a : table.lane(a).successors) {
     if (of_a == b) return true;
     for (LaneIndex of_b : table.lane(b).successors) {
@@ -156,11 +157,7 @@ void extend(const LaneTable& table, const Situation& situation, LaneChains& chai
     const Branch branch{successor, branch_weight(table.bend(successor), table.lane(end).speed_limit_mps,
                                                  distance_m, situation)};
     sum += branch.weight;
-    int place = branches.size();
-    (void)branches.push(branch);
-    for (; place > 0 && branch.weight > branches[place - 1].weight; --place)
-      branches[place] = branches[place - 1];
-    branches[place] = branch;
+    insert(branches, branch, [](const Branch& a, const Branch& b) { return a.weight > b.weight; });
   }
   bool first = true;
   for (const Branch& branch : branches) {
@@ -205,7 +202,7 @@ void build_agent_paths(const LaneTable& table, bool hindered, Agent& agent) {
   for (int i = 1; i < fits.size(); ++i) {
     const LaneFit& fit = fits[i];
     const bool together = fit.fix.distance_m < kAmbiguousM && abs(fit.turn_rad) < kAmbiguousRad;
-    if (!together || fit.lane == target || same_way(table, agent.lane, fit.lane)) continue;
+    if (!together || fit.lane == target || same_path(table, agent.lane, fit.lane)) continue;
     start_chain(table, fit.lane, fit.fix.s_m, fit_weight(table, fit, track), chains);
   }
   if (target != kNoLaneIndex) chains[1].weight *= chains[0].weight;
@@ -214,12 +211,7 @@ void build_agent_paths(const LaneTable& table, bool hindered, Agent& agent) {
   // Likeliest first; in one order for equals.
   float sum = 0.0F;
   for (const LaneChain& chain : chains) sum += chain.weight;
-  for (int i = 1; i < chains.size(); ++i) {
-    const LaneChain moving = chains[i];
-    int j = i;
-    for (; j > 0 && moving.weight > chains[j - 1].weight; --j) chains[j] = chains[j - 1];
-    chains[j] = moving;
-  }
+  sort(chains, [](const LaneChain& a, const LaneChain& b) { return a.weight > b.weight; });
   for (int i = 0; i < chains.size(); ++i) {
     (void)agent.paths.push(chains[i].path);
     agent.path_probability[i] = chains[i].weight / sum;

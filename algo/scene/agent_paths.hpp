@@ -1,20 +1,17 @@
 #pragma once
-/// The ways another vehicle may go, and how likely each is, from where it is and how it moves.
+/// The paths another vehicle may take, and how likely each is, from where it is and how it moves.
 
 #include "algo/scene/lane_table.hpp"
 #include "algo/scene/scene.hpp"
 
 namespace s4tp::scene {
 
-/// Less probable ways are not expected to be taken.
-inline constexpr float kLikelyWay = 0.1F;
-
 /// Fills paths, probabilities and Frenet coordinates of `agent` from its track; without a lane there are
 /// none. `agent.lane` is the hint on entry and the lane found on return.
 /// \param hindered  another vehicle ahead gives it a reason to be slow
 void build_agent_paths(const LaneTable& table, bool hindered, Agent& agent);
 
-/// Moves the agent along its likeliest way by `seconds`; off the map on the arc it drives.
+/// Moves the agent along its likeliest path by `seconds`; off the map on the arc it drives.
 void bring_forward(const LaneMap* map, float seconds, Agent& agent);
 
 /// Arc length of an agent's centre along somebody's path. \return false when its lane is not one of the

@@ -1,6 +1,7 @@
 #include "algo/scene/ego_paths.hpp"
 
 #include "algo/core/inline.hpp"
+#include "algo/core/sort.hpp"
 #include "algo/scene/conflict_view.hpp"
 
 namespace s4tp::scene {
@@ -124,14 +125,8 @@ void find_zones(const LaneTable& table, const Parameters& parameters, EgoPath& e
     zone.stop_s_m = passed ? edge_s_m : min(edge_s_m, line_s_m - kShortOfLineM);
     add_zone(ego_path, zone);
   }
-  for (int i = 1; i < ego_path.zones.size(); ++i) {
-    const ConflictZone moving = ego_path.zones[i];
-    int j = i;
-    for (; j > 0 && moving.entry_s_m < ego_path.zones[j - 1].entry_s_m; --j) {
-      ego_path.zones[j] = ego_path.zones[j - 1];
-    }
-    ego_path.zones[j] = moving;
-  }
+  sort(ego_path.zones,
+       [](const ConflictZone& a, const ConflictZone& b) { return a.entry_s_m < b.entry_s_m; });
 }
 
 void follow_route(const LaneTable& table, EgoPath& ego_path) {

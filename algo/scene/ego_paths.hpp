@@ -1,5 +1,5 @@
 #pragma once
-/// The ways we may go, with what crosses them.
+/// The paths we may take, with what crosses them.
 
 #include "algo/core/parameters.hpp"
 #include "algo/scene/lane_table.hpp"

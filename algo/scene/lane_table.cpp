@@ -1,6 +1,7 @@
 #include "algo/scene/lane_table.hpp"
 
 #include "algo/core/inline.hpp"
+#include "algo/core/sort.hpp"
 
 namespace s4tp::scene {
 namespace {
@@ -102,16 +103,7 @@ void LaneTable::fit(const Pose& pose, const LaneHint& hint, Fits& fits) const {
     }
     if (hint.follows_route && !lane.on_route) found.score += kOffRouteM;
     if (hint.follows_route && lane.kind != LaneKind::kOurs) found.score += kNotOursM;
-
-    // Insertion into the sorted short list; the worst falls out.
-    if (fits.full()) {
-      if (found.score >= fits[kMaxFits - 1].score) continue;
-      fits.truncate(kMaxFits - 1);
-    }
-    int place = fits.size();
-    (void)fits.push(found);
-    for (; place > 0 && found.score < fits[place - 1].score; --place) fits[place] = fits[place - 1];
-    fits[place] = found;
+    insert(fits, found, [](const LaneFit& a, const LaneFit& b) { return a.score < b.score; });
   }
 }
 

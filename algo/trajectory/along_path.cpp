@@ -67,8 +67,8 @@ bool sweeps(const scene::Scene& scene, const scene::EgoPath& path, const scene::
   return touches;
 }
 
-/// Whether the vehicle is still before the path's first lane, on a way that leads into it: seen along its own
-/// way then. (A lane's start is no end of the world: who comes along behind it follows us all the same.)
+/// Whether the vehicle is still before the path's first lane, on a path that leads into it: seen along
+/// that one then. (A lane's start is no end of the world: who comes along behind it follows us all the same.)
 bool comes_up_behind(const scene::EgoPath& path, const scene::Agent& agent, OnPath& seen, float& error_rad) {
   if (path.path.lanes.empty()) return false;
   for (int i = 0; i < agent.paths.size(); ++i) {
@@ -119,9 +119,9 @@ OnPath see_on_path(const scene::Scene& scene, const scene::EgoPath& path, const 
 bool joins(const scene::Scene& scene, const scene::EgoPath& path, const scene::Agent& agent) {
   if (agent.lane == kNoLaneIndex || on_path(path.path, agent.lane)) return false;
   const Lane& own = scene.map->lanes[agent.lane];
-  for (const scene::LanePath& way : agent.paths) {
-    if (way.lanes.empty()) continue;
-    const LaneIndex lane = way.lanes[0].lane;
+  for (const scene::LanePath& theirs : agent.paths) {
+    if (theirs.lanes.empty()) continue;
+    const LaneIndex lane = theirs.lanes[0].lane;
     if ((lane == own.left || lane == own.right) && on_path(path.path, lane)) return true;
   }
   return false;
@@ -175,15 +175,15 @@ float change_room_m(const scene::Scene& scene, const scene::EgoPath& path) {
 }
 
 float dead_end_s_m(const scene::Scene& scene, const scene::EgoPath& path) {
-  const scene::LanePath& way = path.path;
-  if (way.lanes.empty() || way.lanes.full()) return kNoDeadEndM;
-  const Lane& last = scene.map->lanes[way.lanes[way.lanes.size() - 1].lane];
+  const scene::LanePath& lane_path = path.path;
+  if (lane_path.lanes.empty() || lane_path.lanes.full()) return kNoDeadEndM;
+  const Lane& last = scene.map->lanes[lane_path.lanes[lane_path.lanes.size() - 1].lane];
   const bool leads_to_goal = last.on_route && last.changes_needed == 0;
-  if (leads_to_goal && path.goal_s_m <= way.length_m + kAtGoalM) return kNoDeadEndM;
+  if (leads_to_goal && path.goal_s_m <= lane_path.length_m + kAtGoalM) return kNoDeadEndM;
   for (const LaneIndex successor : last.successors) {
     if (successor != kNoLaneIndex) return kNoDeadEndM;
   }
-  return way.length_m;
+  return lane_path.length_m;
 }
 
 }  // namespace s4tp::trajectory

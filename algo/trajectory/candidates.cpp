@@ -1,6 +1,7 @@
 #include "algo/trajectory/candidates.hpp"
 
 #include "algo/core/inline.hpp"
+#include "algo/core/sort.hpp"
 #include "algo/trajectory/along_path.hpp"
 #include "algo/trajectory/bicycle.hpp"
 #include "algo/trajectory/roll_out.hpp"
@@ -55,9 +56,8 @@ struct Course {
   Leader leader;
   float leader_touch_s_m = 0.0F;  ///< where our rear axle would be with our front at its rear, at scene time
   float lateral_length_m = 0.0F;
-  int attempts = kStretches;   ///< lateral lengths still worth trying
-  float stops_s_m[kMaxStops];  ///< of the rear axle, nearest first
-  int stop_count = 0;
+  int attempts = kStretches;                  ///< lateral lengths still worth trying
+  BoundedVector<float, kMaxStops> stops_s_m;  ///< of the rear axle, nearest first
 };
 
 /// How far a roll-out comes [m]; two of one path that come equally far are twins.
@@ -69,14 +69,10 @@ struct Reach {
 
 void add_stop(float s_m, Course& course) {
   if (s_m < course.where.s_m - kPassedM) return;
-  for (int k = 0; k < course.stop_count; ++k) {
-    if (abs(s_m - course.stops_s_m[k]) < kPassedM) return;
+  for (const float stop_s_m : course.stops_s_m) {
+    if (abs(s_m - stop_s_m) < kPassedM) return;
   }
-  int i = course.stop_count < kMaxStops ? course.stop_count : kMaxStops - 1;
-  if (course.stop_count == kMaxStops && s_m >= course.stops_s_m[i]) return;
-  for (; i > 0 && s_m < course.stops_s_m[i - 1]; --i) course.stops_s_m[i] = course.stops_s_m[i - 1];
-  course.stops_s_m[i] = s_m;
-  if (course.stop_count < kMaxStops) ++course.stop_count;
+  insert(course.stops_s_m, s_m, [](float a, float b) { return a < b; });
 }
 
 /// Whether our box, standing there, keeps clear of the ground shared with others.
@@ -181,7 +177,7 @@ bool shape_longitudinal(const scene::Scene& scene, const Trial& trial, const Ref
                                           kDriveShare * parameters.vehicle.acceleration_max_mps2);
       return true;
     case Intent::kStop:
-      if (trial.line >= course.stop_count) return false;
+      if (trial.line >= course.stops_s_m.size()) return false;
       candidate.target_s_m = course.stops_s_m[trial.line];
       return square(start.speed_mps) <=
              2.0F * parameters.vehicle.braking_max_mps2 * max(0.1F, candidate.target_s_m - course.where.s_m);

@@ -6,7 +6,7 @@
 namespace s4tp::trajectory {
 namespace {
 
-constexpr int kConstantVelocitySteps = 15;  // as the check: longer nobody just keeps going
+constexpr int kConstantVelocitySteps = 15;  // as the check: longer nobody keeps its velocity
 constexpr float kOverMarginM = 0.02F;       // kept beyond the check's margin: rounding
 
 /// A box with what its supports need.

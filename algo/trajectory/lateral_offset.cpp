@@ -1,12 +1,12 @@
 #include "algo/trajectory/lateral_offset.hpp"
 
 #include "algo/core/inline.hpp"
+#include "algo/core/standing.hpp"
 #include "algo/trajectory/bicycle.hpp"
 
 namespace s4tp::trajectory {
 namespace {
 
-constexpr float kStandsMps = 0.3F;  // all that a standing car's measured speed may be
 constexpr float kStepM = 0.5F;
 constexpr int kStepsAhead = 60;
 constexpr float kWideM = 100.0F;  // wider than any lane
@@ -102,7 +102,7 @@ float find_aside_m(const scene::Scene& scene, const scene::EgoPath& path, const 
 }  // namespace
 
 bool is_standing(const scene::Agent& agent) {
-  return agent.track.speed_mps < kStandsMps;
+  return agent.track.speed_mps < kStandingMps;
 }
 
 int set_lateral_offsets(const Parameters& parameters, scene::Scene& scene) {

@@ -86,9 +86,9 @@ void set_reference(const Parameters& parameters, const MotionState& before, cons
       max(steering_1pms, abs(reference.curvature_1pm - before.curvature_1pm) / kStepS);
 }
 
-/// The field pushes us aside from whoever drives beside us, for as long as he does. In the lane it may do so
-/// a little, and never further out than the candidate is: else each plan would begin where the last one
-/// pushed. On the way to another lane or back the decision stands.
+/// The field pushes us aside from a vehicle that drives beside us, for as long as it does. In the lane it may
+/// do so a little, and never further out than the candidate is: else each plan would begin where the last
+/// one pushed. On the way to another lane or back the decision stands.
 void set_across_bounds(float offset_m, RefinementStep& step) {
   const bool in_lane = abs(offset_m) < kInLaneM;
   const float most_m = max(kRefinedInLaneM, abs(offset_m)) + kShiftSlackM;

@@ -1,5 +1,6 @@
 #include "firmware/ecu/inputs.hpp"
 
+#include "algo/core/input_ranges.hpp"
 #include "algo/core/math.hpp"
 #include "firmware/wire/version.hpp"
 
@@ -15,13 +16,13 @@ constexpr float kSecondsPerMs = 0.001F;
 Track to_track(const wire::Track& from) {
   Track to;
   to.id = from.id;
-  to.centre = {from.x_m, from.y_m, wrap_angle(from.heading_rad)};
-  to.speed_mps = clamp(from.speed_mps, 0.0F, 60.0F);
-  to.acceleration_mps2 = clamp(from.acceleration_mps2, -12.0F, 12.0F);
-  to.yaw_rate_radps = clamp(from.yaw_rate_radps, -1.3F, 1.3F);
-  to.length_m = clamp(from.length_m, 0.5F, 25.0F);
-  to.width_m = clamp(from.width_m, 0.3F, 3.0F);
-  return to;
+  to.centre = {from.x_m, from.y_m, from.heading_rad};
+  to.speed_mps = from.speed_mps;
+  to.acceleration_mps2 = from.acceleration_mps2;
+  to.yaw_rate_radps = from.yaw_rate_radps;
+  to.length_m = from.length_m;
+  to.width_m = from.width_m;
+  return limited(to);
 }
 
 }  // namespace
@@ -81,9 +82,9 @@ void Inputs::accept_motion(const wire::Frame& frame) {
   const std::int32_t interval_ms = clock_.update(motion.vehicle_time_ms);
   const bool timely = interval_ms >= kIntervalMinMs && interval_ms <= kIntervalMaxMs;
   motion_mistimed_ticks_ = timely ? 0 : motion_mistimed_ticks_ + 1;
-  ego_.speed_mps = clamp(motion.speed_mps, 0.0F, 60.0F);
-  ego_.acceleration_mps2 = clamp(motion.acceleration_mps2, -12.0F, 12.0F);
-  ego_.yaw_rate_radps = clamp(motion.yaw_rate_radps, -2.0F, 2.0F);
+  ego_.speed_mps = limited(motion.speed_mps, kEgoSpeedMps);
+  ego_.acceleration_mps2 = limited(motion.acceleration_mps2, kEgoAccelerationMps2);
+  ego_.yaw_rate_radps = limited(motion.yaw_rate_radps, kEgoYawRateRadps);
   measured_.speed_mps = motion.speed_mps;
   measured_.acceleration_mps2 = motion.acceleration_mps2;
   measured_.yaw_rate_radps = motion.yaw_rate_radps;
@@ -97,7 +98,7 @@ void Inputs::accept_steering(const wire::Frame& frame) {
     ++rejected_;
     return;
   }
-  ego_.steering_rad = clamp(steering.steering_rad, -0.8F, 0.8F);
+  ego_.steering_rad = limited(steering.steering_rad, kEgoSteeringRad);
   measured_.steering_rad = steering.steering_rad;
   engage_ = steering.engage != 0;
   driver_override_ = steering.driver_override != 0;

@@ -38,11 +38,6 @@ void append(Text& line, const wire::Frame* frame) {
   for (int i = 0; i < frame->length && i < 8; ++i) line.hex(frame->data[i], 2);
 }
 
-void crc32_add(std::uint32_t& crc, std::uint8_t byte) {
-  crc ^= byte;
-  for (int bit = 0; bit < 8; ++bit) crc = (crc >> 1U) ^ (0xEDB88320U & (0U - (crc & 1U)));
-}
-
 bool starts_with(const char* text, int size, const char* start) {
   int i = 0;
   while (start[i] != '\0' && i < size && text[i] == start[i]) ++i;
@@ -161,9 +156,9 @@ void Replay::compare(const wire::Frame& recorded) {
   ++compared_;
   if (!any || !same(recorded, sent)) differs(&recorded, any ? &sent : nullptr);
   if (!any) return;
-  crc32_add(crc_, static_cast<std::uint8_t>(sent.id));
-  crc32_add(crc_, static_cast<std::uint8_t>(sent.id >> 8U));
-  for (int i = 0; i < sent.length; ++i) crc32_add(crc_, sent.data[i]);
+  crc_ = crc32_byte(crc_, sent.id);
+  crc_ = crc32_byte(crc_, sent.id >> 8U);
+  for (int i = 0; i < sent.length; ++i) crc_ = crc32_byte(crc_, sent.data[i]);
 }
 
 void Replay::expect_nothing_left() {
@@ -198,7 +193,7 @@ void Replay::print_summary() const {
   text << ticks_ << " ticks, " << planning_cycles_ << " plans, " << misses_ << " missed, " << compared_
        << " frames compared, ";
   text << differences_ << " differ, CRC ";
-  text.hex(crc_ ^ 0xFFFFFFFFU, 8);
+  text.hex(~crc_, 8);
   if (stack_used() > 0) text << ", stack " << stack_used() << " bytes";
   text << "\n";
   print(text.c_str());

@@ -13,6 +13,7 @@
 
 #include <cstdint>
 
+#include "algo/core/crc32.hpp"
 #include "algo/core/parameters.hpp"
 #include "algo/planner/planner.hpp"
 #include "firmware/ecu/ecu.hpp"
@@ -86,7 +87,7 @@ class Replay {
   std::uint32_t misses_ = 0;
   std::uint32_t compared_ = 0;
   std::uint32_t differences_ = 0;
-  std::uint32_t crc_ = 0xFFFFFFFFU;  ///< CRC-32 over id and data of every frame sent
+  std::uint32_t crc_ = kCrc32Start;  ///< CRC-32 over id and data of every frame sent
 };
 
 }  // namespace s4tp::targets

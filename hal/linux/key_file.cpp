@@ -71,6 +71,8 @@ bool read_file(const char* place, char (&text)[kTextSize], Reason& reason) {
     why = std::strerror(errno);
   } else if (size == static_cast<ssize_t>(sizeof text - 1)) {
     why = "too long: 32 hexadecimal digits are wanted";
+  } else if (std::memchr(text, '\0', static_cast<std::size_t>(size)) != nullptr) {  // not the text's end
+    why = "not hexadecimal digits";
   }
   close(file);
   if (why != nullptr) return refuse(place, why, reason);

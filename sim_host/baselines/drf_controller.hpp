@@ -13,7 +13,7 @@
 /// of the others where they are now and on what the road costs. Heading control aims at a point of the
 /// route's lane; the risk that decides is that of the steering it asks for. The plan is the law itself,
 /// driven on for 3 s in a world that stands. Source: method.md 5. The field begins at the rear axle
-/// and is v t_la long: at walking pace it ends within our own car, and nobody can be felt.
+/// and is v t_la long: at walking pace it ends within our own car, and reaches nobody.
 
 #include <functional>
 

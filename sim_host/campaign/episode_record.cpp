@@ -176,7 +176,8 @@ EpisodeRow row_of(const ordered_json& line) {
 
 Part read_part(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
-  if (!stream) fail(file, "cannot be read");
+  if (!std::filesystem::is_regular_file(file) || !stream)
+    fail(file, "cannot be read");  // a device may never end
   Part part;
   std::string line;
   for (int number = 1; std::getline(stream, line) && !stream.eof(); ++number) {  // eof: no end of line

@@ -1,21 +1,17 @@
 #include "sim_host/campaign/weights_file.hpp"
 
 #include <cstdint>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
-#include <vector>
+
+#include "sim_host/world/scenario/whole_file.hpp"
 
 namespace s4tp::campaign {
 
 std::unique_ptr<hal::sim::MemoryFlashBank> bank_with(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  const std::vector<char> bytes{std::istreambuf_iterator<char>(in), {}};
-  if (!in) throw std::runtime_error(file.string() + ": cannot be read");
+  const std::string bytes = world::whole_file(file, hal::sim::MemoryFlashBank::kSize);
   auto bank = std::make_unique<hal::sim::MemoryFlashBank>();
   if (!bank->write(0, bytes.data(), static_cast<std::uint32_t>(bytes.size()))) {
-    throw std::runtime_error(file.string() + ": larger than a flash bank, " + std::to_string(bank->size()) +
-                             " bytes");
+    throw std::runtime_error(file.string() + ": does not fit a flash bank");
   }
   return bank;
 }

@@ -44,8 +44,8 @@ struct Clip {
   std::vector<ClipVehicle> vehicles;
 };
 
-/// Reads ID.json or ID.json.gz. CLIP-001 What is not as docs/recorded_clips.md says is refused, never
-/// guessed. \throws std::runtime_error naming the file and what was wrong
+/// Reads ID.json or ID.json.gz. CLIP-001 What is not as docs/recorded_clips.md says, or beyond its limits, is
+/// refused, never guessed. \throws std::runtime_error naming the file and what was wrong
 [[nodiscard]] Clip load_clip(const std::filesystem::path& file);
 
 /// The clips in a folder, by name. \throws std::runtime_error when there is none

@@ -1,6 +1,8 @@
+#include <array>
 #include <iomanip>
 #include <iostream>
 
+#include "sim_host/campaign/progress.hpp"
 #include "sim_host/commands/command.hpp"
 #include "sim_host/sumo/coupling_floor.hpp"
 
@@ -39,15 +41,25 @@ std::vector<Variant> variants() {
           without("as it is", [](Coupling&) {})};
 }
 
+void add(const world::Replay& replay, Variant& variant) {
+  ++variant.replays;
+  variant.touched += replay.touched ? 1 : 0;
+  variant.stood += replay.touched && replay.stood ? 1 : 0;
+  variant.strayed_m += replay.others_strayed_m;
+}
+
 /// Impatient, with short gaps: SUMO's others must cope with an ego that is not like the one they expect.
 constexpr const char* kBold =
     "impatience=\"1\" jmTimegapMinor=\"0.3\" tau=\"0.6\" sigma=\"0\" speedFactor=\"1.1\" lcAssertive=\"2\"";
 
 int measure(const Options& options) {
+  constexpr std::array<const char*, 2> kDrivers{"", kBold};
+  campaign::ConsoleProgress progress(options.scenarios.size() * kDrivers.size() *
+                                     static_cast<std::size_t>(options.episodes));
   std::cout << "SUMO's own drives that touched nobody, replayed as an ego it does not drive\n";
   for (const std::string& name : options.scenarios) {
     const world::Scenario scenario = options.common.find_scenario(name);
-    for (const std::string driver : {"", kBold}) {
+    for (const std::string driver : kDrivers) {
       std::vector<Variant> all = variants();
       int touched = 0;
       int unfinished = 0;
@@ -56,14 +68,10 @@ int measure(const Options& options) {
         const world::SumoDrive drive = world::sumo_drive(scenario, seed, driver);
         touched += drive.touched ? 1 : 0;
         unfinished += drive.arrived ? 0 : 1;
-        if (drive.touched) continue;
-        for (Variant& variant : all) {
-          const world::Replay replay = world::replay(scenario, seed, drive, variant.coupling);
-          ++variant.replays;
-          variant.touched += replay.touched ? 1 : 0;
-          variant.stood += replay.touched && replay.stood ? 1 : 0;
-          variant.strayed_m += replay.others_strayed_m;
+        if (!drive.touched) {
+          for (Variant& variant : all) add(world::replay(scenario, seed, drive, variant.coupling), variant);
         }
+        progress.done(name + (driver.empty() ? "" : ", bold driver") + ", seed " + std::to_string(seed));
       }
       std::cout << '\n'
                 << name << (driver.empty() ? "" : ", bold driver") << ": " << options.episodes << " drives, "
@@ -77,6 +85,7 @@ int measure(const Options& options) {
       std::cout.flush();  // long runs show what they have
     }
   }
+  progress.end();
   return kDone;
 }
 

@@ -51,8 +51,14 @@ bool traffic_is_hard(campaign::CampaignPlan plan, const std::filesystem::path& s
   plan.guards = {false};
   plan.episodes = 100;
   const campaign::Campaign campaign = campaign::load_campaign(plan, scenario_root);
+  campaign::ConsoleProgress progress(campaign.episodes());
+  campaign::CampaignOptions options;
+  options.on_episode = [&](const campaign::CampaignCell&, const campaign::EpisodeRow& row,
+                           const campaign::EpisodeResult&) { progress.done(words(row.cell)); };
+  const std::vector<campaign::EpisodeRow> driven = run_campaign(campaign, jobs_of(campaign), options);
+  progress.end();
   bool good = true;
-  for (const auto& [cell, s, rows] : collect(run_campaign(campaign, jobs_of(campaign), {}))) {
+  for (const auto& [cell, s, rows] : collect(driven)) {
     const int lost = s.episodes - s.success.count;
     std::cout << cell.planner << " loses " << lost << " of " << s.episodes << ' ' << cell.scenario << "s\n";
     good &= demand(100 * lost >= (cell.scenario == "left_turn" ? 30 : 20) * s.episodes,

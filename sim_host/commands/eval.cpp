@@ -1,6 +1,5 @@
 #include <fstream>
 #include <iostream>
-#include <iterator>
 #include <set>
 #include <sstream>
 #include <stdexcept>
@@ -18,6 +17,7 @@
 #include "sim_host/commands/command.hpp"
 #include "sim_host/processes/stop_signals.hpp"
 #include "sim_host/world/nodes/perception.hpp"
+#include "sim_host/world/scenario/whole_file.hpp"
 #include "sim_host/world/traffic/traffic_engine.hpp"
 
 namespace s4tp::commands {
@@ -27,6 +27,7 @@ namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
 constexpr std::size_t kFailuresShown = 30;
+constexpr std::uintmax_t kResultBytes = 256U << 20U;  // hundreds of times the main table's
 
 struct EvalOptions {
   campaign::CampaignPlan plan;
@@ -188,10 +189,9 @@ int merge(const MergeOptions& options) {
 }
 
 std::vector<campaign::Outcomes> read_outcomes(const fs::path& file) {
-  std::ifstream stream(file);
-  if (!stream) throw std::runtime_error(file.string() + ": cannot be read");
+  const std::string text = world::whole_file(file, kResultBytes);
   try {
-    return campaign::outcomes_of(campaign::parse_json({std::istreambuf_iterator<char>(stream), {}}));
+    return campaign::outcomes_of(campaign::parse_json(text));
   } catch (const nlohmann::json::exception& error) {
     throw std::runtime_error(file.string() + " is no result of eval: " + error.what());
   } catch (const std::exception& error) {

@@ -1,17 +1,19 @@
 #include <fstream>
 #include <iostream>
-#include <iterator>
 #include <thread>
 
 #include "sim_host/campaign/progress.hpp"
 #include "sim_host/commands/command.hpp"
 #include "sim_host/faults/fault_campaign.hpp"
 #include "sim_host/metrics/metrics.hpp"
+#include "sim_host/world/scenario/whole_file.hpp"
 
 namespace s4tp::commands {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::uintmax_t kScriptBytes = 1 << 20;
 
 struct FaultsOptions {
   CommonOptions common;
@@ -27,13 +29,6 @@ faults::Scenarios load(const FaultsOptions& options) {
     scenarios.insert_or_assign(scenario.name, std::move(scenario));
   }
   return scenarios;
-}
-
-faults::FaultScript read_script(const std::string& file) {
-  std::ifstream stream(file);
-  if (!stream) throw std::runtime_error(file + ": cannot be read");
-  const std::string text{std::istreambuf_iterator<char>(stream), {}};
-  return faults::parse_script(text, file);
 }
 
 int judge_one(const faults::Scenarios& scenarios, const faults::FaultScript& script) {
@@ -105,7 +100,10 @@ Command add_faults(CLI::App& tool) {
   seed->excludes(script);
   return {app, [options, seed, script] {
             const faults::Scenarios scenarios = load(*options);
-            if (script->count() > 0) return judge_one(scenarios, read_script(options->script));
+            if (script->count() > 0) {
+              const std::string text = world::whole_file(options->script, kScriptBytes);
+              return judge_one(scenarios, faults::parse_script(text, options->script));
+            }
             if (seed->count() == 0) {
               const OwnFolder folder = options->common.choose_out();
               return judge_many(*options, scenarios);

@@ -19,17 +19,18 @@ const char* look_ahead_name(sadrf::LookAhead look_ahead) {
   return look_ahead == sadrf::LookAhead::kShrinking ? "shrinking" : "fixed";
 }
 
-int draw(const std::filesystem::path& out) {
-  std::filesystem::create_directories(out);
+int draw(CommonOptions& common) {
+  const OwnFolder own = common.choose_out();
+  std::filesystem::create_directories(common.out);
   for (const sadrf::FieldPreset preset : {sadrf::FieldPreset::kPaper, sadrf::FieldPreset::kKolekar2020}) {
-    const std::filesystem::path file = out / (std::string("field_") + preset_name(preset) + ".svg");
+    const std::filesystem::path file = common.out / (std::string("field_") + preset_name(preset) + ".svg");
     view::draw_field_grid(preset, file);
     std::cout << file.string() << '\n';
   }
   return kDone;
 }
 
-struct CalibrateOptions {
+struct RiskOptions {
   CommonOptions common;
   std::vector<std::string> scenarios{"left_turn", "left_turn_t", "merge", "cruise", "overtake", "cut_in"};
   std::vector<std::string> flavours{"smarts", "social"};
@@ -51,7 +52,7 @@ nlohmann::ordered_json json_of(const campaign::Calibration& calibration) {
   return {{"drives", calibration.drives}, {"left_out", calibration.left_out}, {"cells", cells}};
 }
 
-int calibrate(CalibrateOptions& options) {
+int calibrate(RiskOptions& options) {
   campaign::Calibration calibration = campaign::empty_calibration();
   options.calibration.first_seed = options.common.seed;
   campaign::ConsoleProgress progress(options.flavours.size() * options.scenarios.size() *
@@ -91,14 +92,15 @@ int calibrate(CalibrateOptions& options) {
 
 Command add_risk(CLI::App& tool) {
   CLI::App* risk = tool.add_subcommand("risk", "the driving risk field: its pictures, its threshold");
+  const auto options = std::make_shared<RiskOptions>();
   CLI::App* field = risk->add_subcommand("field", "draws the field over speed and steering, both presets");
-  const auto out = std::make_shared<std::filesystem::path>("out/risk");
-  field->add_option("--out", *out, "folder for the pictures (default out/risk)");
+  options->common.out = std::filesystem::path("out") / "risk";
+  options->common.out_named =
+      field->add_option("--out", options->common.out, "folder for the pictures (default out/risk)");
 
   CLI::App* threshold = risk->add_subcommand(
       "calibrate",
       "C_t: 95th percentile of R_obs(t) along collision-free drives of the traffic's own drivers");
-  const auto options = std::make_shared<CalibrateOptions>();
   threshold->add_option("--scenarios,--scenario", options->scenarios, "shipped names, folders or .toml files")
       ->delimiter(',');
   threshold->add_option("--flavour", options->flavours, "smarts, social (default: both)")->delimiter(',');
@@ -110,7 +112,7 @@ Command add_risk(CLI::App& tool) {
   threshold->add_option("--json", options->json, "write the figures here");
   threshold->add_option("--scenarios-folder", options->common.scenario_root, "where shipped scenarios lie");
   risk->require_subcommand(1);
-  return {risk, [=] { return field->parsed() ? draw(*out) : calibrate(*options); }};
+  return {risk, [=] { return field->parsed() ? draw(options->common) : calibrate(*options); }};
 }
 
 }  // namespace s4tp::commands

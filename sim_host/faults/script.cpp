@@ -163,7 +163,10 @@ class Parser {
   }
 
  private:
-  [[noreturn]] void fail(const std::string& what) const {
+  [[noreturn]] void fail(std::string what) const {
+    // A zero would end the message, an escape reach the terminal.
+    std::replace_if(
+        what.begin(), what.end(), [](unsigned char c) { return c < ' ' || c > '~'; }, '?');
     throw std::runtime_error(source_ + ":" + std::to_string(number_) + ": " + what);
   }
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
-#include <iterator>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -16,6 +15,7 @@
 #include "sim_host/campaign/record_limits.hpp"
 #include "sim_host/world/nodes/perception.hpp"
 #include "sim_host/world/scenario/listed.hpp"
+#include "sim_host/world/scenario/whole_file.hpp"
 #include "sim_host/world/traffic/traffic_engine.hpp"
 
 namespace s4tp::recording {
@@ -27,6 +27,7 @@ using nlohmann::ordered_json;
 constexpr std::uint64_t kVersion = 1;
 constexpr std::array<const char*, 3> kMeetings{"in process", "lock-step", "real time"};
 constexpr std::uint64_t kTakeOverMax = 100'000;
+constexpr std::uintmax_t kNoteBytes = 1 << 20;
 
 fs::path json_file(const fs::path& file) {
   return note_folder(file) / "drive.json";
@@ -52,10 +53,9 @@ fs::path common_folder(const std::vector<fs::path>& files) {
 }
 
 ordered_json read_json(const fs::path& file) {
-  std::ifstream stream(file);
-  if (!stream) throw std::runtime_error(file.string() + ": cannot be read");
+  const std::string text = world::whole_file(file, kNoteBytes);
   try {
-    return campaign::parse_json({std::istreambuf_iterator<char>(stream), {}});
+    return campaign::parse_json(text);
   } catch (const std::exception& error) {
     throw std::runtime_error(file.string() + ": " + error.what());
   }

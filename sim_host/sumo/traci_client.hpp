@@ -16,7 +16,6 @@ namespace s4tp::world::traci {
 enum class Domain : int { kVehicleType = 0x05, kRoute = 0x06, kVehicle = 0x04, kSimulation = 0x0B };
 
 // Variables we use, and commands that look like variables.
-inline constexpr int kIdList = 0x00;
 inline constexpr int kPreviousSpeed = 0x3C;
 inline constexpr int kSpeed = 0x40;
 inline constexpr int kPosition = 0x42;  ///< front bumper's centre

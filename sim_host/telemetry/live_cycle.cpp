@@ -218,7 +218,7 @@ ordered_json cycle_json(const ecu::PlanRecord& plan, const CycleRecord& cycle, c
       {"numbers", view::in_numbers(trace)},
       {"who",
        {{"id", who.track},
-        {"holds_up", who.holds_up},
+        {"blocks", who.blocks},
         {"name", who.name},
         {"belief", who.belief},
         {"claim", who.claim}}},

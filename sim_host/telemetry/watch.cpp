@@ -21,7 +21,8 @@ News Watch::look() {
   news.status = take(kStatus, status_);
   news.plan = take(kPlan, plan_);
   if (news.plan) cycle_known_ = find_cycle();
-  for (ecu::ModeRecord change; memory_.next(kModeChanges, seen_[kModeChanges], lost_, &change);)
+  std::uint64_t overwritten = 0;  // the newest mode is known all the same
+  for (ecu::ModeRecord change; memory_.next(kModeChanges, seen_[kModeChanges], overwritten, &change);)
     news.mode_changes.push_back(change);
   for (const ecu::ModeRecord& change : news.mode_changes) ecu_.change(change);
   return news;

@@ -40,7 +40,6 @@ class Watch {
   [[nodiscard]] const campaign::EcuState& ecu() const { return ecu_; }
   [[nodiscard]] const ecu::ControlRecord& control() const { return control_; }
   [[nodiscard]] const StatusRecord& status() const { return status_; }
-  [[nodiscard]] std::uint64_t lost_mode_changes() const { return lost_; }
   [[nodiscard]] int writer() const { return memory_.is_open() ? memory_.writer() : 0; }
 
  private:
@@ -53,7 +52,6 @@ class Watch {
   std::string absence_ = "not looked for yet";
   hal::linux_host::SharedRecordsReader memory_;
   std::uint64_t seen_[kStreamCount] = {};
-  std::uint64_t lost_ = 0;
   std::uint64_t looks_ = 0;
   bool cycle_known_ = false;
   IdentityRecord identity_;

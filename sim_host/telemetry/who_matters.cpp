@@ -23,7 +23,7 @@ int agent_of(const CycleRecord& cycle, int track) {
   return -1;
 }
 
-/// What to look at when nobody holds us up.
+/// What to look at when nobody blocks us.
 int most_relevant(const ecu::PlanRecord& plan, const CycleRecord& cycle,
                   const std::vector<GroundClaim>& claims) {
   safety::ZoneOccupancy first;
@@ -78,14 +78,14 @@ WhoMatters who_matters(const campaign::CycleTrace& trace, const CycleRecord& cyc
   const view::Reason reason = view::reason_of(trace);
   WhoMatters who;
   int agent = agent_of(cycle, reason.track);
-  who.holds_up = agent >= 0;
+  who.blocks = agent >= 0;
   if (agent < 0) agent = most_relevant(plan, cycle, claims);
   if (agent < 0) return who;
   GroundClaim claim = claims[static_cast<std::size_t>(agent)];
   who.track = cycle.scene.agents[agent].track.id;
   who.name = view::vehicle_name(trace, who.track);
   const safety::Verdict& verdict = plan.explanation.blocking.verdict;
-  const bool waits_for_it = who.holds_up && reason.because == view::Because::kGivingWay &&
+  const bool waits_for_it = who.blocks && reason.because == view::Because::kGivingWay &&
                             verdict.needed_s > 0.0F && claim.its.claim == safety::Claim::kMayCome;
   // Of the motion that was wanted most, as the words have it.
   if (waits_for_it) claim = {{.claim = safety::Claim::kMayCome, .from_s = verdict.from_s}};

@@ -12,11 +12,11 @@ namespace s4tp::telemetry {
 
 /// Who matters most for what we do.
 struct WhoMatters {
-  int track = -1;         ///< -1: nobody
-  bool holds_up = false;  ///< it is why we wait, brake or follow; else it is only watched
-  std::string name;       ///< "the oncoming car"
-  std::string belief;     ///< how likely it lets us go first; empty where that is no question
-  std::string claim;      ///< what it may claim, or leaves to us; empty where ways do not meet
+  int track = -1;       ///< -1: nobody
+  bool blocks = false;  ///< it is why we wait, brake or follow; else it is only watched
+  std::string name;     ///< "the oncoming car"
+  std::string belief;   ///< how likely it lets us go first; empty where that is no question
+  std::string claim;    ///< what it may claim, or leaves to us; empty where ways do not meet
 };
 
 /// VIEW-010 Of whom a reason names, it; else who may come first where ways meet, else whose risk is largest.

@@ -29,7 +29,7 @@ torch::Tensor tensor_of(const std::vector<std::int64_t>& values) {
 
 // Everything a batch is made of, one vehicle after the other.
 struct Columns {
-  std::vector<float> ego_history, ego_mask, place, present, history, history_mask, pair, rule, shares_way,
+  std::vector<float> ego_history, ego_mask, place, present, history, history_mask, pair, rule, paths_meet,
       speed, lane, lane_mask, route_mask, plan, target, target_mask, yields;
   std::vector<std::int64_t> scene, slot, lane_vehicle, lane_slot, route;
 
@@ -45,7 +45,7 @@ struct Columns {
          {satp::PairFeature::kZone, satp::PairFeature::kYields, satp::PairFeature::kHasPriority}) {
       rule.push_back(input.pair[index][static_cast<int>(feature)]);
     }
-    shares_way.push_back(static_cast<float>(input.shares_way[index]));
+    paths_meet.push_back(static_cast<float>(input.paths_meet[index]));
     speed.push_back(input.speed_mps[index]);
     for (int path = 0; path < kPathsPerAgent; ++path) {
       const int points = input.lane_points[index][path];
@@ -94,7 +94,7 @@ Batch make_batch(const std::vector<const Sample*>& samples) {
   batch.history_mask = tensor_of(columns.history_mask, {vehicles, kHistorySamples});
   batch.pair = tensor_of(columns.pair, {vehicles, satp::kPairFeatures});
   batch.rule = tensor_of(columns.rule, {vehicles, 3});
-  batch.shares_way = tensor_of(columns.shares_way, {vehicles});
+  batch.paths_meet = tensor_of(columns.paths_meet, {vehicles});
   batch.speed_mps = tensor_of(columns.speed, {vehicles});
   batch.lane = tensor_of(columns.lane, {lanes, satp::kLanePoints, satp::kLaneFeatures});
   batch.lane_mask = tensor_of(columns.lane_mask, {lanes, satp::kLanePoints});
@@ -134,7 +134,7 @@ Batch random_batch(const satp::NetworkShape& shape, std::int64_t scenes) {
   batch.history_mask = torch::ones({vehicles, kHistorySamples});
   batch.pair = torch::randn({vehicles, satp::kPairFeatures});
   batch.rule = torch::zeros({vehicles, 3});
-  batch.shares_way = torch::ones({vehicles});
+  batch.paths_meet = torch::ones({vehicles});
   batch.speed_mps = torch::full({vehicles}, 8.0F);
   batch.lane = torch::randn({lanes, shape.lane_points, satp::kLaneFeatures});
   batch.lane_mask = torch::ones({lanes, shape.lane_points});
@@ -156,7 +156,7 @@ Batch Batch::to(const torch::Device& device) const {
                                 &moved.scene,        &moved.slot,
                                 &moved.history,      &moved.history_mask,
                                 &moved.pair,         &moved.rule,
-                                &moved.shares_way,   &moved.speed_mps,
+                                &moved.paths_meet,   &moved.speed_mps,
                                 &moved.lane,         &moved.lane_mask,
                                 &moved.lane_vehicle, &moved.lane_slot,
                                 &moved.route_mask,   &moved.plan,

@@ -24,7 +24,7 @@ struct Batch {
   torch::Tensor history_mask;      ///< [V, samples]
   torch::Tensor pair;              ///< [V, features]
   torch::Tensor rule;              ///< [V, 3] zone, yields, has priority
-  torch::Tensor shares_way;        ///< [V] 1 where its ways and ours share something
+  torch::Tensor paths_meet;        ///< [V] 1 where its paths and ours share something
   torch::Tensor speed_mps;         ///< [V]
   torch::Tensor lane;              ///< [L, points, features]
   torch::Tensor lane_mask;         ///< [L, points]

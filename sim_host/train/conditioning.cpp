@@ -70,7 +70,7 @@ struct Pairs {
         told_apart.add(first.road, (end == end_first ? gain : -gain) > 0.0 ? 1.0 : 0.0);
       }
     }
-    if (first.input.shares_way[vehicle] == 0)
+    if (first.input.paths_meet[vehicle] == 0)
       phantom.add(first.road, length(expected) < kPhantomM ? 1.0 : 0.0);
     if (first.interacts[vehicle] == 0 && second.interacts[vehicle] == 0) {
       phantom_in_hindsight.add(first.road, length(expected) < kPhantomM ? 1.0 : 0.0);

@@ -13,8 +13,8 @@ namespace s4tp::train {
 /// is
 ///   likelier under its own plan than under the other's (modes round Gaussians of `sigma_m`)
 /// - "slope", "explained": of the true on the predicted difference of mean positions at 3 s, through zero
-/// - "phantom": vehicles no way of which and of ours have anything in common (NetworkInput::shares_way), share
-///   whose mean moves by less than 0.3 m; "phantom_in_hindsight": those whose ways as driven had not;
+/// - "phantom": vehicles no path of which and of ours have anything in common (NetworkInput::paths_meet), share
+///   whose mean moves by less than 0.3 m; "phantom_in_hindsight": those whose paths as driven had not;
 ///   "untouched": those that share something and truly differ by less than 0.2 m, share below 0.5 m
 /// Each with "pairs" and a 95 % interval clustered by road where it is a share.
 /// \param forecasts  of each sample under its own plan

@@ -209,7 +209,7 @@ FloatEncoded FloatNetwork::encode(const satp::NetworkInput& input) {
     const Vector map = attend("route", agent, lanes, mask, encoded.route[i]);
     const Vector pair = relu("pair.pair_2", relu("pair.pair_1", normalized(input.pair[i], satp::kPairUnit)));
     const Vector inner = relu("gate.gate_1", joined({&histories[0], &histories[1 + i], &pair}));
-    encoded.gate[i] = sigmoid(linear("gate.gate_2", inner)[0]) * static_cast<float>(input.shares_way[i]);
+    encoded.gate[i] = sigmoid(linear("gate.gate_2", inner)[0]) * static_cast<float>(input.paths_meet[i]);
     const Vector state = linear("start.state", joined({&agent, &map, &pair}));
     for (int k = 0; k < shape_.modes; ++k) {
       for (int c = 0; c < shape_.hidden; ++c)

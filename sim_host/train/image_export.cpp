@@ -17,7 +17,8 @@ namespace {
 
 constexpr int kWordsALine = 8;
 constexpr double kUsual = 0.95;
-constexpr int kResidualStep = 4;  // 0.5 s
+constexpr int kResidualStep = 4;                  // 0.5 s
+constexpr std::uintmax_t kMostBytes = 1U << 20U;  // several flash banks
 
 std::ofstream opened(const std::filesystem::path& file) {
   std::ofstream out(file, std::ios::binary);
@@ -81,6 +82,8 @@ void write_image_words(const std::vector<std::uint32_t>& image, const std::files
 }
 
 std::vector<std::uint32_t> read_image(const std::filesystem::path& file) {
+  if (!std::filesystem::is_regular_file(file) || std::filesystem::file_size(file) > kMostBytes)
+    throw std::runtime_error(file.string() + ": no image of weights");
   std::ifstream in(file, std::ios::binary);
   const std::string bytes((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
   if (bytes.empty() || bytes.size() % 4 != 0)

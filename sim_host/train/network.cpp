@@ -170,7 +170,7 @@ Encoded Network::encode(const Batch& batch) {
   const Tensor pair = torch::relu(linear(satp::kPair2, torch::relu(linear(satp::kPair1, batch.pair))));
   const Tensor gate_input = torch::cat({ego.index_select(0, batch.scene), hdv, pair}, 1);
   encoded.gate = torch::sigmoid(linear(satp::kGate2, torch::relu(linear(satp::kGate1, gate_input)))) *
-                 batch.shares_way.unsqueeze(1);
+                 batch.paths_meet.unsqueeze(1);
   const Tensor state = linear(satp::kStart, torch::cat({agent, map, pair}, 1));
   encoded.start = torch::tanh(state.unsqueeze(1) + mode_);
   return encoded;

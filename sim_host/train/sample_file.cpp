@@ -6,15 +6,19 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 #include "sim_host/train/random_number.hpp"
 
 namespace s4tp::train {
 namespace {
+
+constexpr float kMostProbable = 1.001F;  // 1, rounded
 
 struct Header {
   char magic[8] = {'S', '4', 'T', 'P', 'S', 'M', 'P', 'L'};
@@ -36,6 +40,40 @@ static_assert(sizeof(Header) % alignof(Row) == 0, "rows stand aligned behind it"
 
 std::uint32_t crc_of(const Sample& sample) {
   return static_cast<std::uint32_t>(crc32(0, reinterpret_cast<const Bytef*>(&sample), sizeof sample));
+}
+
+template <class Array>
+bool finite(const Array& values) {
+  static_assert(std::is_same_v<std::remove_all_extents_t<Array>, float>);
+  const auto* const first = reinterpret_cast<const float*>(&values);
+  return std::all_of(first, first + sizeof values / sizeof(float),
+                     [](float one) { return std::isfinite(one); });
+}
+
+bool sound(const KinematicFuture& future) {
+  for (int mode = 0; mode < kMaxModes; ++mode) {
+    const float share = future.probability[mode];
+    if (!(share >= 0.0F && share <= kMostProbable) || future.yields[mode] > 1) return false;
+  }
+  return true;
+}
+
+/// What arrays and bins are indexed by is within them: a checksum keeps nobody from writing anything else.
+bool sound(const Sample& sample) {
+  const satp::NetworkInput& input = sample.input;
+  if (input.hdvs < 0 || input.hdvs > kMaxAgents) return false;
+  for (int i = 0; i < kMaxAgents; ++i) {
+    if (sample.route[i] < -1 || sample.route[i] >= kPathsPerAgent || sample.yields[i] < -1 ||
+        sample.yields[i] > 1 || !sound(sample.kinematic[i])) {
+      return false;
+    }
+    for (const std::uint8_t points : input.lane_points[i]) {
+      if (points > satp::kLanePoints) return false;
+    }
+  }
+  return finite(input.speed_mps) && finite(input.ego_history) && finite(input.history) &&
+         finite(input.place) && finite(input.lane) && finite(input.pair) && finite(sample.plan.step) &&
+         finite(sample.target.pose);
 }
 
 [[noreturn]] void refuse(const std::filesystem::path& file, const std::string& why) {
@@ -111,6 +149,7 @@ void SampleSet::map(const std::filesystem::path& file) {
   for (std::size_t i = 0; i < (bytes - sizeof(Header)) / sizeof(Row); ++i) {
     if (crc_of(rows[i].sample) != rows[i].crc)
       refuse(file, "sample " + std::to_string(i) + " has been changed");
+    if (!sound(rows[i].sample)) refuse(file, "sample " + std::to_string(i) + " holds what no drive brings");
     rows_.push_back(&rows[i].sample);
   }
 }

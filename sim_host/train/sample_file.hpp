@@ -35,7 +35,8 @@ class SampleWriter {
 class SampleSet {
  public:
   SampleSet() = default;
-  /// TRAIN-001 A file of another layout or version, a truncated or a changed one is refused.
+  /// TRAIN-001 A file of another layout or version, a truncated or a changed one is refused, and one whose
+  /// counts, indices or numbers no drive brings.
   /// \param path  a folder or one file \throws std::runtime_error as above, or when there is nothing
   explicit SampleSet(const std::filesystem::path& path);
   ~SampleSet();

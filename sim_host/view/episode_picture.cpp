@@ -30,7 +30,7 @@ double obstacle_peak(const CycleTrace& cycle) {
 }
 
 /// The cycle the picture shows: the last one before a collision, else the one of the highest risk after
-/// entry, else (a planner that feels none) the one half-way.
+/// entry, else (a planner that computes none) the one half-way.
 const CycleTrace* tensest(const EpisodeResult& result, double entry_ms) {
   const std::vector<CycleTrace>& cycles = result.trace->cycles;
   if (cycles.empty()) return nullptr;

@@ -37,7 +37,7 @@ int rejected(const planner::Explanation& explanation, trajectory::Rejection why)
 
 void print_explanations(std::ostream& out, const campaign::Trace& trace, double pre_roll_s) {
   out << "  time s  status         plan   v m/s  path intent       a m/s2  cand infeas refused"
-         "   progress  speed   jerk    lat   lane   risk   total  runner-up  risk from  held up by\n";
+         "   progress  speed   jerk    lat   lane   risk   total  runner-up  risk from  blocked by\n";
   for (const campaign::CycleTrace& cycle : trace.cycles) {
     const planner::Explanation& e = cycle.record.explanation;
     const planner::CostBreakdown& c = e.chosen_cost;

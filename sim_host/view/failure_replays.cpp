@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "sim_host/campaign/episode_record.hpp"
+#include "sim_host/campaign/progress.hpp"
 #include "sim_host/view/replay.hpp"
 
 namespace s4tp::view {
@@ -35,9 +36,9 @@ Replays write_failure_replays(const campaign::Records& records, const ReplayOpti
       wanted[{cell.result.cell, episode->seed}] = *episode;
     }
   }
-  const std::size_t total = wanted.size();
-  if (total > 0) std::filesystem::create_directories(folder);
+  if (!wanted.empty()) std::filesystem::create_directories(folder);
 
+  campaign::ConsoleProgress progress(wanted.size());
   Replays written;
   for (const auto& header : records.headers) {
     campaign::Campaign campaign = campaign::load_campaign(campaign::plan_of(header), options.scenario_root);
@@ -59,10 +60,11 @@ Replays write_failure_replays(const campaign::Records& records, const ReplayOpti
                     campaign::replay_command(header, row.cell, row.metrics.seed), recorded},
                    folder / name);
       written[key] = {name, changed(recorded, row)};
-      if (options.on_replay) options.on_replay(written.size(), total);
+      progress.done("replay of " + words(row.cell) + ", seed " + std::to_string(row.metrics.seed));
     };
     (void)campaign::run_campaign(campaign, jobs, run);
   }
+  progress.end();
   return written;
 }
 

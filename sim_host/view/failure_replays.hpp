@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <map>
 #include <utility>
 
@@ -19,7 +18,6 @@ struct ReplayOptions {
   int threads = 0;           ///< 0: one per core
   std::filesystem::path scenario_root;
   const std::atomic<bool>* stop = nullptr;  ///< once true, no further one begins
-  std::function<void(std::size_t done, std::size_t total)> on_replay;
 };
 
 /// Those written: file name, and what came out otherwise than recorded (changed(); empty: nothing).
@@ -29,7 +27,7 @@ struct ReplayFile {
 };
 using Replays = std::map<std::pair<campaign::Cell, std::uint64_t>, ReplayFile>;
 
-/// \param folder  is created where there is something to write
+/// Tells how far it is on the error output. \param folder  is created where there is something to write
 /// \throws std::runtime_error when a scenario cannot be loaded or a file cannot be written
 [[nodiscard]] Replays write_failure_replays(const campaign::Records& records, const ReplayOptions& options,
                                             const std::filesystem::path& folder);

@@ -1,5 +1,5 @@
 #pragma once
-/// The driving risk fields of the cars around, summed: where they are about to be, as they feel it.
+/// The driving risk fields of the cars around, summed: where they are about to be.
 
 #include <string>
 #include <vector>

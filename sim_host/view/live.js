@@ -32,7 +32,7 @@
     return {
       road: lines(cycle.road), ego: cycle.ego, others: cycle.vehicles, way, plan: pairs(cycle.plan),
       failSafe: pairs(cycle.fail_safe), futures: lines(cycle.futures), candidates: lines(cycle.candidates), haze: cycle.haze,
-      riskiest: cycle.riskiest, blockedBy: cycle.who.holds_up ? cycle.who.id : -1, picked,
+      riskiest: cycle.riskiest, blockedBy: cycle.who.blocks ? cycle.who.id : -1, picked,
     };
   };
 
@@ -94,7 +94,7 @@
   const tellWhy = (cycle) => {
     const who = cycle.who, it = who.id >= 0 ? `${who.name} (car ${who.id})` : 'nobody';
     element('words').textContent = cycle.words;
-    element('blocker').textContent = who.holds_up || who.id < 0 ? it : `nobody; to watch: ${it}`;
+    element('blocker').textContent = who.blocks || who.id < 0 ? it : `nobody; to watch: ${it}`;
     element('belief').textContent = who.belief ? `it ${who.belief}` : who.id >= 0 ? 'whether it lets us go first is no question' : '–';
     element('claim').textContent = who.claim ? `it ${who.claim}` : who.id >= 0 ? 'none: it drives where we drive, or our ways do not meet' : '–';
   };

@@ -26,7 +26,7 @@ std::string blocking_text(const campaign::CycleTrace& cycle, const planner::Bloc
       "", "no path", "road's end", "leader", "follower", "zone", "would stand in the zone"};
   const safety::Verdict& verdict = blocking.verdict;
   if (verdict.safe()) return "";
-  std::string line = format("\n  held up %s: %s, %.1f m wanted", where,
+  std::string line = format("\n  blocked %s: %s, %.1f m wanted", where,
                             kCauses[static_cast<int>(verdict.cause)], blocking.way_m);
   if (blocking.track != kNobody)
     line += format(", track %d (%s)", blocking.track, vehicle_name(cycle, blocking.track).c_str());

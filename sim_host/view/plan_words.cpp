@@ -125,7 +125,7 @@ std::string because_words(const campaign::CycleTrace& cycle, const Reason& reaso
     case Because::kBehind:
       return who + " would have to brake hard for us";
     case Because::kRisk:
-      return "going on faster would feel risky because of " + who;
+      return "going on faster would be risky because of " + who;
     case Because::kBend:
       return "a bend";
     case Because::kNoLane:

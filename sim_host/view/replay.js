@@ -86,7 +86,7 @@
     const who = (id) => (id >= 0 ? `car ${id}` : 'nobody');
     element('numbers').textContent = cycle.numbers.replace(/^ {2}/gm, '');
     element('counts').textContent = `${count} candidates; rejected: ${infeasible} beyond the car's limits, ` +
-      `${refused} refused by the guard. Most risk from ${who(cycle.riskiest)}; held up by ${who(cycle.blocked_by)}.`;
+      `${refused} refused by the guard. Most risk from ${who(cycle.riskiest)}; blocked by ${who(cycle.blocked_by)}.`;
   };
 
   const show = (t) => {

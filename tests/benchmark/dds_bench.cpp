@@ -20,6 +20,7 @@
 #include <thread>
 #include <vector>
 
+#include "sim_host/campaign/progress.hpp"
 #include "sim_host/processes/child_process.hpp"
 #include "sim_host/telemetry/live_drive.hpp"
 #include "sim_host/world/scenario/scenario.hpp"
@@ -200,7 +201,14 @@ std::vector<Row> measure(const Options& options, std::uint32_t domain) {
     }
     over = true;
   });
-  while (!over) subscriber.take(drive.plans, drive.commands);
+  const double most_s = scenario.mission.time_limit_s;
+  campaign::ConsoleProgress progress(static_cast<std::size_t>(std::ceil(most_s)));
+  for (double told_s = 0.0; !over;) {
+    subscriber.take(drive.plans, drive.commands);
+    for (; told_s < std::min(progress.elapsed_s(), most_s); told_s += 1.0)
+      progress.done("seconds of driving at most");
+  }
+  progress.end();
   driving.join();
   if (failed) std::rethrow_exception(failed);
   for (int i = 0; i < 3; ++i) subscriber.take(drive.plans, drive.commands);
@@ -214,6 +222,21 @@ std::vector<Row> measure(const Options& options, std::uint32_t domain) {
   for (int i = 0; i < telemetry::kTopicCount; ++i)
     rows.push_back(row_of(static_cast<telemetry::Topic>(i), subscriber, said));
   return rows;
+}
+
+/// ddsperf's figures for messages as long as those of three topics.
+std::vector<Reference> refer(const std::vector<Row>& rows, int seconds, std::uint32_t domain) {
+  constexpr telemetry::Topic kTopics[] = {telemetry::kControlTopic, telemetry::kTrajectoryTopic,
+                                          telemetry::kCandidatesTopic};
+  setenv("CYCLONEDDS_URI", telemetry::dds_configuration("").c_str(), 0);
+  campaign::ConsoleProgress progress(std::size(kTopics));
+  std::vector<Reference> references;
+  for (const telemetry::Topic topic : kTopics) {
+    references.push_back(ddsperf(static_cast<int>(std::lround(rows[topic].bytes)), seconds, domain));
+    progress.done("ddsperf for " + rows[topic].topic);
+  }
+  progress.end();
+  return references;
 }
 
 }  // namespace
@@ -237,14 +260,8 @@ int main(int argc, char** argv) {
     fs::create_directories(options.out);
     const std::uint32_t domain = 20U + static_cast<std::uint32_t>(getpid()) % 200U;
     const std::vector<Row> rows = measure(options, domain);
-    std::vector<Reference> references;
-    setenv("CYCLONEDDS_URI", telemetry::dds_configuration("").c_str(), 0);
-    for (const telemetry::Topic topic :
-         {telemetry::kControlTopic, telemetry::kTrajectoryTopic, telemetry::kCandidatesTopic}) {
-      if (options.ddsperf_s > 0)
-        references.push_back(
-            ddsperf(static_cast<int>(std::lround(rows[topic].bytes)), options.ddsperf_s, domain));
-    }
+    const std::vector<Reference> references =
+        options.ddsperf_s > 0 ? refer(rows, options.ddsperf_s, domain) : std::vector<Reference>();
     print(rows, references);
     const fs::path json = options.out / "results.json";
     if (!(std::ofstream(json) << json_of(rows, references).dump(2) << '\n'))

@@ -1,8 +1,6 @@
 // The optimizer against Ipopt on recorded problems: cost of our 16 passes over that of the local optimum
 // Ipopt finds from the same start, and from our solution.
 
-#include <unistd.h>
-
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <fstream>
@@ -12,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "algo/trajectory/ilqr.hpp"
+#include "sim_host/campaign/progress.hpp"
 #include "tests/benchmark/recorded_problems.hpp"
 #include "tests/benchmark/reference_solver.hpp"
 
@@ -24,12 +23,6 @@ constexpr int kPasses = 16;
 constexpr double kWithin = 0.02;
 constexpr double kShareAsked = 0.95;  // of those solved; and so many must be
 constexpr double kRounding = 1e-6;    // of the score: our sums are float
-
-void show_progress(const char* what, int done, int all) {
-  if (isatty(STDERR_FILENO) == 0) return;
-  std::cerr << '\r' << what << ' ' << done << " of " << all << (done == all ? "    \n" : "    ")
-            << std::flush;
-}
 
 /// One comparison of all problems.
 struct Series {
@@ -75,7 +68,7 @@ Comparison compare(const RecordedProblems& recorded) {
   all.left_out = recorded.left_out;
   const double share = 1.0 / static_cast<double>(std::max<std::size_t>(1, all.problems));
   const auto ilqr = std::make_unique<trajectory::Ilqr>();
-  int done = 0;
+  campaign::ConsoleProgress progress(all.problems);
   for (const trajectory::RefinementProblem& problem : recorded.problems) {
     trajectory::Motion start;
     trajectory::reference_motion(problem, start);
@@ -89,8 +82,9 @@ Comparison compare(const RecordedProblems& recorded) {
     all.kept += result.improved ? 0 : 1;
     all.series[0].add(cost, solve_by_ipopt(problem, start));
     all.series[1].add(cost, solve_by_ipopt(problem, ours));
-    show_progress("compared", ++done, static_cast<int>(all.problems));
+    progress.done("problem compared");
   }
+  progress.end();
   return all;
 }
 
@@ -111,6 +105,17 @@ void print(const Comparison& all) {
               << std::setw(7) << series.at(0.99) << std::setw(7) << series.at(1.0) << '\n';
   }
   std::cout << "better: by more than 2 %. Asked: within 2 % on 95 %\n";
+}
+
+RecordedProblems record(int count, int stride) {
+  campaign::ConsoleProgress progress(static_cast<std::size_t>(count));
+  int told = 0;
+  const auto tell = [&](int there) {  // a drive brings none, or several
+    for (; told < there; ++told) progress.done("problem recorded");
+  };
+  RecordedProblems recorded = record_problems(count, stride, tell);
+  progress.end();
+  return recorded;
 }
 
 nlohmann::ordered_json json_of(const Comparison& all) {
@@ -148,9 +153,7 @@ int main(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
   try {
     std::filesystem::create_directories(out);
-    const auto progress = [count](int done) { show_progress("recorded", done, count); };
-    const RecordedProblems recorded =
-        file.empty() ? record_problems(count, stride, progress) : read_problems(file);
+    const RecordedProblems recorded = file.empty() ? record(count, stride) : read_problems(file);
     if (file.empty()) write_problems(out / "problems.bin", recorded);
     const Comparison all = compare(recorded);
     print(all);

@@ -185,7 +185,7 @@ TEST(Topics, ReachFastDdsWithTheRightValues) {
   ASSERT_EQ(got_risk.data().size(), static_cast<std::size_t>(sadrf::kHeatColumns * sadrf::kHeatRows));
   const sadrf::HeatMap heat = telemetry::heat_map_of(plan, cycle, Parameters{});
   int vehicle = 0;
-  int felt = 0;
+  int risky = 0;
   for (int i = 0; i < sadrf::kHeatColumns * sadrf::kHeatRows; ++i) {
     const std::uint8_t level = heat.cells[i / sadrf::kHeatColumns][i % sadrf::kHeatColumns];
     const int value = static_cast<signed char>(got_risk.data()[static_cast<std::size_t>(i)]);
@@ -194,11 +194,11 @@ TEST(Topics, ReachFastDdsWithTheRightValues) {
       ++vehicle;
     } else if (level <= sadrf::kHeatHighest) {
       EXPECT_EQ(value, level * 99 / 239);
-      felt += level > 0 ? 1 : 0;
+      risky += level > 0 ? 1 : 0;
     }
   }
   EXPECT_GT(vehicle, 0);
-  EXPECT_GT(felt, 0);
+  EXPECT_GT(risky, 0);
 
   // Best effort: the very last one may be lost, and commands change by little in 0.1 s.
   EXPECT_NEAR(control.last().longitudinal().acceleration(), watch.control().sent.acceleration_mps2, 0.5F);

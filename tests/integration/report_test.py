@@ -176,7 +176,7 @@ def main(tool):
         def run(*arguments, code=0):
             result = subprocess.run([tool, *map(str, arguments)], capture_output=True, text=True, check=False, cwd=folder)
             check(result.returncode == code, f"{arguments}: exit code {result.returncode}\n{result.stdout}{result.stderr}")
-            return result.stdout
+            return result.stdout + result.stderr
 
         check_browser(browser, folder)
         # Of every two episodes of a cell one is driven: the campaign is half done.
@@ -184,6 +184,7 @@ def main(tool):
         run("eval", "merge", folder / "out/part-1-of-2.jsonl", "--json", folder / "results.json", code=1)
         said = run("eval", "report", folder / "out", "--out", folder / "report", "--replays", "1")
         check("16 of 32 episodes done" in said, said)
+        check(re.search(r"^1/\d+, .* left  replay of ", said, re.MULTILINE), "a log does not show how far the replays are")
         document = json.loads((folder / "results.json").read_text())
         failed = [(run_, failure) for run_ in document["runs"] for failure in run_["failures"]]
         check(any(failure["ending"] == "collision" for _, failure in failed), "nobody collided: nothing to look at")

@@ -218,7 +218,7 @@ TEST(SumoTraffic, TakesRouteFilesByEpisode) {
   for (int i = 0; i < 2; ++i) {
     const fs::path file = folder / ("traffic-" + std::to_string(i) + ".rou.xml");
     std::ofstream(file) << "<routes><vType id=\"lorry\" length=\"" << 8 + i << "\" width=\"2.4\"/>"
-                        << "<vehicle id=\"his:" << i << "\" type=\"lorry\" depart=\"0\" departLane=\"" << i
+                        << "<vehicle id=\"theirs:" << i << "\" type=\"lorry\" depart=\"0\" departLane=\"" << i
                         << "\"><route edges=\"" << scenario.mission.edges.front()
                         << "\"/></vehicle></routes>";
     scenario.route_files.push_back(file);

@@ -217,7 +217,7 @@ class Package(unittest.TestCase):
         self.assertEqual({file.name for file in usr.iterdir()}, {"bin", "include", "lib", "share"})
         for path in ("bin/s4tp", "include/s4tp/s4tp.h", "share/s4tp/s4tp.dbc", "share/man/man1/s4tp.1",
                      "share/bash-completion/completions/s4tp", *(f"share/doc/s4tp/{name}" for name in (
-                         "README.md", "CHANGELOG.md", "copyright", "docs/architecture.md", "s4tp.spdx.json"))):
+                         "README.md", "CHANGELOG.md", "copyright", "docs/architecture.md", "docs/requirements.md", "s4tp.spdx.json"))):
             self.assertTrue((usr / path).is_file(), path)
         self.assertIn("S4TP_OK", run(self.on_host(usr)))
         time.sleep(1.1)  # tar knows seconds

@@ -35,14 +35,14 @@ struct World {
   TrajectoryPoint start;
   World() {
     const scene::LanePath path = path_of(map, {0, 1, 2});
-    scene::EgoPath& way = add_way(scene, map, path);
+    scene::EgoPath& ego_path = add_ego_path(scene, map, path);
     if (*rc::gen::arbitrary<bool>()) {
       scene::ConflictZone zone;
       zone.entry_s_m = uniform(1000, 9000);
       zone.exit_s_m = zone.entry_s_m + uniform(300, 1500);
       zone.stop_s_m = zone.entry_s_m + uniform(-500, 150);
       zone.other_lane = 2;
-      (void)way.zones.push(zone);
+      (void)ego_path.zones.push(zone);
     }
     for (int i = *rc::gen::inRange(0, 3); i > 0; --i)
       add_vehicle(scene, map, path, uniform(0, 12000), uniform(0, 1500), uniform(-300, 300));
@@ -137,14 +137,14 @@ TEST(MotionProperty, StopsRestBeforeTheirPlace) {
   EXPECT_TRUE(rc::check([] {
     LaneMap map = straight_road(1, 400.0F);
     scene::Scene scene;
-    scene::EgoPath& way = add_way(scene, map, path_of(map, {0}));
-    TrajectoryPoint state = state_on(map, way.path, 20.0F, uniform(0, 1500));
+    scene::EgoPath& ego_path = add_ego_path(scene, map, path_of(map, {0}));
+    TrajectoryPoint state = state_on(map, ego_path.path, 20.0F, uniform(0, 1500));
     const float room_m = state.speed_mps * state.speed_mps / 10.0F + uniform(50, 8000);
     scene::ConflictZone zone;
     zone.stop_s_m = 20.0F + 4.0F + room_m;
     zone.entry_s_m = zone.stop_s_m;
     zone.exit_s_m = zone.stop_s_m + 5.0F;
-    (void)way.zones.push(zone);
+    (void)ego_path.zones.push(zone);
     scene.time_ms = kNow;
     for (int i = 0; i < 400; ++i) {
       put_ego(scene, state);

@@ -30,9 +30,9 @@ struct Roads {
   scene::Scene scene;
   /// In the middle of three lanes.
   Roads(float s_m, float speed_mps) {
-    add_way(scene, map, path_of(map, {1}));
-    add_way(scene, map, path_of(map, {2}), scene::Manoeuvre::kLeft);
-    add_way(scene, map, path_of(map, {0}), scene::Manoeuvre::kRight);
+    add_ego_path(scene, map, path_of(map, {1}));
+    add_ego_path(scene, map, path_of(map, {2}), scene::Manoeuvre::kLeft);
+    add_ego_path(scene, map, path_of(map, {0}), scene::Manoeuvre::kRight);
     scene.time_ms = kNow;
     start = state_on(map, scene.ego_paths[0].path, s_m, speed_mps);
     put_ego(scene, start);

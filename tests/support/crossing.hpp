@@ -1,5 +1,5 @@
 #pragma once
-/// A straight way of ours and one lane that crosses it: what tests of right of way are written on.
+/// A straight path of ours and one lane that crosses it: what tests of right of way are written on.
 
 #include "algo/safety/guard.hpp"
 #include "algo/trajectory/bicycle.hpp"
@@ -22,14 +22,14 @@ struct Crossing {
     const LaneIndex b = add_lane(map, {{0.0F, -100.0F}, {0.0F, 300.0F}});
     ours = path_of(map, {a});
     theirs = path_of(map, {b});
-    scene::EgoPath& way = add_way(scene, map, ours);
+    scene::EgoPath& ego_path = add_ego_path(scene, map, ours);
     scene::ConflictZone zone;
     zone.entry_s_m = zone.other_entry_m = 96.0F;
     zone.exit_s_m = zone.other_exit_m = 104.0F;
     zone.stop_s_m = 95.0F;
     zone.other_lane = b;
     zone.priority = priority;
-    (void)way.zones.push(zone);
+    (void)ego_path.zones.push(zone);
   }
 
   /// Constant acceleration from rear axle position `s_m`.

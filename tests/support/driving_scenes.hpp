@@ -42,16 +42,16 @@ inline void put_ego(scene::Scene& scene, const TrajectoryPoint& state) {
   }
 }
 
-/// A way we may go; the goal is far beyond its end unless said otherwise. \return it, for the zones
-inline scene::EgoPath& add_way(scene::Scene& scene, const LaneMap& map, const scene::LanePath& path,
-                               scene::Manoeuvre manoeuvre = scene::Manoeuvre::kKeep) {
+/// A path we may take; the goal is far beyond its end unless said otherwise. \return it, for the zones
+inline scene::EgoPath& add_ego_path(scene::Scene& scene, const LaneMap& map, const scene::LanePath& path,
+                                    scene::Manoeuvre manoeuvre = scene::Manoeuvre::kKeep) {
   scene.map = &map;
-  scene::EgoPath way;
-  way.manoeuvre = manoeuvre;
-  way.path = path;
-  way.route_end_s_m = path.length_m;
-  way.goal_s_m = path.length_m;
-  (void)scene.ego_paths.push(way);
+  scene::EgoPath ego_path;
+  ego_path.manoeuvre = manoeuvre;
+  ego_path.path = path;
+  ego_path.route_end_s_m = path.length_m;
+  ego_path.goal_s_m = path.length_m;
+  (void)scene.ego_paths.push(ego_path);
   return scene.ego_paths[scene.ego_paths.size() - 1];
 }
 

@@ -11,8 +11,8 @@ struct LaneChangeRoad {
   Parameters parameters;
 
   LaneChangeRoad() {
-    add_way(scene, map, path_of(map, {0}));
-    add_way(scene, map, path_of(map, {1}), scene::Manoeuvre::kLeft);
+    add_ego_path(scene, map, path_of(map, {0}));
+    add_ego_path(scene, map, path_of(map, {1}), scene::Manoeuvre::kLeft);
   }
 };
 

@@ -126,7 +126,7 @@ inline void make_random_input(std::uint64_t seed, int hdvs, satp::NetworkInput& 
   for (int a = 0; a <= hdvs; ++a) fill(input.place[a], satp::kPlaceUnit, satp::kPlaceFeatures);
   for (int i = 0; i < hdvs; ++i) {
     input.speed_mps[i] = random.real(0.0F, 15.0F);
-    input.shares_way[i] = i != 3 ? 1 : 0;
+    input.paths_meet[i] = i != 3 ? 1 : 0;
     input.history_valid[i] = static_cast<std::uint16_t>(0x400 | random.integer(0, 0x3FF));
     for (auto& row : input.history[i]) fill(row, satp::kHistoryUnit, satp::kHistoryFeatures);
     fill(input.pair[i], satp::kPairUnit, satp::kPairFeatures);

@@ -46,7 +46,7 @@ inline std::unique_ptr<RefinementScene> random_refinement(unsigned seed) {
   const float turn_rad = draw(-1.5F, 1.5F);
   made->map = curved_road(draw(12.0F, 100.0F), turn_rad);
   const scene::LanePath path = path_of(made->map, {0, 1, 2});
-  (void)add_way(made->scene, made->map, path);
+  (void)add_ego_path(made->scene, made->map, path);
   const float start_s_m = draw(5.0F, 80.0F);
   const float offset_m = draw(-0.8F, 0.8F);
   TrajectoryPoint start = state_on(made->map, path, start_s_m, draw(0.0F, 14.0F), offset_m);

@@ -1,5 +1,5 @@
 #pragma once
-/// A straight way of ours and one lane that crosses it or merges into it: what tests of legal occupancy and
+/// A straight path of ours and one lane that crosses it or merges into it: what tests of legal occupancy and
 /// of the guard are written on.
 
 #include "algo/safety/guard.hpp"
@@ -29,7 +29,7 @@ struct SharedGround {
     map.lanes[b].in_junction = true;
     ours = path_of(map, {a});
     theirs = path_of(map, {b});
-    scene::EgoPath& way = add_way(scene, map, ours);
+    scene::EgoPath& ego_path = add_ego_path(scene, map, ours);
     scene::ConflictZone zone;
     zone.entry_s_m = zone.other_entry_m = 96.0F;
     zone.exit_s_m = zone.other_exit_m = 104.0F;
@@ -37,7 +37,7 @@ struct SharedGround {
     zone.other_lane = b;
     zone.priority = priority;
     zone.merging = merging;
-    (void)way.zones.push(zone);
+    (void)ego_path.zones.push(zone);
   }
 
   [[nodiscard]] scene::ConflictZone& zone() { return scene.ego_paths[0].zones[0]; }

@@ -3,6 +3,7 @@
 S4TP_BUILD names the host's build folder.
 """
 
+import json
 import os
 import pathlib
 import re
@@ -36,12 +37,27 @@ class Recipes(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.folder = pathlib.Path(folder.name)
 
-    # A planner's file compiles as it stands, with every warning an error.
+    # A planner's file compiles as it stands, with every warning an error; linked into the program, of which no other file
+    # names it, it drives where it is asked for, bare and guarded.
     def test_planner(self):
-        file = self.folder / "half_speed.cpp"
-        file.write_text(recipe("half_speed.cpp"), encoding="utf-8")
-        run("g++", "-std=c++20", "-fsyntax-only", "-Wall", "-Wextra", "-Wpedantic", "-Wshadow", "-Werror", f"-I{ROOT}",
-            f"-I{BUILD}/generated", file)
+        name, text = "half_speed", recipe("half_speed.cpp")
+        self.assertIn(f"--planner {name}", PAGE)
+        self.assertIn("GLOB baselines_sources CONFIGURE_DEPENDS baselines/*.cpp", (ROOT / "sim_host/CMakeLists.txt").read_text(encoding="utf-8"))
+        (self.folder / "half_speed.cpp").write_text(text, encoding="utf-8")
+        commands = json.loads((BUILD / "compile_commands.json").read_text(encoding="utf-8"))
+        command = next(one["command"] for one in commands if one["file"].endswith("sim_host/baselines/any_ecu.cpp"))
+        command = re.sub(r" -(?:include|o|c) \S+", "", command)  # without the headers read once: the file includes its own
+        run("sh", "-c", f"{command} -Wall -Wextra -Wpedantic -Wshadow -Werror -c half_speed.cpp -o half_speed.o", cwd=self.folder)
+        link = run("ninja", "-C", BUILD, "-t", "commands", "-s", "sim_host/s4tp_tool").splitlines()[-1]
+        self.assertIn(" -o sim_host/s4tp_tool ", link)
+        run("sh", "-c", link.replace(" -o sim_host/s4tp_tool ", f" {self.folder}/half_speed.o -o {self.folder}/s4tp_tool "), cwd=BUILD)
+        (self.folder / "share").symlink_to(BUILD.resolve() / "share")
+        run(self.folder / "s4tp_tool", "eval", "--planner", name, "--scenario", ROOT / "sim_host/scenarios/cruise", "--guard", "on", "off",
+            "--episodes", "1", "--out", self.folder / "out")
+        results = json.loads((self.folder / "out/results.json").read_text(encoding="utf-8"))["runs"]
+        self.assertEqual([(one["planner"], one["guarded"]) for one in results], [(name, True), (name, False)])
+        for one in results:  # the limit is 13.89 m/s, and the ego enters with it
+            self.assertTrue(6.0 < one["mean_speed_mps"] < 8.5, one["mean_speed_mps"])
 
     # A scenario is driven to its end, and is the one that was asked for.
     def test_scenario(self):
@@ -77,7 +93,8 @@ int main() {
         run("g++", "-std=c++17", f"-I{self.folder}", self.folder / "main.cpp", *core, "-o", self.folder / "main")
         self.assertIn("example_gap_m", run(self.folder / "main"))
 
-    # A message: the generated codec has it, the load table counts it, and a version raised in one place only is found.
+    # A message: the generated codec has it and packs it as the golden frames say, the load table counts it, and a version
+    # raised in one place only is found.
     def test_message(self):
         dbc = self.folder / "firmware/wire/s4tp.dbc"
         versions = self.folder / "algo/core/versions.hpp"
@@ -92,21 +109,48 @@ int main() {
         text = text.replace("BO_ 8 ", message + "BO_ 8 ", 1)
         text = re.sub(r'^VERSION "(\d+)"', lambda match: f'VERSION "{int(match[1]) + 1}"', text)
         dbc.write_text(text, encoding="utf-8")
-        run(sys.executable, "-B", ROOT / "toolchain/dbc_codec.py", dbc, "--output", self.folder)
+        run(sys.executable, "-B", ROOT / "toolchain/dbc_codec.py", dbc, "--output", self.folder / "firmware/wire/generated")
         codec = "".join(file.read_text(encoding="utf-8") for file in self.folder.rglob("s4tp_codec.hpp"))
         self.assertRegex(codec, r"struct Example\b")
         self.assertIn("slope_rad", codec)
         run(sys.executable, "-B", ROOT / "toolchain/bus_load.py", dbc, self.folder / "load.md")
         self.assertIn("| Example | VEHICLE | 10.0 |", (self.folder / "load.md").read_text(encoding="utf-8"))
+        # Packed by the generated codec as by the one of the golden frames, and read back.
+        for file in ("tests/golden/make_wire_frames.py", "toolchain/dbc.py"):
+            (self.folder / file).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy(ROOT / file, self.folder / file)
+        frames = run(sys.executable, "-B", self.folder / "tests/golden/make_wire_frames.py")
+        golden = re.search(r"^Example (\w+) slope_rad=1.0235$", frames, re.MULTILINE)[1]
+        (self.folder / "main.cpp").write_text("""
+#include <cstdio>
+#include "firmware/wire/codec.hpp"
+int main() {
+  s4tp::wire::Example sent;
+  s4tp::wire::Example got;
+  s4tp::wire::Frame frame;
+  sent.slope_rad = 1.0235F;
+  if (!encode(sent, frame) || !decode(frame, got) || got.slope_rad != sent.slope_rad || frame.id != 96) return 1;
+  for (const unsigned byte : frame.data) std::printf("%02X", byte);
+}
+""", encoding="utf-8")
+        run("g++", "-std=c++17", f"-I{self.folder}", f"-I{ROOT}", self.folder / "main.cpp", *self.folder.rglob("s4tp_codec.cpp"),
+            ROOT / "firmware/wire/signal.cpp", "-o", self.folder / "main")
+        self.assertEqual(run(self.folder / "main"), golden)
         self.assertIn("kWireVersion", run(sys.executable, "-B", ROOT / "toolchain/check_versions.py", self.folder, code=1))
 
-    # Whatever lists the targets is named by the recipe for a new one.
+    # Whatever lists the targets is named by the recipe for a new one, and it names nothing else; the toolchain file that it
+    # shows is as short as it says.
     def test_target(self):
-        section = PAGE[PAGE.index("## A target"):]
-        places = [ROOT / "s4tp", ROOT / ".ci/run", ROOT / "CMakePresets.json", *(ROOT / "toolchain").glob("*.py"), *(ROOT / "toolchain").glob("*.sh")]
+        section = PAGE[PAGE.index("## A target"):PAGE.index("## A release")]
+        places = [ROOT / "s4tp", ROOT / ".ci/run", ROOT / "CMakePresets.json",
+                  *(file for file in (ROOT / "toolchain").iterdir() if file.suffix in (".py", ".sh", ".json"))]
         lists = [file.relative_to(ROOT).as_posix() for file in places if re.search(r"\bm55\b", file.read_text(encoding="utf-8"))]
         self.assertGreater(len(lists), 4)
-        self.assertEqual([name for name in lists if f"`{name}`" not in section], [])
+        named = re.findall(r"`(s4tp|\.ci/run|CMakePresets\.json|toolchain/\w+\.(?:py|sh|json))`", section)
+        self.assertEqual(sorted(named), sorted(lists))
+        self.assertIn("`toolchain/m55.cmake` is four lines", section)
+        lines = (ROOT / "toolchain/m55.cmake").read_text(encoding="utf-8").splitlines()
+        self.assertEqual(len([line for line in lines if line and not line.startswith("#")]), 4)
 
 
 class Hook(unittest.TestCase):

@@ -26,6 +26,8 @@ class Pages(unittest.TestCase):
         for page in ("safety.md",):
             self.write(f"docs/{page}", "# Guard\n")
         self.write("algo/names.hpp", " ".join(check_docs.glossary(ROOT)[1]))
+        self.write("toolchain/requirements_document.py", "")
+        self.write(check_docs.LIST, requirements_document.document(self.root)[0])
 
     def write(self, path, text):
         (self.root / path).parent.mkdir(parents=True, exist_ok=True)
@@ -65,6 +67,14 @@ class Pages(unittest.TestCase):
         self.write("algo/names.hpp", (self.root / "algo/names.hpp").read_text(encoding="utf-8").replace("PathHypothesis", "Hypothesis"))
         self.assertEqual(self.found(), ["docs/glossary.md: guard is not defined",
                                         "docs/glossary.md: there is no PathHypothesis in algo any more"])
+
+    # A promise that is new, and no list at all.
+    def test_old_list_of_requirements_is_found(self):
+        self.write("algo/a.hpp", f"/// {FIRST} Brakes hard.\n")
+        self.assertEqual(len(self.found()), 1)
+        self.assertIn("requirements_document.py > docs/requirements.md", self.found()[0])
+        (self.root / check_docs.LIST).unlink()
+        self.assertEqual(len(self.found()), 1)
 
     def test_long_readme_is_found(self):
         self.write("README.md", "x\n" * (check_docs.README_LINES + 1))

@@ -44,7 +44,9 @@ class FirstMinutes(unittest.TestCase):
         for arguments, accepted in ((("run", "--planner", "s4pt"), "s4tp,"), (("run", "--scenario", "lefturn"), "left_turn"),
                                     (("run", "--flavour", "socail"), "social"), (("run", "--seed", "-1"), "0 to"),
                                     (("eval", "--roads", "5:"), "N:K"), (("run", "--traffic", "smuo"), "sumo"),
-                                    (("run", "--parameters", "none.toml"), "none.toml: there is no such file")):
+                                    (("run", "--parameters", "none.toml"), "none.toml: there is no such file"),
+                                    (("faults", "--script", "/dev/null"), "/dev/null: is no ordinary file"),
+                                    (("eval", "compare", "/dev/null", "--planner", "s4tp", "--against", "blind"), "/dev/null: is no ordinary file")):
             self.assertIn(accepted, self.said(*arguments))
 
     # A folder that cannot be made is named, with the option that names another one.
@@ -59,6 +61,18 @@ class FirstMinutes(unittest.TestCase):
         self.said("run", "--scenario", "lefturn")
         self.assertFalse((self.folder / "out/run").exists())
         self.assertNotIn("holds a result already", self.said("run", "--scenario", "cruise", "--seed", "0", code=0))
+
+    # FILE-010 A second report and a second drawing leave the first ones alone, and say where theirs are.
+    def test_a_second_result_has_a_place_of_its_own(self):
+        self.said("eval", "--scenarios", "cruise", "--planner", "constant_speed", "--guard", "off", "--episodes", "1", "--out", "drives", code=0)
+        for arguments, first in ((("eval", "report", "drives"), "report/index.html"), (("risk", "field"), "risk/field_paper.svg")):
+            file = self.folder / "out" / first
+            self.assertNotIn("holds a result already", self.said(*arguments, code=0))
+            self.assertTrue(file.exists(), first)
+            file.write_text("the first one", encoding="utf-8")
+            self.assertIn(f"{file.parent.relative_to(self.folder)} holds a result already", self.said(*arguments, code=0))
+            self.assertEqual(file.read_text(encoding="utf-8"), "the first one")
+            self.assertTrue((file.parent.with_name(file.parent.name + "-2") / file.name).exists(), first)
 
 
 if __name__ == "__main__":

@@ -39,14 +39,17 @@ class Launcher(unittest.TestCase):
         asked = self.folder / "asked"
         return asked.read_text(encoding="utf-8") if asked.exists() else ""
 
-    # Without a word it says what to try first; a word it does not know is named, with where the right ones are.
+    # Without a word it says what to try first; a word it does not know is named, with the one that was meant where one is
+    # near, and where the right ones are.
     def test_first_steps_and_wrong_words(self):
         alone = subprocess.run(["bash", LAUNCHER], check=False, text=True, stdout=subprocess.PIPE, timeout=60)
         self.assertEqual(alone.returncode, 0)
         self.assertIn("./s4tp demo", alone.stdout)
-        wrong = subprocess.run(["bash", LAUNCHER, "rnu"], check=False, text=True, stderr=subprocess.PIPE, timeout=60)
-        self.assertEqual(wrong.returncode, 2)
-        self.assertRegex(wrong.stderr, "no command 'rnu'.*--help")
+        for word, meant in (("rnu", "run"), ("telemetri", "telemetry"), ("bnch", "bench"), ("reply", "replay"), ("frobnicate", ""), ("x", ""), ("\\n", "")):
+            wrong = subprocess.run(["bash", LAUNCHER, word], check=False, text=True, stderr=subprocess.PIPE, timeout=60)
+            self.assertEqual(wrong.returncode, 2)
+            question = f"did you mean {meant}? " if meant else ""
+            self.assertEqual(wrong.stderr, f"s4tp: there is no command '{word}'; {question}./s4tp --help lists them\n")
 
     # SUMO is installed when it is to simulate, alone or beside our own traffic, and only then.
     def test_sumo_is_installed_when_it_is_asked_for(self):

@@ -126,7 +126,7 @@ TEST_F(Forward, ThePlanHasASayOnlyWhereItIsShown) {
   const auto go = std::make_unique<Sample>(set[0]);
   const auto wait = std::make_unique<Sample>(set[1]);
   for (Sample* const sample : {go.get(), wait.get()})
-    std::fill(std::begin(sample->input.shares_way), std::end(sample->input.shares_way), std::uint8_t{0});
+    std::fill(std::begin(sample->input.paths_meet), std::end(sample->input.paths_meet), std::uint8_t{0});
   EXPECT_TRUE(torch::equal(poses({go.get()}, 1.0F), poses({wait.get()}, 1.0F)));
 }
 

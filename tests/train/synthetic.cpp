@@ -53,7 +53,7 @@ void fill_lane(Sample& sample, int vehicle) {
 void fill_vehicle(Sample& sample, int vehicle, float speed_mps, float rate_radps) {
   satp::NetworkInput& input = sample.input;
   input.speed_mps[vehicle] = speed_mps;
-  input.shares_way[vehicle] = 1;
+  input.paths_meet[vehicle] = 1;
   input.history_valid[vehicle] = (1U << kHistorySamples) - 1U;
   fill_history(input.history[vehicle], speed_mps, rate_radps);
   fill_lane(sample, vehicle);

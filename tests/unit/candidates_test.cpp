@@ -15,7 +15,7 @@
 namespace s4tp::trajectory {
 namespace {
 
-// CAND-009 In the middle of three lanes behind a leader: each way has following and braking; never over 24.
+// CAND-009 In the middle of three lanes behind a leader: each path has following and braking; never over 24.
 TEST(Candidates, CoverEveryPathAndIntent) {
   Roads roads(50.0F, 10.0F);
   add_vehicle(roads.scene, roads.map, roads.scene.ego_paths[0].path, 90.0F, 8.0F);
@@ -95,7 +95,7 @@ TEST(Candidates, StopRestsBeforeItsLine) {
   map.lanes[0].on_route = false;
   scene::Scene scene;
   scene.time_ms = kNow;
-  add_way(scene, map, path_of(map, {0}));
+  add_ego_path(scene, map, path_of(map, {0}));
   TrajectoryPoint state = state_on(map, scene.ego_paths[0].path, 40.0F, 10.0F);
   float hardest = 0.0F;
   for (int i = 0; i < 150; ++i) {
@@ -118,19 +118,19 @@ TEST(Candidates, StopsBeforeConflictZones) {
   LaneMap map = straight_road(1, 300.0F);
   scene::Scene scene;
   scene.time_ms = kNow;
-  scene::EgoPath& way = add_way(scene, map, path_of(map, {0}));
+  scene::EgoPath& ego_path = add_ego_path(scene, map, path_of(map, {0}));
   scene::ConflictZone zone;
   zone.entry_s_m = 80.0F;
   zone.exit_s_m = 90.0F;
   zone.stop_s_m = 78.0F;
-  ASSERT_TRUE(way.zones.push(zone));
-  TrajectoryPoint start = state_on(map, way.path, 50.0F, 8.0F);
+  ASSERT_TRUE(ego_path.zones.push(zone));
+  TrajectoryPoint start = state_on(map, ego_path.path, 50.0F, 8.0F);
   put_ego(scene, start);
   CandidateList list = generate(scene, start);
   const Candidate* stop = find(list, 0, Intent::kStop);
   ASSERT_NE(stop, nullptr);
   EXPECT_NEAR(stop->target_s_m, 78.0F - 4.0F, 1e-4F);
-  start = state_on(map, way.path, 75.0F, 2.0F);  // front at 79, past the line, centre at 76.5
+  start = state_on(map, ego_path.path, 75.0F, 2.0F);  // front at 79, past the line, centre at 76.5
   put_ego(scene, start);
   list = generate(scene, start);
   const Candidate* later = find(list, 0, Intent::kStop);
@@ -144,17 +144,17 @@ TEST(Candidates, CreepToTheZone) {
   LaneMap map = straight_road(1, 300.0F);
   scene::Scene scene;
   scene.time_ms = kNow;
-  scene::EgoPath& way = add_way(scene, map, path_of(map, {0}));
+  scene::EgoPath& ego_path = add_ego_path(scene, map, path_of(map, {0}));
   scene::ConflictZone zone;
   zone.entry_s_m = 80.0F;
   zone.exit_s_m = 90.0F;
   zone.stop_s_m = 78.0F;
-  ASSERT_TRUE(way.zones.push(zone));
+  ASSERT_TRUE(ego_path.zones.push(zone));
   zone.entry_s_m = 90.5F;
   zone.exit_s_m = 95.0F;
-  ASSERT_TRUE(way.zones.push(zone));
+  ASSERT_TRUE(ego_path.zones.push(zone));
   const auto furthest_stop_m = [&](float s_m) {
-    const TrajectoryPoint start = state_on(map, way.path, s_m, 0.0F);
+    const TrajectoryPoint start = state_on(map, ego_path.path, s_m, 0.0F);
     put_ego(scene, start);
     const CandidateList list = generate(scene, start);
     float furthest_m = 0.0F;
@@ -174,7 +174,7 @@ TEST(Candidates, SlowDownForTheLeftTurn) {
   LeftTurn road;
   scene::Scene scene;
   scene.time_ms = kNow;
-  add_way(scene, road.map, road.path);
+  add_ego_path(scene, road.map, road.path);
   TrajectoryPoint state = state_on(road.map, road.path, 30.0F, 8.0F);
   float worst_lateral = 0.0F;
   float worst_offset = 0.0F;
@@ -205,7 +205,7 @@ TEST(Candidates, FollowSettlesBehindTheLeader) {
   LaneMap map = straight_road(1, 1000.0F);
   scene::Scene scene;
   scene.time_ms = kNow;
-  add_way(scene, map, path_of(map, {0}));
+  add_ego_path(scene, map, path_of(map, {0}));
   TrajectoryPoint state = state_on(map, scene.ego_paths[0].path, 10.0F, 13.0F);
   float leader_s_m = 70.0F;
   float least_gap = 100.0F;
@@ -233,8 +233,8 @@ TEST(Candidates, SettlesBesideAGap) {
     LaneMap map = straight_road(2, 1000.0F);
     scene::Scene scene;
     scene.time_ms = kNow;
-    add_way(scene, map, path_of(map, {0}));
-    add_way(scene, map, path_of(map, {1}), scene::Manoeuvre::kLeft);
+    add_ego_path(scene, map, path_of(map, {0}));
+    add_ego_path(scene, map, path_of(map, {1}), scene::Manoeuvre::kLeft);
     TrajectoryPoint state = state_on(map, scene.ego_paths[0].path, 20.0F, 13.0F);
     MergeTarget aim{1, 30.0F, 8.0F};
     float leader_s_m = 70.0F;

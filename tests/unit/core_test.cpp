@@ -1,4 +1,4 @@
-// Geometry, trajectory sampling and status names: the small things all rooms share.
+// Geometry, order, trajectory sampling, input ranges and status names: the small things all rooms share.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -6,7 +6,9 @@
 #include <string>
 
 #include "algo/core/geometry.hpp"
+#include "algo/core/input_ranges.hpp"
 #include "algo/core/math.hpp"
+#include "algo/core/sort.hpp"
 #include "algo/core/status.hpp"
 #include "algo/core/trajectory.hpp"
 
@@ -76,6 +78,71 @@ TEST(Status, NamesAreDistinct) {
   }
   EXPECT_EQ(names.size(), 8U);
   EXPECT_EQ(names.count("unknown"), 0U);
+}
+
+namespace {
+
+struct Numbered {
+  int key = 0;
+  int number = 0;
+};
+
+bool smaller(const Numbered& a, const Numbered& b) {
+  return a.key < b.key;
+}
+
+}  // namespace
+
+// 3 1 2 1 3 becomes 1 1 2 3 3, equals as they came.
+TEST(Sort, KeepsEqualsAsTheyCame) {
+  BoundedVector<Numbered, 8> list;
+  for (const int key : {3, 1, 2, 1, 3}) ASSERT_TRUE(list.push({key, list.size()}));
+  sort(list, smaller);
+  const Numbered expected[] = {{1, 1}, {1, 3}, {2, 2}, {3, 0}, {3, 4}};
+  for (int i = 0; i < list.size(); ++i) {
+    EXPECT_EQ(list[i].key, expected[i].key) << i;
+    EXPECT_EQ(list[i].number, expected[i].number) << i;
+  }
+}
+
+// Of 4 2 5 2 1 4, each put in its place, a list of three keeps 1 2 2: the second 2 behind the first, no 4.
+TEST(Sort, FullListKeepsTheFirst) {
+  BoundedVector<Numbered, 3> list;
+  int number = 0;
+  for (const int key : {4, 2, 5, 2, 1, 4}) insert(list, {key, number++}, smaller);
+  ASSERT_EQ(list.size(), 3);
+  const Numbered expected[] = {{1, 4}, {2, 1}, {2, 3}};
+  for (int i = 0; i < list.size(); ++i) {
+    EXPECT_EQ(list[i].key, expected[i].key) << i;
+    EXPECT_EQ(list[i].number, expected[i].number) << i;
+  }
+}
+
+// ECU-062 A track beyond every range comes out at its ends, a heading of 4 rad as 4 - 2 pi; one within stays as it is.
+TEST(InputRanges, ATrackIsBroughtWithin) {
+  const Track wild = limited(Track{7, {1.0F, 2.0F, 4.0F}, 61.0F, -12.5F, 1.4F, 0.4F, 3.1F});
+  EXPECT_EQ(wild.id, 7);
+  EXPECT_NEAR(wild.centre.heading_rad, 4.0F - 2.0F * kPi, 1e-6F);
+  EXPECT_EQ(wild.speed_mps, 60.0F);
+  EXPECT_EQ(wild.acceleration_mps2, -12.0F);
+  EXPECT_EQ(wild.yaw_rate_radps, 1.3F);
+  EXPECT_EQ(wild.length_m, 0.5F);
+  EXPECT_EQ(wild.width_m, 3.0F);
+  const Track tame = limited(Track{7, {1.0F, 2.0F, 3.0F}, 59.0F, -11.5F, 1.2F, 0.6F, 2.9F});
+  EXPECT_EQ(tame.centre.heading_rad, 3.0F);
+  EXPECT_EQ(tame.speed_mps, 59.0F);
+  EXPECT_EQ(tame.acceleration_mps2, -11.5F);
+  EXPECT_EQ(tame.yaw_rate_radps, 1.2F);
+  EXPECT_EQ(tame.length_m, 0.6F);
+  EXPECT_EQ(tame.width_m, 2.9F);
+}
+
+// Half a metre per second above what is promised a track is taken, with two it is not; nor is what is no number.
+TEST(InputRanges, NoiseAtTheEdgeIsTaken) {
+  EXPECT_TRUE(is_taken(60.5F, kTrackSpeedMps));
+  EXPECT_FALSE(is_taken(62.0F, kTrackSpeedMps));
+  EXPECT_FALSE(is_taken(-0.1F, kTrackSpeedMps));
+  EXPECT_FALSE(is_taken(std::nanf(""), kTrackSpeedMps));
 }
 
 }  // namespace s4tp

@@ -52,6 +52,7 @@ TEST(FaultScript, NamesWhatIsWrong) {
   EXPECT_TRUE(has(refusal(head + "seed -1\n"), "bad.txt:3"));
   EXPECT_TRUE(has(refusal(head + "fault loss from 1\n"), "expected 'for' at the end of the line"));
   EXPECT_TRUE(has(refusal(head + "tick timer twice\n"), "'twice' is too much"));
+  EXPECT_TRUE(has(refusal(std::string("\0\x1b[31m", 6) + "\n"), "'??[31m': seed, scenario, tick or fault"));
 }
 
 // FAULT-016: of five faults, the one that matters is left: only at tick 137, only on Pose, and at 30 % only

@@ -103,7 +103,7 @@ TEST(Guard, WhoIsCertainToHaveLeftIsNotInTheWay) {
   }
 }
 
-// GUARD-002 Who owes us the way and can stop does not hold us up; who cannot does. 12 m/s: 144 / 8 = 18 m.
+// GUARD-002 Who owes us the way and can stop does not block us; who cannot does. 12 m/s: 144 / 8 = 18 m.
 TEST(Guard, WhoOwesUsTheWayIsTrustedToStop) {
   for (const float way_m : {19.0F, 17.0F}) {
     SharedGround road(Priority::kFirstHasPriority);

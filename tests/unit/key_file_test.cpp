@@ -75,6 +75,7 @@ TEST_F(KeyFile, IsRefusedWithAReason) {
   EXPECT_TRUE(contains(refusal(file("000102030405060708090a0b0c0d0efg")), "hexadecimal"));
   EXPECT_TRUE(contains(refusal(file(std::string(kGood) + " 1")), "more than one word"));
   EXPECT_TRUE(contains(refusal(file(std::string(32, '0'))), "all zeros"));
+  EXPECT_TRUE(contains(refusal(file(kGood + std::string(1, '\0') + "more")), "hexadecimal"));
   EXPECT_FALSE(contains(refusal(file(std::string(kGood) + "0")), "0102"));
   EXPECT_EQ(key.bytes[0], 77);
 }

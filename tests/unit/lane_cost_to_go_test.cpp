@@ -20,8 +20,8 @@ struct Road {
   LaneCostToGo cost_to_go;
 
   Road() {
-    add_way(scene, map, path_of(map, {0}));
-    add_way(scene, map, path_of(map, {1}), scene::Manoeuvre::kLeft).changes_needed = -1;
+    add_ego_path(scene, map, path_of(map, {0}));
+    add_ego_path(scene, map, path_of(map, {1}), scene::Manoeuvre::kLeft).changes_needed = -1;
     put_ego(scene, state_on(map, scene.ego_paths[0].path, 20.0F, 10.0F));
   }
   void vehicle(int path, float s_m, float speed_mps) {

@@ -13,10 +13,10 @@ namespace {
 
 using namespace test;  // NOLINT: the map builders are the language of these tests
 
-/// A vehicle at `s_m` of the first lane of a way.
-scene::Agent vehicle_on(const LaneMap& map, const scene::LanePath& way, float s_m) {
+/// A vehicle at `s_m` of the first lane of a path.
+scene::Agent vehicle_on(const LaneMap& map, const scene::LanePath& path, float s_m) {
   scene::Scene scene;
-  return add_vehicle(scene, map, way, s_m, 5.0F);
+  return add_vehicle(scene, map, path, s_m, 5.0F);
 }
 
 LaneReach reach_of(const LaneMap& map, const scene::Agent& agent) {

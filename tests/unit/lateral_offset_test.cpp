@@ -27,7 +27,7 @@ struct Bystander : Crossing {
 // CAND-018 Our side is 0.9 m from the centre line. With its front 1.2 m to the right of it one leaves 0.3 m:
 // 0.35 more to the left are enough, and 0.7 from 0.8 m (-0.1 + 0.7). At 1.4 m nothing is needed, and at 0.4 m
 // nothing helps (-0.5 + 0.7 < 0.4).
-TEST(StandingRoom, TheLeastThatIsEnough) {
+TEST(LateralOffset, TheLeastThatIsEnough) {
   EXPECT_FLOAT_EQ(Bystander(-1.2F).aside_m(), 0.35F);
   EXPECT_FLOAT_EQ(Bystander(-0.8F).aside_m(), 0.7F);
   EXPECT_FLOAT_EQ(Bystander(-1.4F).aside_m(), 0.0F);
@@ -36,12 +36,12 @@ TEST(StandingRoom, TheLeastThatIsEnough) {
 
 // CAND-018 Who reaches in from the left is passed on the right: its rear, 1.2 m left of the line, leaves 0.3
 // m.
-TEST(StandingRoom, ToTheOtherSide) {
+TEST(LateralOffset, ToTheOtherSide) {
   EXPECT_FLOAT_EQ(Bystander(1.2F + 5.0F).aside_m(), -0.35F);
 }
 
 // CAND-018 Our lane is our limit: in one of 2.6 m a car of 1.8 m has 0.4 m on each side.
-TEST(StandingRoom, NotBeyondTheLane) {
+TEST(LateralOffset, NotBeyondTheLane) {
   for (const float front_m : {-1.2F, -0.8F}) {
     Bystander narrow(front_m);
     narrow.map.lanes[0].width_m = 2.6F;
@@ -50,7 +50,7 @@ TEST(StandingRoom, NotBeyondTheLane) {
 }
 
 // CAND-018 To the last centimetre: 0.7 m aside, a car of 1.8 m fills a lane of 3.2 m.
-TEST(StandingRoom, AllOfTheLane) {
+TEST(LateralOffset, AllOfTheLane) {
   Bystander narrow(-0.8F);
   narrow.map.lanes[0].width_m = 3.2F;
   EXPECT_FLOAT_EQ(narrow.aside_m(), 0.7F);
@@ -59,7 +59,7 @@ TEST(StandingRoom, AllOfTheLane) {
 // CAND-018 Whom we pass aside does not lead us: its front, 0.8 m right of the line, is in the strip we need
 // on the line (0.9 + 0.2 m), and 0.6 m from our side when we drive 0.7 m to the left. (It is in no lane of
 // its own.)
-TEST(StandingRoom, WhomWePassDoesNotLeadUs) {
+TEST(LateralOffset, WhomWePassDoesNotLeadUs) {
   Bystander passed(-0.8F);
   passed.scene.agents[0].lane = kNoLaneIndex;
   const scene::EgoPath& path = passed.scene.ego_paths[0];
@@ -70,7 +70,7 @@ TEST(StandingRoom, WhomWePassDoesNotLeadUs) {
 
 // CAND-018 At 0.5 m/s it does not stand; along our way it is who leads us; and from 35 m away it is not
 // minded.
-TEST(StandingRoom, OnlyWhoStandsAcross) {
+TEST(LateralOffset, OnlyWhoStandsAcross) {
   Bystander moving(-1.2F);
   moving.scene.agents[0].track.speed_mps = 0.5F;
   EXPECT_FLOAT_EQ(moving.aside_m(), 0.0F);
@@ -84,7 +84,7 @@ TEST(StandingRoom, OnlyWhoStandsAcross) {
 
 // CAND-018 Wherever one stands, however it is turned: from where we are moved aside to there is room, and on
 // the centre line there was none.
-TEST(StandingRoom, MovesAsideForRoom) {
+TEST(LateralOffset, MovesAsideForRoom) {
   EXPECT_TRUE(rc::check([] {
     const auto between = [](int low, int high) {
       return 0.01F * static_cast<float>(*rc::gen::inRange(low, high));

@@ -70,9 +70,9 @@ const Keeper& left_turn() {
   return *keeper;
 }
 
-// VIEW-010 VIEW-012 In a drive that waits: whom the words name is who holds us up, by track, with its belief
+// VIEW-010 VIEW-012 In a drive that waits: whom the words name is who blocks us, by track, with its belief
 // and its claim.
-TEST(LiveCycle, SaysWhoHoldsUsUp) {
+TEST(LiveCycle, SaysWhoBlocksUs) {
   int waits = 0;
   for (const Keeper::Kept& one : left_turn().kept) {
     const nlohmann::ordered_json json = cycle_json(one.plan, one.cycle, {}, Parameters{}, nullptr);
@@ -80,7 +80,7 @@ TEST(LiveCycle, SaysWhoHoldsUsUp) {
     const view::Reason reason = view::reason_of(trace);
     EXPECT_EQ(json.at("words"), view::in_words(trace));
     const auto& who = json.at("who");
-    EXPECT_EQ(who.at("holds_up").get<bool>(), reason.track >= 0);
+    EXPECT_EQ(who.at("blocks").get<bool>(), reason.track >= 0);
     if (reason.because == view::Because::kGivingWay && reason.track >= 0) {
       ++waits;
       EXPECT_EQ(who.at("id").get<int>(), reason.track);

@@ -112,19 +112,19 @@ TEST(NetworkInput, ReadsTheRuleAtTheZone) {
 // other's nothing; who drives in a lane beside ours shares a way, as we may change into it.
 TEST(NetworkInput, SaysWhoSharesAWay) {
   const Junction junction;
-  EXPECT_EQ(junction.input.shares_way[0], 1);
-  EXPECT_EQ(junction.input.shares_way[1], 1);
+  EXPECT_EQ(junction.input.paths_meet[0], 1);
+  EXPECT_EQ(junction.input.paths_meet[1], 1);
   LaneMap map = test::straight_road(2, 400.0F);
   const EgoState ego = test::ego_at(100.0F, 0.0F, 0.0F, 12.0F);
   const std::vector<Track> beside = {test::car(1, 80.0F, 3.2F, 0.0F, 13.0F)};
   NetworkInput input;
   build_network_input(test::scene_of(map, ego, beside), kParameters, kLeadS, input);
   ASSERT_EQ(input.hdvs, 1);
-  EXPECT_EQ(input.shares_way[0], 1);
+  EXPECT_EQ(input.paths_meet[0], 1);
   for (Lane& lane : map.lanes) lane.left = lane.right = kNoLaneIndex;
   build_network_input(test::scene_of(map, ego, beside), kParameters, kLeadS, input);
   ASSERT_EQ(input.hdvs, 1);
-  EXPECT_EQ(input.shares_way[0], 0);
+  EXPECT_EQ(input.paths_meet[0], 0);
 }
 
 // SATP-002 The whole world turned by 0.7 rad and moved by (300, -200): each vehicle sees the same.

@@ -21,7 +21,7 @@ std::unique_ptr<RefinementScene> braking(float acceleration_mps2, float speed_mp
   auto scene = std::make_unique<RefinementScene>();
   scene->map = test::straight_road(2, 300.0F);
   const scene::LanePath path = test::path_of(scene->map, {0});
-  (void)test::add_way(scene->scene, scene->map, path);
+  (void)test::add_ego_path(scene->scene, scene->map, path);
   const TrajectoryPoint start = test::state_on(scene->map, path, 50.0F, speed_mps);
   test::put_ego(scene->scene, start);
   build_reference(scene->map, path, 50.0F, start.speed_mps, scene->parameters, scene->line);

@@ -34,8 +34,8 @@ void add_track(campaign::CycleTrace& cycle, std::uint8_t id, Pose centre, float 
   cycle.tracks.push_back(track);
 }
 
-void hold_up(campaign::CycleTrace& cycle, safety::Cause cause, std::uint8_t track, float from_s = 0.0F,
-             float needed_s = 0.0F) {
+void block(campaign::CycleTrace& cycle, safety::Cause cause, std::uint8_t track, float from_s = 0.0F,
+           float needed_s = 0.0F) {
   planner::BlockingReason& blocking = cycle.record.explanation.blocking;
   blocking.verdict = {cause, 0, from_s, needed_s};
   blocking.track = track;
@@ -57,7 +57,7 @@ TEST(PlanWords, FreeRoadNeedsNoReason) {
 // CORE-037 Whoever is not told of is called so: on ground we share, ahead, in the lane beside, and in the numbers.
 TEST(PlanWords, NamesWhoIsNotToldOf) {
   campaign::CycleTrace cycle = plan(0.0F, 0.0F);
-  hold_up(cycle, safety::Cause::kZone, 255, 3.2F, 4.1F);
+  block(cycle, safety::Cause::kZone, 255, 3.2F, 4.1F);
   planner::BlockingReason& blocking = cycle.record.explanation.blocking;
   blocking.verdict.agent = safety::kUnseen;
   cycle.record.explanation.tracks_left_out = 4;
@@ -74,9 +74,9 @@ TEST(PlanWords, NamesWhoIsNotToldOf) {
 TEST(PlanWords, WaitingForACrossingCar) {
   campaign::CycleTrace cycle = plan(0.0F, 0.0F);
   add_track(cycle, 7, {15.0F, 20.0F, kFromLeft});
-  hold_up(cycle, safety::Cause::kZone, 7, 3.2F, 4.1F);
+  block(cycle, safety::Cause::kZone, 7, 3.2F, 4.1F);
   EXPECT_EQ(in_words(cycle), "Waiting: the car from the left can be there in 3.2 s, we would need 4.1 s.");
-  hold_up(cycle, safety::Cause::kZone, 7, 0.0F, 4.1F);
+  block(cycle, safety::Cause::kZone, 7, 0.0F, 4.1F);
   EXPECT_EQ(in_words(cycle), "Waiting: the car from the left is in our way.");
 }
 
@@ -97,9 +97,9 @@ TEST(PlanWords, NamesVehiclesByPlaceAndSize) {
   for (const auto& given : kCases) {
     campaign::CycleTrace cycle = plan(5.0F, 2.0F);
     add_track(cycle, 7, given.centre, given.length_m);
-    hold_up(cycle, safety::Cause::kZone, 7);
+    block(cycle, safety::Cause::kZone, 7);
     EXPECT_EQ(in_words(cycle), std::string("Slowing down: ") + given.name + " is in our way.");
-    hold_up(cycle, safety::Cause::kZone, 8);
+    block(cycle, safety::Cause::kZone, 8);
     EXPECT_EQ(in_words(cycle), "Slowing down: somebody is in our way.");
   }
 }
@@ -119,7 +119,7 @@ TEST(PlanWords, EveryCauseHasWords) {
   for (const auto& given : kCases) {
     campaign::CycleTrace cycle = plan(8.0F, 5.0F);
     add_track(cycle, 7, {20.0F, 0.0F, 0.0F});
-    hold_up(cycle, given.cause, 7);
+    block(cycle, given.cause, 7);
     EXPECT_EQ(in_words(cycle), given.words);
   }
 }
@@ -128,7 +128,7 @@ TEST(PlanWords, EveryCauseHasWords) {
 // m were wanted.
 TEST(PlanWords, HardlyFurtherIsNoReason) {
   campaign::CycleTrace cycle = plan(10.0F, 10.0F);
-  hold_up(cycle, safety::Cause::kRoadEnd, 255);
+  block(cycle, safety::Cause::kRoadEnd, 255);
   cycle.record.explanation.blocking.way_m = 32.0F;
   EXPECT_EQ(in_words(cycle), "Driving on.");
 }
@@ -164,7 +164,7 @@ TEST(PlanWords, OtherReasonsToSlowDown) {
   e.runner_up_cost.progress = -25.0F;
   e.runner_up_cost.risk = 9.0F;
   EXPECT_EQ(in_words(risky),
-            "Slowing down: going on faster would feel risky because of the car ahead on the left.");
+            "Slowing down: going on faster would be risky because of the car ahead on the left.");
 }
 
 // Lane changes are named, minimum-risk manoeuvres say what was wrong.
@@ -183,7 +183,7 @@ TEST(PlanWords, LaneChangesAndStops) {
   EXPECT_EQ(in_words(stop), "Stopping to be safe: the sensors have not said for too long who is around.");
   stop.record.explanation.status = Status::kNoSafePlan;
   add_track(stop, 7, {15.0F, 20.0F, kFromLeft});
-  hold_up(stop, safety::Cause::kZone, 7, 1.0F, 3.0F);
+  block(stop, safety::Cause::kZone, 7, 1.0F, 3.0F);
   EXPECT_EQ(in_words(stop),
             "Stopping to be safe: no way on is safe enough; the car from the left can be there in 1.0 s, we "
             "would need "

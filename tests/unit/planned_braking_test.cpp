@@ -21,7 +21,7 @@ constexpr float kSpeedMps = 8.0F;
 class Drive {
  public:
   Drive() {
-    test::add_way(scene_, map_, test::path_of(map_, {0}));
+    test::add_ego_path(scene_, map_, test::path_of(map_, {0}));
     trajectory::build_reference(map_, scene_.ego_paths[0].path, 0.0F, kSpeedMps, parameters_, line_);
     vehicle_.place({50.0, 0.0}, 0.0, static_cast<double>(kSpeedMps));
     running_.kind = PlanKind::kDrive;

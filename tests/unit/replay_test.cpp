@@ -67,7 +67,7 @@ TEST(Replay, TellsTheRecordedStates) {
   }
 }
 
-// A car standing alone is felt at its place and nowhere else; without cars there is nothing to paint.
+// A car alone has its risk before it and nowhere else; without cars there is nothing to paint.
 TEST(Replay, HazeLiesBeforeACar) {
   EXPECT_EQ(Haze({}, {}).grid({-5.0, -5.0}, {5.0, 5.0}, 1.0), "");
   world::CarState car;

@@ -20,7 +20,7 @@ wire::PlanReason sent(const planner::Explanation& explanation) {
   return reason;
 }
 
-// ECU-101 Four vehicles and 200 lanes were left out, of which 31 can be said, and two bear one id; what holds us up is one of
+// ECU-101 Four vehicles and 200 lanes were left out, of which 31 can be said, and two bear one id; what blocks us is one of
 // those left out, then it is vehicle 7, then nobody.
 TEST(Reports, SayWhomThePlanWasNotToldOf) {
   planner::Explanation explanation;

@@ -7,9 +7,12 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <functional>
+#include <limits>
 #include <memory>
 #include <set>
 #include <stdexcept>
+#include <vector>
 
 #include "sim_host/train/random_number.hpp"
 
@@ -77,6 +80,30 @@ TEST_F(SampleFile, RefusesWhatIsNotWholeOrNotOurs) {
     change.put(static_cast<char>(old ^ 1));
     change.close();
     EXPECT_THROW(SampleSet{folder}, std::runtime_error) << "byte " << at;
+  }
+}
+
+// TRAIN-001 A count, an index, a share or a number beyond what there can be is refused, with a checksum that
+// fits, too.
+TEST_F(SampleFile, RefusesWhatNoDriveBrings) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const std::vector<std::function<void(Sample&)>> changes{
+      [](Sample& sample) { sample.input.hdvs = kMaxAgents + 1; },
+      [](Sample& sample) { sample.input.hdvs = -1; },
+      [](Sample& sample) { sample.input.lane_points[0][1] = satp::kLanePoints + 1; },
+      [](Sample& sample) { sample.route[kMaxAgents - 1] = kPathsPerAgent; },
+      [](Sample& sample) { sample.yields[2] = 2; },
+      [](Sample& sample) { sample.kinematic[1].probability[0] = -1.0F; },
+      [=](Sample& sample) { sample.kinematic[1].probability[2] = nan; },
+      [=](Sample& sample) { sample.input.pair[kMaxAgents - 1][0] = nan; },
+      [=](Sample& sample) { sample.target.pose[0][kHorizonSteps - 1][2] = nan; }};
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    const auto sample = std::make_unique<Sample>();
+    changes[i](*sample);
+    SampleWriter writer(folder / "a.samples");
+    writer.add(*sample);
+    writer.close();
+    EXPECT_THROW(SampleSet{folder}, std::runtime_error) << i;
   }
 }
 

@@ -22,10 +22,10 @@ struct Road {
   Parameters parameters;
 
   explicit Road(float route_end_m) {
-    scene::EgoPath& own = add_way(scene, map, path_of(map, {0}));
+    scene::EgoPath& own = add_ego_path(scene, map, path_of(map, {0}));
     own.changes_needed = 1;
     own.route_end_s_m = route_end_m;
-    (void)add_way(scene, map, path_of(map, {1}), scene::Manoeuvre::kLeft);
+    (void)add_ego_path(scene, map, path_of(map, {1}), scene::Manoeuvre::kLeft);
     put_ego(scene, state_on(map, scene.ego_paths[0].path, 40.0F, 5.0F));
     cost_to_go.look(scene, {}, 0.0F, parameters);
   }

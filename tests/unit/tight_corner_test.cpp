@@ -108,7 +108,7 @@ TEST(TightCorner, IsDrivenNoFasterThanTheWheelsTurn) {
 TEST(TightCorner, FromRestWithLockedWheelsThereIsAWayOn) {
   const Corner corner(5.0F);
   scene::Scene scene;
-  add_way(scene, corner.map, corner.path);
+  add_ego_path(scene, corner.map, corner.path);
   scene.time_ms = kNow;
   TrajectoryPoint start = state_on(corner.map, corner.path, 70.5F, 0.0F);
   start.rear_axle.heading_rad += 0.26F;
@@ -140,7 +140,7 @@ TEST(TightCorner, SteeringComesBackFromAnywhere) {
     };
     const LaneMap map = straight_road(1, 300.0F);
     scene::Scene scene;
-    add_way(scene, map, path_of(map, {0}));
+    add_ego_path(scene, map, path_of(map, {0}));
     const Parameters parameters;
     TrajectoryPoint start = state_on(map, scene.ego_paths[0].path, 100.0F, hundredths(0, 300));
     start.rear_axle.y_m += hundredths(-200, 200);

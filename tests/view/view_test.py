@@ -116,7 +116,7 @@ def check_reasons(browser, port):
                        "document.getElementById('belief').textContent.includes('%') && "
                        "document.getElementById('claim').textContent.includes('we would need') && "
                        "(document.dispatchEvent(new KeyboardEvent('keydown', {key: ' '})), true)", 60),
-          "nobody is said to hold us up: " + " | ".join(text(browser, name) for name in ("words", "blocker", "belief", "claim")))
+          "nobody is said to block us: " + " | ".join(text(browser, name) for name in ("words", "blocker", "belief", "claim")))
     time.sleep(0.3)
     # Who comes later gets the state first, then every message from the first one on.
     stream = WebSocket(port, "/", "s4tp-live")

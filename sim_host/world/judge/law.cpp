@@ -59,20 +59,6 @@ double top_speed_mps(const Law& law, double speed_mps, double limit_mps) {
   return std::max(speed_mps, law.over_limit * limit_mps);
 }
 
-const char* licence_name(Licence licence) {
-  switch (licence) {
-    case Licence::kClear:
-      return "clear";
-    case Licence::kCanStop:
-      return "L1";
-    case Licence::kStands:
-      return "L2";
-    case Licence::kNone:
-      break;
-  }
-  return "none";
-}
-
 Licence licence_of(const Law& law, const Entry& entry) {
   if (clear(law, entry)) {
     return Licence::kClear;

@@ -66,8 +66,6 @@ struct Law {
 [[nodiscard]] double top_speed_mps(const Law& law, double speed_mps, double limit_mps);
 
 enum class Licence { kNone, kClear, kCanStop, kStands };
-/// "none", "clear", "L1", "L2"
-[[nodiscard]] const char* licence_name(Licence licence);
 
 /// One who enters a group of zones, and another one with priority at a zone of it, at the instant in which
 /// the first leaves its last place to stand.

@@ -1,14 +1,13 @@
 #include "sim_host/world/scenario/toml_table.hpp"
 
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
 
 #include "sim_host/world/scenario/listed.hpp"
 #include "sim_host/world/scenario/toml_shape.hpp"
+#include "sim_host/world/scenario/whole_file.hpp"
 
 namespace s4tp::world {
 namespace {
@@ -153,18 +152,8 @@ double TomlTable::number_of(const std::string& key, const toml::value& value, do
 }
 
 toml::value parse_toml(const std::filesystem::path& file) {
-  if (!std::filesystem::exists(file)) {
-    throw std::runtime_error(file.string() + ": there is no such file");
-  }
+  std::istringstream text(whole_file(file, kTomlBytes));
   try {
-    std::ifstream stream(file, std::ios::binary);
-    if (!std::filesystem::is_regular_file(file) || !stream) {
-      throw std::runtime_error("cannot be read");
-    }
-    if (std::filesystem::file_size(file) > kTomlBytes) {
-      throw std::runtime_error("longer than " + std::to_string(kTomlBytes) + " bytes");
-    }
-    std::istringstream text(std::string{std::istreambuf_iterator<char>(stream), {}});
     check_toml_shape(text.str());
     return toml::parse(text, file.string());
   } catch (const std::exception& error) {
