@@ -137,14 +137,14 @@ class MapReceiver {
     std::uint8_t revision = 0xFF;
     std::uint16_t parts = 0;  ///< bit i: part i arrived
     std::uint16_t checks[Parts] = {};
-    std::uint16_t check = 0;  ///< of the record, as far as it is there: what it adds to the digest
 
     [[nodiscard]] bool has(int count) const;
     /// Clears parts and record when the revision is another one. \return whether it is
     template <typename Record>
     [[nodiscard]] bool open(std::uint8_t new_revision, Record& record);
-    /// Takes a part of a record that consists of `count`.
-    void note(int part, const Frame& frame, int count);
+    void note(int part, const Frame& frame);
+    /// What a record of `count` parts adds to the digest, as far as it is there.
+    [[nodiscard]] std::uint16_t check(int count) const;
   };
 
   /// What a header says a whole map is.
@@ -166,6 +166,7 @@ class MapReceiver {
   void announce(const Announced& announced);
   void use_lanes(int half, std::uint32_t lanes);
   void change_digest(std::uint16_t out, std::uint16_t in);
+  [[nodiscard]] std::uint16_t conflict_check(int slot) const;
   [[nodiscard]] bool complete() const;
   [[nodiscard]] bool plausible() const;
   [[nodiscard]] bool finish_if_whole();
@@ -174,6 +175,7 @@ class MapReceiver {
   Map whole_;
   Map assembling_;
   Progress<kMaxLaneParts> lane_progress_[kMaxLanes];
+  std::uint16_t lane_checks_[kMaxLanes] = {};  ///< of all parts of each
   Progress<kConflictParts> conflict_progress_[kMaxConflicts];
   E2eReceiver header_;
   Announced announced_;

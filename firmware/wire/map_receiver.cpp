@@ -97,12 +97,16 @@ bool MapReceiver::Progress<Parts>::open(std::uint8_t new_revision, Record& recor
 }
 
 template <int Parts>
-void MapReceiver::Progress<Parts>::note(int part, const Frame& frame, int count) {
+void MapReceiver::Progress<Parts>::note(int part, const Frame& frame) {
   parts = static_cast<std::uint16_t>(parts | (1U << part));
   checks[part] = frame_check(frame);
+}
+
+template <int Parts>
+std::uint16_t MapReceiver::Progress<Parts>::check(int count) const {
   unsigned sum = 0;
-  for (int i = 0; i < count; ++i) sum += checks[i];
-  check = static_cast<std::uint16_t>(sum);
+  for (int part = 0; part < count; ++part) sum += checks[part];
+  return static_cast<std::uint16_t>(sum);
 }
 
 bool MapReceiver::Announced::same(const Announced& other) const {
@@ -179,11 +183,12 @@ bool MapReceiver::accept_lane_part(const Frame& frame) {
   }
   Lane& lane = assembling_.lanes[message.lane];
   auto& progress = lane_progress_[message.lane];
-  const std::uint16_t before = progress.check;
+  const std::uint16_t before = lane_checks_[message.lane];
   if (progress.open(message.revision, lane)) revised_ = true;
   fill(message, lane);
-  progress.note(part_of(message), frame, part_count(lane));
-  if (contains(in_use_, message.lane)) change_digest(before, progress.check);
+  progress.note(part_of(message), frame);
+  lane_checks_[message.lane] = progress.check(part_count(lane));
+  if (contains(in_use_, message.lane)) change_digest(before, lane_checks_[message.lane]);
   return finish_if_whole();
 }
 
@@ -196,11 +201,11 @@ bool MapReceiver::accept_conflict_part(const Frame& frame) {
   }
   Conflict& conflict = assembling_.conflicts[message.conflict];
   auto& progress = conflict_progress_[message.conflict];
-  const std::uint16_t before = progress.check;
+  const std::uint16_t before = conflict_check(message.conflict);
   if (progress.open(message.revision, conflict)) revised_ = true;
   fill(message, conflict);
-  progress.note(part_of(message), frame, part_count(conflict));
-  if (message.conflict < announced_.conflict_count) change_digest(before, progress.check);
+  progress.note(part_of(message), frame);
+  if (message.conflict < announced_.conflict_count) change_digest(before, conflict_check(message.conflict));
   return finish_if_whole();
 }
 
@@ -208,8 +213,8 @@ void MapReceiver::announce(const Announced& announced) {
   const int before = announced_.conflict_count;
   const int now = announced.conflict_count;
   announced_ = announced;
-  for (int slot = before; slot < now; ++slot) change_digest(0, conflict_progress_[slot].check);
-  for (int slot = now; slot < before; ++slot) change_digest(conflict_progress_[slot].check, 0);
+  for (int slot = before; slot < now; ++slot) change_digest(0, conflict_check(slot));
+  for (int slot = now; slot < before; ++slot) change_digest(conflict_check(slot), 0);
 }
 
 void MapReceiver::use_lanes(int half, std::uint32_t lanes) {
@@ -218,13 +223,16 @@ void MapReceiver::use_lanes(int half, std::uint32_t lanes) {
   int slot = 32 * half;
   for (std::uint32_t changed = before ^ lanes; changed != 0; changed >>= 1U, ++slot) {
     if ((changed & 1U) == 0U) continue;
-    const std::uint16_t check = lane_progress_[slot].check;
     if (contains(in_use_, slot)) {
-      change_digest(0, check);
+      change_digest(0, lane_checks_[slot]);
     } else {
-      change_digest(check, 0);
+      change_digest(lane_checks_[slot], 0);
     }
   }
+}
+
+std::uint16_t MapReceiver::conflict_check(int slot) const {
+  return conflict_progress_[slot].check(kConflictParts);
 }
 
 void MapReceiver::change_digest(std::uint16_t out, std::uint16_t in) {
