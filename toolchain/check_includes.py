@@ -20,7 +20,7 @@ ALGO = {
     "trajectory": ["core/", "scene/", "occupancy/", "satp/", "sadrf/"],
     # Never predictions, beliefs or the field: what protects must not rest on what decides.
     "safety": ["core/", "scene/", "occupancy/", *(f"trajectory/{name}.hpp" for name in (
-        "along_path", "bicycle", "path_walk", "speed_profile"))],
+        "along_path", "bicycle", "path_walk", "plan_limits", "speed_profile"))],
     "planner": [""],
     "api": [],
 }

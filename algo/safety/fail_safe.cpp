@@ -3,6 +3,7 @@
 #include "algo/core/inline.hpp"
 #include "algo/trajectory/bicycle.hpp"
 #include "algo/trajectory/path_walk.hpp"
+#include "algo/trajectory/plan_limits.hpp"
 #include "algo/trajectory/speed_profile.hpp"
 
 namespace s4tp::safety {
@@ -29,6 +30,7 @@ void along_plan(const Plan& running, const TrajectoryPoint& start, std::uint32_t
   trajectory::PathWalk walk(running.trajectory);
   float way_m = way_driven_m(running, start_ms);
   trajectory::LongitudinalState state{0.0F, start.speed_mps, start.acceleration_mps2};
+  float there_mps2 = start.acceleration_mps2;  // of the plan where we are: it may have braked for a bend
   trajectory.points[0] = start;
   for (int i = 1; i < kTrajectoryPoints; ++i) {
     const float time_s = static_cast<float>(i) * kStepS;
@@ -36,13 +38,15 @@ void along_plan(const Plan& running, const TrajectoryPoint& start, std::uint32_t
     const bool drives_on = time_s <= branch_s + kRoundingS;
     const float slower_mps = sample(running, now_ms).speed_mps - state.speed_mps;
     const float planned_mps2 = sample(running, now_ms + kStepMs).acceleration_mps2;
-    const float wanted_mps2 = drives_on ? planned_mps2 + kSpeedGain1ps * slower_mps : -braking_mps2;
+    const float wanted_mps2 =
+        drives_on ? planned_mps2 + kSpeedGain1ps * slower_mps : min(-braking_mps2, there_mps2);
     const float step_m = trajectory::advance(wanted_mps2, parameters, state);
     TrajectoryPoint& point = trajectory.points[i];
     point = trajectory.points[i - 1];
     if (step_m > 0.0F) {
       way_m = way_m + step_m;
       walk.place(way_m, point);
+      there_mps2 = point.acceleration_mps2;
       point.rear_axle.x_m = point.rear_axle.x_m + beside.x_m;
       point.rear_axle.y_m = point.rear_axle.y_m + beside.y_m;
     }
@@ -68,12 +72,13 @@ void drive_fail_safe(const Plan& running, const TrajectoryPoint& start, std::uin
   const std::int32_t elapsed_ms = static_cast<std::int32_t>(start_ms - running.start_ms);
   const bool covers =
       running.kind != PlanKind::kNone && elapsed_ms >= 0 && elapsed_ms <= kHorizonSteps * kStepMs;
-  if (!covers) {
-    as_steered(start, braking_mps2, plan.trajectory);
-    return;
+  if (covers) {
+    plan.fail_safe.branch_s = max(0.0F, running.fail_safe.branch_s - 1e-3F * static_cast<float>(elapsed_ms));
+    along_plan(running, start, start_ms, plan.fail_safe.branch_s, braking_mps2, parameters, plan.trajectory);
+    if (trajectory::keeps_limits(plan.trajectory, parameters)) return;
   }
-  plan.fail_safe.branch_s = max(0.0F, running.fail_safe.branch_s - 1e-3F * static_cast<float>(elapsed_ms));
-  along_plan(running, start, start_ms, plan.fail_safe.branch_s, braking_mps2, parameters, plan.trajectory);
+  plan.fail_safe.branch_s = 0.0F;
+  as_steered(start, min(braking_mps2, parameters.vehicle.braking_max_mps2), plan.trajectory);
 }
 
 }  // namespace s4tp::safety

@@ -16,9 +16,10 @@
 namespace s4tp::safety {
 
 /// The fail-safe of the plan in force, from `start` on: FAIL-001 its first part up to the branch, then
-/// `braking_mps2` at least; beside the plan its path is driven in parallel. FAIL-002 Without a plan that
-/// covers `start_ms`, braking with the present steering. FAIL-003 Every value is finite, the speed never
-/// grows after the branch, at rest the pose stays.
+/// `braking_mps2` at least, and as hard as the plan braked there; beside the plan its path is driven in
+/// parallel. FAIL-002 Without a plan that covers `start_ms`, or headed so differently that this path is none of
+/// a vehicle's (keeps_limits()), braking with the present steering. FAIL-003 Every value is finite, after the
+/// branch the speed grows only while the acceleration of before is taken back, at rest the pose stays.
 /// \param plan  receives the trajectory and what is left of the fail-safe; kind kMinimumRisk
 /// \pre plan is not running
 void drive_fail_safe(const Plan& running, const TrajectoryPoint& start, std::uint32_t start_ms,

@@ -15,17 +15,18 @@ void PathWalk::place(float way_m, TrajectoryPoint& point) {
   }
   if (segment_ == kHorizonSteps) {
     const TrajectoryPoint& last = path_.points[kHorizonSteps];
-    point.rear_axle = shift_ahead(last.rear_axle, way_m - passed_m_);
-    point.curvature_1pm = last.curvature_1pm;
+    const float beyond_m = way_m - passed_m_;
+    const float turn_rad = last.curvature_1pm * beyond_m;
+    point = last;
+    point.rear_axle.heading_rad = last.rear_axle.heading_rad + 0.5F * turn_rad;
+    point.rear_axle = shift_ahead(point.rear_axle, beyond_m);
+    point.rear_axle.heading_rad = wrap_angle(last.rear_axle.heading_rad + turn_rad);
     return;
   }
   const TrajectoryPoint& a = path_.points[segment_];
   const TrajectoryPoint& b = path_.points[segment_ + 1];
   const float t = clamp((way_m - passed_m_) / length_m, 0.0F, 1.0F);
-  point.rear_axle.x_m = lerp(a.rear_axle.x_m, b.rear_axle.x_m, t);
-  point.rear_axle.y_m = lerp(a.rear_axle.y_m, b.rear_axle.y_m, t);
-  point.rear_axle.heading_rad = lerp_angle(a.rear_axle.heading_rad, b.rear_axle.heading_rad, t);
-  point.curvature_1pm = lerp(a.curvature_1pm, b.curvature_1pm, t);
+  point = interpolate(a, b, t);
 }
 
 }  // namespace s4tp::trajectory

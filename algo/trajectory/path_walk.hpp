@@ -5,12 +5,12 @@
 
 namespace s4tp::trajectory {
 
-/// Pose and curvature of a trajectory's path by the way driven along it, for growing ways. The path must
-/// outlive it.
+/// A trajectory by the way driven along it, for growing ways. The trajectory must outlive it.
 class PathWalk {
  public:
   explicit PathWalk(const Trajectory& path) : path_(path) {}
-  /// Sets pose and curvature of `point`, `way_m` from points[0]; beyond the last point straight on.
+  /// Sets `point` to the state `way_m` from points[0]; beyond the last point its path goes on as it is
+  /// steered there.
   void place(float way_m, TrajectoryPoint& point);
 
  private:

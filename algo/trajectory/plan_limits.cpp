@@ -13,7 +13,7 @@ constexpr float kHardestMps2 = 13.0F;
 constexpr float kTightest1pm = 2.0F;
 constexpr float kEgoSteeringRad = 0.8F;  // the largest an ego state may have
 constexpr float kTolerance = 1.02F;      // twice what a candidate is allowed to be over
-constexpr float kToleranceMps = 0.05F;
+constexpr float kToleranceMps = 0.08F;   // the last crawl of a stop, less than 0.075 m/s, ends within a step
 constexpr float kTurnRad = 0.3F;  // within a step, beyond what the curvature says: a quintic's ends, rounding
 constexpr float kSlowM = 0.2F;    // a step shorter than this has hardly a direction
 

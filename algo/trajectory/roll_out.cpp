@@ -20,7 +20,8 @@ constexpr float kTurnBackM = 40.0F;  // way per slope to turn back from heading 
 constexpr float kTurnBackS2pm = 1.6F;  // and at speed by 2.5 m/s^2
 constexpr float kSwingM = 0.3F;
 constexpr int kSwingSamples = 10;
-constexpr float kOnLineM = 0.3F;     // a plan's end nearer than this has arrived
+constexpr float kOnLineM = 0.3F;     // a plan's end nearer than this has arrived ...
+constexpr float kAcrossRad = 1.1F;   // ... unless it heads across the line: no quintic begins so (kMaxSlope)
 constexpr int kSteeredAnew = 10;     // steps at the end of a plan that has not
 constexpr float kSlopeShare = 2.0F;  // way / d at which a quintic goes on from a slope without a jerk
 
@@ -128,7 +129,9 @@ void shift_plan(const ReferenceLine& line, const Candidate& candidate, const Pla
   tail.intent = Intent::kAccelerate;
   tail.acceleration_mps2 = clamp(end.acceleration_mps2, -kTailBrakingMps2, kTailDriveMps2);
   const ReferenceCoordinates where = locate(last);
-  if (abs(where.d_m - line.aside_m) > kOnLineM) {
+  const float error_rad =
+      wrap_angle(end.rear_axle.heading_rad - reference_at(line, where.s_m).pose.heading_rad);
+  if (abs(where.d_m - line.aside_m) > kOnLineM || abs(error_rad) > kAcrossRad) {
     // Still on its way to the line: one step more at a time, smoothed each time, would carry it across.
     const int first = last > kSteeredAnew ? last - kSteeredAnew : 0;
     tail.steered = true;

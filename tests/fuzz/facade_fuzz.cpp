@@ -1,15 +1,14 @@
-// The C facade, called as documented or not: a documented answer, and a plan that can be driven from where the ego is.
+// The C facade, called as documented or not: a documented answer, and a plan that a vehicle can drive from where the ego is.
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstring>
 #include <memory>
 
 #include "algo/api/s4tp.h"
+#include "tests/fuzz/facade_map.hpp"
 #include "tests/fuzz/input.hpp"
-#include "tests/support/c_map.hpp"
-#include "tests/support/lane_maps.hpp"
+#include "tests/support/plan_oracles.hpp"
 
 using namespace s4tp;
 using fuzz::expect;
@@ -76,83 +75,7 @@ struct Setting {
       valid = valid && within(parameters.values[i], row.minimum, row.maximum);
     }
   }
-  [[nodiscard]] float operator[](const char* name) const {
-    float value = 0.0F;
-    expect(s4tp_get_parameter(&parameters, name, &value) == S4TP_OK, "a row has a value");
-    return value;
-  }
 };
-
-const s4tp_lane_map& base_map(int which) {
-  static const auto maps = [] {
-    test::CrossJunction left = test::cross_junction();
-    test::set_route(left, test::CrossJunction::kEast, test::CrossJunction::kLeft);
-    test::CrossJunction straight = test::cross_junction();
-    test::set_route(straight, test::CrossJunction::kEast, test::CrossJunction::kStraight);
-    return std::array{test::in_c(left.map), test::in_c(test::straight_road(2, 300.0F)),
-                      test::in_c(test::curved_road(20.0F, 1.2F)), test::in_c(straight.map)};
-  }();
-  return maps[static_cast<std::size_t>(which) % maps.size()];
-}
-
-/// One number of a map becomes another, as documented or not.
-void wound(Input& input, s4tp_lane_map& map) {
-  s4tp_lane& lane = map.lanes[input.below(20)];
-  const float any = input.below(4) == 0 ? input.take<float>() : input.real(-50.0F, 150.0F);
-  const int point = input.below(S4TP_MAX_LANE_POINTS);
-  s4tp_conflict& conflict = map.conflicts[input.below(S4TP_MAX_CONFLICTS)];
-  switch (input.below(16)) {
-    case 0:
-      lane.x_m[point] = any;
-      break;
-    case 1:
-      lane.y_m[point] = any;
-      break;
-    case 2:
-      lane.width_m = any;
-      break;
-    case 3:
-      lane.speed_limit_mps = any;
-      break;
-    case 4:
-      lane.route_remaining_m = any;
-      break;
-    case 5:
-      lane.goal_distance_m = any;
-      break;
-    case 6:
-      lane.stop_line_m = any;
-      break;
-    case 7:
-      lane.point_count = input.byte();
-      break;
-    case 8:
-      lane.kind = input.byte() % 4;
-      break;
-    case 9:
-      lane.left = static_cast<std::int8_t>(input.byte() % 24 - 2);
-      break;
-    case 10:
-      lane.successors[input.below(3)] = static_cast<std::int8_t>(input.byte() % 24 - 2);
-      break;
-    case 11:
-      lane.present = input.byte() % 2;
-      break;
-    case 12:
-      lane.changes_needed = static_cast<std::int8_t>(input.byte());
-      break;
-    case 13:
-      map.conflict_count = input.below(4) == 3 ? input.take<std::int32_t>() : input.below(S4TP_MAX_CONFLICTS);
-      break;
-    case 14:
-      input.copy(&conflict.first, 3);
-      conflict.first_entry_m = any;
-      break;
-    default:
-      conflict.first_exit_m = any;
-      conflict.second_exit_m = input.real(-50.0F, 150.0F);
-  }
-}
 
 /// Onto a lane, along it: elsewhere hardly anybody matters.
 void put_on_lane(Input& input, const s4tp_lane_map& map, s4tp_track& track) {
@@ -197,6 +120,20 @@ void take_ego(Input& input, s4tp_ego& ego) {
   if (input.below(8) == 7) ego.x_m += input.real(-99'000.0F, 99'000.0F);
 }
 
+/// An ego that has kept to its plan; speed, acceleration and wheels as an ego may have them.
+s4tp_ego driven_to(const s4tp_plan_point& point, const Setting& setting) {
+  float wheelbase_m = 0.0F;
+  expect(s4tp_get_parameter(&setting.parameters, "vehicle.wheelbase_m", &wheelbase_m) == S4TP_OK,
+         "a row has a value");
+  return {point.x_m,
+          point.y_m,
+          point.heading_rad,
+          std::min(point.speed_mps, 60.0F),
+          std::clamp(point.acceleration_mps2, -12.0F, 12.0F),
+          0.0F,
+          std::clamp(std::atan(wheelbase_m * point.curvature_1pm), -0.8F, 0.8F)};
+}
+
 /// Where a documented ego goes on, at most so far away after the time up to the start.
 void check_start(const s4tp_input& input, const s4tp_plan& plan) {
   const s4tp_plan_point& first = plan.points[0];
@@ -212,29 +149,15 @@ void check_start(const s4tp_input& input, const s4tp_plan& plan) {
          "and as fast");
 }
 
-void check_drive(const s4tp_input& input, const s4tp_plan& plan, const Setting& setting) {
-  constexpr float kStep_s = 0.001F * S4TP_PLAN_STEP_MS;
-  const float drive_mps2 = 1.02F * setting["vehicle.acceleration_max_mps2"];
-  const float brake_mps2 = 1.02F * setting["vehicle.braking_max_mps2"];
-  expect(plan.kind == S4TP_PLAN_DRIVE, "OK is a plan to drive");
-  for (const s4tp_plan_point& point : plan.points) {
-    expect(within(point.acceleration_mps2, -brake_mps2, drive_mps2),
-           "a plan keeps the vehicle's acceleration");
-  }
-  for (int i = 1; i < S4TP_PLAN_POINTS; ++i) {
-    const s4tp_plan_point& a = plan.points[i - 1];
-    const s4tp_plan_point& b = plan.points[i];
-    expect(within(b.speed_mps - a.speed_mps, -brake_mps2 * kStep_s - 0.06F, drive_mps2 * kStep_s + 0.06F),
-           "speeds follow from accelerations");
-    const float coarse_m = 2e-6F * (std::abs(a.x_m) + std::abs(a.y_m));
-    expect(std::hypot(b.x_m - a.x_m, b.y_m - a.y_m) <=
-               std::max(a.speed_mps, b.speed_mps) * kStep_s * 1.2F + 0.1F + coarse_m,
-           "positions follow from speeds");
-  }
-  check_start(input, plan);
-}
+/// What a cycle is given beside its input.
+struct Given {
+  s4tp_plan running;   ///< as it was handed in, or S4TP_PLAN_NONE: the answer may stand in its place
+  bool honest = true;  ///< it is as it was written, and so were those that it goes on with
+  bool map_sound = true;
+};
 
-void check(s4tp_status status, const s4tp_input& input, const s4tp_plan& plan, const Setting& setting) {
+void check(s4tp_status status, const s4tp_input& input, const Given& given, const s4tp_plan& plan,
+           const Setting& setting) {
   const bool known = status == S4TP_OK || status == S4TP_INVALID_INPUT || status == S4TP_NO_LANE ||
                      status == S4TP_NO_SAFE_PLAN || status == S4TP_STALE_TRACKS;
   expect(known && std::strcmp(s4tp_status_name(status), "unknown status") != 0,
@@ -242,6 +165,8 @@ void check(s4tp_status status, const s4tp_input& input, const s4tp_plan& plan, c
   const bool good = documented(input.ego) && (input.tracks == nullptr || documented(*input.tracks)) &&
                     input.start_ms - input.now_ms <= 200U;
   expect(good || status == S4TP_INVALID_INPUT, "what is not as documented is answered so");
+  expect(!good || !given.honest || !given.map_sound || status != S4TP_INVALID_INPUT,
+         "what is, its own last plan among it, is known for it");
   if (plan.kind == S4TP_PLAN_NONE) {
     const s4tp_plan none = {S4TP_PLAN_NONE, plan.start_ms, 0.0F, 0.0F, {}};
     expect(status == S4TP_INVALID_INPUT && std::memcmp(&none, &plan, sizeof plan) == 0,
@@ -254,14 +179,14 @@ void check(s4tp_status status, const s4tp_input& input, const s4tp_plan& plan, c
          "the fail-safe is in its range");
   for (const s4tp_plan_point& point : plan.points)
     expect(documented(point), "a plan's numbers are in their ranges");
-  if (status == S4TP_OK) {
-    check_drive(input, plan, setting);
-  } else {
-    expect(plan.kind == S4TP_PLAN_MINIMUM_RISK, "anything else is a minimum-risk manoeuvre");
-    expect(plan.points[S4TP_PLAN_POINTS - 1].speed_mps <= plan.points[0].speed_mps + 0.5F,
-           "which does not speed up");
-    if (documented(input.ego) && input.start_ms - input.now_ms <= 200U) check_start(input, plan);
-  }
+  const test::PlanOracles oracles(setting.parameters);
+  const bool drives = status == S4TP_OK;
+  expect(plan.kind == (drives ? S4TP_PLAN_DRIVE : S4TP_PLAN_MINIMUM_RISK),
+         "OK is a plan to drive, anything else a minimum-risk manoeuvre");
+  const char* broken =
+      drives ? oracles.drive(plan, given.honest) : oracles.stop(plan, given.running, given.honest);
+  expect(broken == nullptr, broken);
+  if (drives || (documented(input.ego) && input.start_ms - input.now_ms <= 200U)) check_start(input, plan);
 }
 
 }  // namespace
@@ -275,8 +200,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   expect(setting.valid ? ready == S4TP_OK : ready == S4TP_INVALID_PARAMETER && bad != nullptr,
          "init refuses what is bad");
   static const auto map = std::make_unique<s4tp_lane_map>();
-  *map = base_map(bytes.byte());
-  for (int wounds = bytes.below(8) - 4; wounds > 0; --wounds) wound(bytes, *map);
+  *map = fuzz::base_map(bytes.byte());
+  Given given = {};
+  for (int wounds = bytes.below(8) - 4; wounds > 0; --wounds) {
+    fuzz::wound(bytes, *map);
+    given.map_sound = false;
+  }
 
   s4tp_tracks tracks = {};
   s4tp_plan plan = {};
@@ -298,30 +227,33 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     take_tracks(bytes, input, tracks);
     tracks.time_ms = input.now_ms - (bytes.byte() % 16 == 1 ? bytes.take<std::uint16_t>() : 30U);
     input.degraded = bytes.byte() % 8 == 1 ? 1 : 0;
+    given.running = input.running != nullptr ? *input.running : s4tp_plan{};
     const s4tp_status status = s4tp_make_plan(block.get(), &input, &plan, &why);
     if (ready != S4TP_OK) {
       expect(status == S4TP_NOT_INITIALIZED && plan.kind == S4TP_PLAN_NONE,
              "without a planner nothing is written");
       break;
     }
-    check(status, input, plan, setting);
+    check(status, input, given, plan, setting);
     expect(why.status == status, "the explanation says the same");
     input.now_ms += 100U;
     s4tp_plan_point now;
     expect(s4tp_sample(&plan, input.now_ms, &now) == S4TP_OK && documented(now),
            "a plan can be read between its points");
-    if (plan.kind != S4TP_PLAN_NONE)
-      input.ego = {now.x_m, now.y_m, now.heading_rad, std::min(now.speed_mps, 60.0F), 0.0F, 0.0F, 0.0F};
+    if (plan.kind != S4TP_PLAN_NONE) input.ego = driven_to(now, setting);
     input.running = bytes.byte() % 8 == 1 ? nullptr : &plan;
+    given.honest = given.honest || input.running == nullptr;
     if (bytes.byte() % 8 == 1) {
       float* const numbers[] = {&plan.points[3].heading_rad,   &plan.points[4].speed_mps,
                                 &plan.points[5].x_m,           &plan.points[6].acceleration_mps2,
                                 &plan.points[7].curvature_1pm, &plan.fail_safe_branch_s,
                                 &plan.fail_safe_braking_mps2};
       *numbers[bytes.below(7)] = bytes.take<float>();
+      given.honest = input.running == nullptr;
     }
     tracks.left_out = bytes.byte() % 8 == 1 ? bytes.take<std::int16_t>() : 0;
     map->lanes_left_out = bytes.byte() % 8 == 1 ? bytes.take<std::int16_t>() : 0;
+    given.map_sound = given.map_sound && map->lanes_left_out >= 0;
   }
   return 0;
 }
