@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""The pages are whole: no dead link, no file named that is not there, every word of the list in the glossary, a short README;
-what the code cites, a page and a section of it, is there; and the list of requirements is that of today's headers and tests.
+"""The pages are whole: no dead link, no file, test or requirement named that is not there, every word of the list in the glossary,
+a short README; what the code cites, a page and a section of it, is there; and the list of requirements is that of today's headers
+and tests.
 
     check_docs.py [ROOT]
 """
@@ -9,12 +10,15 @@ import pathlib
 import re
 import sys
 
+import check_requirements
 import requirements_document
 
 README_LINES = 120
 LINK = re.compile(r"!?\[[^\]\n]*\]\(([^()\s]+)\)")
 # A file or folder of ours named in backticks; braces, stars and capitals (places to fill in) are no names.
 NAMED = re.compile(r"`((?:algo|hal|firmware|sim_host|tests|toolchain|docs)/[\w./-]*|[\w-]+\.md)(?:[ :][^`]*)?`")
+# A test as gtest names it.
+NAMED_TEST = re.compile(r"`([A-Z]\w+\.[A-Z]\w+)`")
 HEADING = re.compile(r"^#+\s+(.*)$", re.MULTILINE)
 # A page cited in the code, and its section: "method.md 4.8".
 CITED = re.compile(r"\b([\w/-]+\.md)\b(?: (\d+(?:\.\d+)?)(?![\w%]))?")
@@ -28,7 +32,7 @@ LIST = "docs/requirements.md"
 WORDS = ("path hypothesis", "right-of-way verdict", "commitment", "yield belief", "lateral offset", "blocking reason", "lane cost-to-go",
          "merge target", "path context", "overshoot", "ego-side risk", "other-side risk", "marginal prediction",
          "conditional prediction", "constant-velocity prediction", "ego", "track", "candidate", "decision", "conflict zone", "zone group",
-         "horizon", "boundary", "scenario", "flavour", "seed", "episode", "guarded", "bare", "driving risk field", "look-ahead distance", "cost map", "guard", "fail-safe", "legal occupancy",
+         "horizon", "boundary", "ECU mode", "vehicle time", "judge", "scenario", "flavour", "seed", "episode", "guarded", "bare", "driving risk field", "look-ahead distance", "cost map", "guard", "fail-safe", "legal occupancy",
          "minimum-risk manoeuvre", "RSS", "command gate", "end-to-end protection", "lock-step", "bit-exact", "iLQR", "fork", "standing")
 
 
@@ -58,6 +62,20 @@ def dead(root, page):
         places = (root / name, page.parent / name)
         if name not in MADE and not any(place.exists() for place in places):
             yield f"{where}: names {name}, which is not there"
+
+
+def evidence(root):
+    """Tests and requirements that a page names and nobody has."""
+    sources = [file.read_text(encoding="utf-8").splitlines() for file in sorted((root / "tests").rglob("*.cpp"))]
+    tests = {f"{test[1]}.{test[2]}" for lines in sources for test in map(requirements_document.TEST.match, lines) if test}
+    promised = check_requirements.collect(root, check_requirements.PROMISING, {".hpp", ".h", ".def"})
+    for page in pages(root):
+        text, where = page.read_text(encoding="utf-8"), page.relative_to(root).as_posix()
+        for name in sorted(set(NAMED_TEST.findall(text)) - tests):
+            yield f"{where}: names the test {name}, which is not there"
+        ids = {f"{room}-{number}" for room, number in check_requirements.ID.findall(text) if room not in check_requirements.NOT_OURS}
+        for name in sorted(ids - promised.keys()):
+            yield f"{where}: names {name}, which no header promises"
 
 
 def cited(root):
@@ -94,6 +112,7 @@ def outdated(root):
 
 def findings(root):
     result = [line for page in pages(root) for line in dead(root, page)]
+    result += evidence(root)
     result += cited(root)
     result += outdated(root)
     words, names = glossary(root)

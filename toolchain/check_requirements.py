@@ -11,7 +11,7 @@ import sys
 ID = re.compile(r"\b([A-Z]+)-(\d{3})\b")
 RANGE = re.compile(r"\b([A-Z]+)-(\d{3})(?:\s*\.\.+\s*|\s+to\s+)(?:\1-)?(\d{3})\b")
 # Names that look like ids but are those of the trade.
-NOT_OURS = {"AES", "AN", "CRC", "IEEE", "ISO", "UTF"}
+NOT_OURS = {"AES", "AN", "CRC", "IEEE", "ISO", "US", "UTF"}
 PROMISING = ("algo", "hal", "firmware", "sim_host", "toolchain")
 
 

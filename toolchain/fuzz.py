@@ -38,10 +38,10 @@ TARGETS = {
     "facade": Target(1024, ["algo/planner", "algo/safety", "algo/scene", "algo/trajectory", "algo/occupancy"]),
     "map": Target(512, ["firmware/wire/map_receiver.cpp", "firmware/wire/map_record.cpp"]),
     "network": Target(4096, [f"{WORLD}/map/{name}.cpp" for name in (
-        "sumo_network", "sumo_lane", "xml_values", "conflicts", "junction_bridge")]),
+        "sumo_network", "sumo_junction", "sumo_lane", "xml_values", "conflicts", "junction_bridge")]),
     "records": Target(4096, [f"sim_host/campaign/{name}.cpp" for name in ("records", "record_limits", "episode_record", "compare")]),
     "routes": Target(2048, [f"{WORLD}/{name}.cpp" for name in (
-        "scenario/route_file", "scenario/vehicle_types", "scenario/flow_attributes", "map/xml_values")]),
+        "scenario/route_file", "scenario/route_choices", "scenario/vehicle_types", "scenario/flow_attributes", "map/xml_values")]),
     "secoc": Target(512, ["firmware/secoc"]),
     "slcan": Target(96, ["hal/slcan.cpp"]),
     "texts": Target(4096, ["sim_host/faults/script.cpp", "hal/linux/key_file.cpp", "sim_host/clips/clip.cpp"]),

@@ -8,7 +8,7 @@ import subprocess
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 SOURCE = pathlib.Path("firmware/gate/command_gate.cpp")
 HEADER = pathlib.Path("firmware/gate/command_gate.hpp")
-TEST = pathlib.Path("tests/unit/gate_test.cpp")
+TESTS = [pathlib.Path("tests/unit") / name for name in ("gate_test.cpp", "gate_denial_test.cpp")]
 
 
 def arguments(description):
@@ -16,7 +16,8 @@ def arguments(description):
     parser.add_argument("--compiler", default="g++", help="GCC's C++ compiler (default g++)")
     parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build/host",
                         help="a host build: its wire library and generated codec are used (default build/host)")
-    parser.add_argument("--test", type=pathlib.Path, default=ROOT / TEST, help="the unit test (default %s)" % TEST)
+    parser.add_argument("--test", type=pathlib.Path, nargs="+", default=[ROOT / test for test in TESTS],
+                        help="the unit test's files (default %s)" % " ".join(map(str, TESTS)))
     return parser
 
 
@@ -52,7 +53,7 @@ class Bench:
         return ["-include", folder / "gtest.hpp"]
 
     def compile_test(self, folder, *flags):
-        execute([self.options.compiler, "-std=c++20", "-O0", "-w", *flags, *self.includes, self.options.test, "-rdynamic",
+        execute([self.options.compiler, "-std=c++20", "-O0", "-w", *flags, *self.includes, *self.options.test, "-rdynamic",
                  "-Wl,--whole-archive", self.wire, "-Wl,--no-whole-archive", f"-L{folder}", "-lgate", "-lgtest_main",
                  "-lgtest", "-o", folder / "gate_test"], cwd=folder)
 

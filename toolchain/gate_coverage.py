@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Every line and every branch of the command gate is run by its own unit test; names those that are not.
 
-    gate_coverage.py [--compiler g++] [--build build/host] [--test FILE]
+    gate_coverage.py [--compiler g++] [--build build/host] [--test FILE...]
 """
 
 import json
@@ -74,7 +74,7 @@ def main():
     every = [entry for file in lines.values() for entry in file.values()]
     print("\n".join(found) if found else
           f"gate: all {len(every)} lines and all {sum(len(branches) for _, branches in every)} branches are run by "
-          f"{options.test.name}")
+          f"{', '.join(test.name for test in options.test)}")
     return 1 if found else 0
 
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Mutation run of the command gate: each small fault planted in it must fail its unit test.
 
-    mutate_gate.py (--all | --sample COUNT [--seed SEED] | --list) [--compiler g++] [--build build/host] [--test FILE]
+    mutate_gate.py (--all | --sample COUNT [--seed SEED] | --list) [--compiler g++] [--build build/host] [--test FILE...]
 
 Mutants: relational and logical operators and their boundaries, arithmetic and bit operators, dropped signs, constants
 one up and one down, negated and constant conditions, dropped statements, swapped returns and choices. One that does

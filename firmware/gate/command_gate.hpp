@@ -6,8 +6,8 @@
 ///   motion unknown too long   the same; harder braking passes
 ///   else                      the command, brought inside the limits
 ///
-/// All limits hold for every output; where two disagree (GATE-006 asks for less steering than GATE-005 lets
-/// the wheels turn in one tick) the rate wins and the steering moves towards the other limit.
+/// All limits hold for every output; where two disagree (lateral acceleration asks for less steering than the
+/// wheels may turn in one tick) the rate wins and the steering moves towards the other limit.
 
 #include <cstdint>
 

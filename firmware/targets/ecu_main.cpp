@@ -92,7 +92,8 @@ void keep_phase() {
 
 void print_status() {
   Text line;
-  line << "tick " << ticks << " mode " << static_cast<std::int32_t>(the_ecu.mode()) << " faults ";
+  line << "tick " << ticks << " at " << static_cast<std::uint32_t>(timer.now_us() / 1000) << " ms mode "
+       << static_cast<std::int32_t>(the_ecu.mode()) << " faults ";
   line.hex(the_ecu.faults(), 5) << " stack " << hal::mps::stack_used() << " CAN errors "
                                 << can.counters().errors << " dropped " << bus.counters().dropped << "\n";
   console.print(line.c_str());

@@ -21,7 +21,6 @@ const RegisterPlanner kRegistered{
 
 constexpr float kFarM = 1e6F;
 constexpr std::uint8_t kNobody = 255;
-constexpr float kShortestGapM = 0.5F;       // for the model; nearer is touching
 constexpr float kClearM = 0.7F;             // of a zone we wait before
 constexpr float kRoadEndM = 1.0F;           // of the road's end
 constexpr float kChangeRoomM = 20.0F;       // for a lane change from rest
@@ -31,7 +30,6 @@ constexpr float kReturnM = 60.0F;           // for each change due, where even a
 constexpr float kAdjustMps2 = -2.0F;        // braking to fall in behind somebody beside us
 constexpr float kLookS = 20.0F;             // how far ahead in time zones are judged
 constexpr float kLookStepS = 0.2F;
-constexpr float kGoneFirstS = 0.3F;    // behind somebody who passes first
 constexpr float kStandingMps = 0.5F;   // who stands before a zone is not coming
 constexpr float kUnlikely = 0.15F;     // ways of others less likely than this are ignored: they signal
 constexpr float kStartingMps2 = 1.5F;  // who is slow may be gaining speed
@@ -53,40 +51,6 @@ scene::Manoeuvre needed_change(const scene::EgoPath& path) {
 }
 
 }  // namespace
-
-float idm_free(const IdmDriver& driver, float speed_mps, float desired_mps) {
-  const float ratio = speed_mps / std::max(desired_mps, 0.1F);
-  return std::max(driver.acceleration_mps2 * (1.0F - ratio * ratio * ratio * ratio), -driver.braking_mps2);
-}
-
-float idm_behind(const IdmDriver& driver, float speed_mps, float gap_m, float leader_mps) {
-  const float closing = speed_mps * (speed_mps - leader_mps) /
-                        (2.0F * std::sqrt(driver.acceleration_mps2 * driver.braking_mps2));
-  const float wanted_m = driver.standstill_gap_m + std::max(0.0F, speed_mps * driver.headway_s + closing);
-  const float share = wanted_m / std::max(gap_m, kShortestGapM);
-  return driver.acceleration_mps2 * (1.0F - share * share);
-}
-
-bool change_accepted(const IdmDriver& driver, float speed_mps, const trajectory::Leader& ahead,
-                     const trajectory::Leader& behind) {
-  const float least = -driver.asked_braking_mps2;
-  const bool ahead_fits =
-      ahead.agent < 0 ||
-      (ahead.gap_m > kShortestGapM && idm_behind(driver, speed_mps, ahead.gap_m, ahead.speed_mps) > least);
-  const bool behind_fits =
-      behind.agent < 0 ||
-      (behind.gap_m > kShortestGapM && idm_behind(driver, behind.speed_mps, behind.gap_m, speed_mps) > least);
-  return ahead_fits && behind_fits;
-}
-
-bool gap_accepted(const Crosser& crosser, float in_s, float out_s, float margin_s) {
-  if (crosser.gone_s + kGoneFirstS < in_s) return true;
-  if (crosser.arrives_s <= 0.0F) return false;
-  const bool owes_us = crosser.priority == Priority::kFirstHasPriority ||
-                       (crosser.priority == Priority::kFirstCome && crosser.arrives_s > in_s);
-  if (owes_us) return crosser.can_stop || crosser.arrives_s > out_s;
-  return crosser.arrives_s > out_s + margin_s;
-}
 
 Status IdmLanePlanner::init(const Parameters& parameters) {
   int first_bad = 0;

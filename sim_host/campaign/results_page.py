@@ -28,7 +28,7 @@ PAGE = """# Results
 `sim_host/campaign/main_table.sh --jobs 2 out/main` drives all of this and goes on where it was stopped; `out/main/report/index.html`
 then shows every table, plots, and replays of failures, `out/main/docs` is this folder. Seeds 10,000 and on, on which nothing was
 tuned; commit {commit}. Each cell is **goals in `smarts` / in `social`**; ours: collisions through our own fault. Bare: with the
-command gate alone; guarded: with check, RSS and minimum-risk manoeuvre, whoever plans. The other numbers of each run (intervals,
+command gate alone; guarded: with the guard and the fail-safe, whoever plans. The other numbers of each run (intervals,
 rates, gaps, comfort, the competition's own metrics) are in the JSON beside this page, a line a run.
 
 A comparison is of the same episodes, driven by both: `3 : 11` are the episodes in which only s4tp failed and only the other did.

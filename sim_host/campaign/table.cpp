@@ -54,7 +54,7 @@ std::string scenario_of(const CellResult& cell) {
 void print_paper(std::ostream& out, const Cells& group) {
   const std::vector<std::string> scenarios = distinct(group, scenario_of);
   out << format("%-20s", "planner");
-  for (const std::string& scenario : scenarios) out << format("%24.23s", scenario.c_str());
+  for (const std::string& scenario : scenarios) out << format(" %24.24s", scenario.c_str());
   out << format("%8s\n", "all %");
   for (const std::string& planner : distinct(group, planner_of)) {
     out << format("%-20.20s", planner.c_str());
@@ -65,14 +65,14 @@ void print_paper(std::ostream& out, const Cells& group) {
         return cell.cell.planner == planner && cell.cell.scenario == scenario;
       });
       if (one.empty()) {
-        out << format("%24s", "-");
+        out << format(" %24s", "-");
         continue;
       }
       const metrics::Summary& s = one.front()->summary;
       goals += s.success.count;
       episodes += s.episodes;
       out << format(
-          "%24s",
+          " %24s",
           format("%.1f / %.1f / %.3g", 100.0 * s.comp1_success, s.comp1_time, s.comp1_humanness).c_str());
     }
     out << format("%8.2f\n", 100.0 * goals / std::max(episodes, 1));
@@ -80,13 +80,13 @@ void print_paper(std::ostream& out, const Cells& group) {
 }
 
 void print_details(std::ostream& out, const Cells& group) {
-  out << format("%-20s%-16s%9s%17s%14s%5s%5s%10s%9s%9s%9s%8s%8s%9s%7s%7s%9s\n", "planner", "scenario", "goal",
+  out << format("%-20s%-24s%9s%17s%14s%5s%5s%10s%9s%9s%9s%8s%8s%9s%7s%7s%9s\n", "planner", "scenario", "goal",
                 "95 % interval", "hits (ours)", "off", "late", "to goal s", "TTC p05", "near m.", "|jerk|",
                 "brake", "RSS %", "PET<1.5%", "imp>2%", "imp>3%", "pressed%");
   for (const CellResult* const cell : group) {
     const metrics::Summary& s = cell->summary;
     out << format(
-        "%-20.19s%-16.15s%9s%17s%14s%5d%5d%10.1f%9.2f%9.2f%9.2f%8.1f%8.1f%9.1f%7.1f%7.1f%9.1f\n",
+        "%-20.19s%-24.23s%9s%17s%14s%5d%5d%10.1f%9.2f%9.2f%9.2f%8.1f%8.1f%9.1f%7.1f%7.1f%9.1f\n",
         cell->cell.planner.c_str(), cell->cell.scenario.c_str(),
         format("%d/%d", s.success.count, s.episodes).c_str(),
         format("%.1f..%.1f %%", 100.0 * s.success.interval.low, 100.0 * s.success.interval.high).c_str(),

@@ -230,7 +230,8 @@ Command add_eval(CLI::App& tool) {
       ->delimiter(',')
       ->check(CLI::IsMember(baselines::planner_names()));
   options->scenarios_named =
-      eval->add_option("--scenarios,--scenario", plan.scenarios, "shipped names, folders or .toml files")
+      eval->add_option("--scenarios,--scenario", plan.scenarios,
+                       "shipped names, folders or .toml files (default left_turn, merge, cruise, overtake)")
           ->delimiter(',');
   eval->add_option("--roads", options->roads,
                    "a folder of scenarios, or N:K, K roads from number N on (s4tp roads); results by family");
@@ -240,7 +241,7 @@ Command add_eval(CLI::App& tool) {
                    "who simulates it: builtin (default), sumo, adversary (the worst that the law allows)")
       ->delimiter(',')
       ->check(CLI::IsMember(world::engine_names()));
-  eval->add_option("--guard", options->guards, "check, RSS and minimum-risk manoeuvre: on (default), off")
+  eval->add_option("--guard", options->guards, "the guard behind the planner: on (default), off")
       ->delimiter(',')
       ->check(CLI::IsMember({"on", "off"}));
   eval->add_option("--perception", plan.perception,

@@ -21,7 +21,7 @@ Command add_run(CLI::App& tool) {
                                    ->check(CLI::IsMember(baselines::planner_names()));
   CLI::Option* const guard =
       run->add_option("--guard", options->guard,
-                      "check, RSS and minimum-risk manoeuvre behind the planner (default on)")
+                      "the guard, and its last fail-safe, behind the planner (default on)")
           ->check(CLI::IsMember({"on", "off"}));
   run->add_option("--perception", options->perception,
                   "ideal (default), or real: noise, latency, dropouts, occlusion")

@@ -4,7 +4,7 @@
 ///
 /// FAULT-010 Never silent: every control tick on a living bus ends with exactly one Command frame, the last
 /// of that tick, intact, its counter one further; a status frame every tenth tick, of the same mode.
-/// FAULT-011 Never outside the limits GATE-001 .. GATE-009, at the speed of the newest intact motion frame
+/// FAULT-011 Never outside the limits of the command gate, at the speed of the newest intact motion frame
 /// among those it says it has taken. FAULT-012 While it does not drive, whatever the reason, the car slows
 /// down by 2 m/s^2 at least, one second of grace, until it stands, and then stays where it is. FAULT-013 When
 /// the faults have been over for long enough (settling_ticks()), it drives again without any fault, or has

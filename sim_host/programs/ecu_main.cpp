@@ -50,7 +50,7 @@ int main(int argc, char** argv) {
                  "file with a key of 32 hexadecimal digits, or env:NAME: only what is authentic counts")
       ->excludes("--input");
   std::string guard = "on";
-  app.add_option("--guard", guard, "check, RSS and minimum-risk manoeuvre behind the planner (default on)")
+  app.add_option("--guard", guard, "the guard, and its last fail-safe, behind the planner (default on)")
       ->check(CLI::IsMember({"on", "off"}));
   app.add_option("--parameters", parameters_file, "TOML file of planner parameters (docs/parameters.md)");
   std::string weights;

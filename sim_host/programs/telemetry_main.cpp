@@ -93,9 +93,11 @@ int main(int argc, char** argv) {
     std::string said;
     while (!stop) {
       const telemetry::News news = watch.look();
+      const int process = watch.writer();
       const std::string state =
-          watch.present() ? "ECU of process " + std::to_string(watch.writer()) + " on " + watch.identity().bus
-                          : "no ECU: " + watch.absence();
+          !watch.present() ? "no ECU: " + watch.absence()
+          : process == 0   ? "the ECU has ended"
+                           : "ECU of process " + std::to_string(process) + " on " + watch.identity().bus;
       if (state != said) std::cout << (said = state) << std::endl;
       if (input) input->pass_on();
       publisher.publish(watch, news, input ? &input->report() : nullptr);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <memory>
 #include <vector>
 
@@ -11,6 +10,7 @@
 #include "firmware/wire/codec.hpp"
 #include "sim_host/campaign/driver.hpp"
 #include "sim_host/train/branch_driver.hpp"
+#include "sim_host/train/branch_tracks.hpp"
 #include "sim_host/train/instant.hpp"
 #include "sim_host/world/world.hpp"
 
@@ -22,73 +22,6 @@ constexpr double kBusy_s = 0.9;   // between forks where ways cross or somebody 
 constexpr double kQuiet_s = 4.0;  // and elsewhere
 constexpr float kNearM = 30.0F;
 constexpr double kLongest_s = 45.0;  // of an episode
-constexpr double kRange_m = 150.0;   // of the tracks, as the perception node's
-
-/// What the cars around look like from the car, without the wire: the nearest in range, under lasting ids.
-class Tracks {
- public:
-  Tracks(const world::PerceptionOptions& errors, world::Vec2 origin, std::uint64_t seed)
-      : errors_(errors), origin_(origin), random_(seed) {}
-
-  /// Takes over the ids of a scene. \param cars  as they are at its time
-  void adopt(const scene::Scene& scene, const std::vector<world::CarState>& cars) {
-    for (const scene::Agent& agent : scene.agents) {
-      for (const world::CarState& car : cars) {
-        const double off_m =
-            std::hypot(car.centre.x - origin_.x - static_cast<double>(agent.track.centre.x_m),
-                       car.centre.y - origin_.y - static_cast<double>(agent.track.centre.y_m));
-        if (off_m < 1.5) ids_.try_emplace(car.id, agent.track.id);
-      }
-      last_id_ = std::max(last_id_, static_cast<int>(agent.track.id));
-    }
-  }
-
-  TrackList of(const world::CarState& ego, std::vector<world::CarState> cars) {
-    const auto away_m = [&](const world::CarState& car) {
-      return std::hypot(car.centre.x - ego.centre.x, car.centre.y - ego.centre.y);
-    };
-    std::erase_if(cars, [&](const world::CarState& car) { return away_m(car) > kRange_m; });
-    std::stable_sort(cars.begin(), cars.end(), [&](const world::CarState& a, const world::CarState& b) {
-      return away_m(a) < away_m(b);
-    });
-    TrackList list;
-    for (const world::CarState& car : cars) {
-      if (list.full()) break;
-      if (errors_.dropout > 0.0 && random_.uniform() < errors_.dropout) continue;
-      (void)list.push(track_of(car));
-    }
-    return list;
-  }
-
- private:
-  double noisy(double value, double deviation) {
-    return deviation > 0.0 ? random_.normal(value, deviation) : value;
-  }
-  Track track_of(const world::CarState& car) {
-    const auto [known, fresh] = ids_.try_emplace(car.id, static_cast<std::uint8_t>(last_id_ % 254 + 1));
-    if (fresh) last_id_ = known->second;
-    Track track;
-    track.id = known->second;
-    track.centre = {static_cast<float>(noisy(car.centre.x - origin_.x, errors_.position_noise_m)),
-                    static_cast<float>(noisy(car.centre.y - origin_.y, errors_.position_noise_m)),
-                    static_cast<float>(std::remainder(noisy(car.heading_rad, errors_.heading_noise_rad),
-                                                      6.283185307179586))};
-    track.centre.heading_rad = std::clamp(track.centre.heading_rad, -3.1415F, 3.1415F);
-    track.speed_mps =
-        static_cast<float>(std::clamp(noisy(car.speed_mps, errors_.speed_noise_mps), 0.0, 60.0));
-    track.acceleration_mps2 = static_cast<float>(std::clamp(car.acceleration_mps2, -12.0, 12.0));
-    track.yaw_rate_radps = static_cast<float>(std::clamp(car.yaw_rate_radps, -1.28, 1.27));
-    track.length_m = static_cast<float>(car.length_m);
-    track.width_m = static_cast<float>(car.width_m);
-    return track;
-  }
-
-  world::PerceptionOptions errors_;
-  world::Vec2 origin_;
-  world::Random random_;
-  std::map<int, std::uint8_t> ids_;
-  int last_id_ = 0;
-};
 
 world::Snapshot snapshot_of(const world::Branch& branch) {
   world::Snapshot snapshot;
@@ -253,7 +186,7 @@ void DataDrive::branch(Instant instant, int number, const BranchPlan& plan) {
       plan);
   const std::unique_ptr<world::Branch> branch = world_.fork(ego);
   Observer observer = observer_;
-  Tracks tracks(world_options(options_).perception, world_.origin(), random_.integer(0, 1 << 30));
+  BranchTracks tracks(world_options(options_).perception, world_.origin(), random_.integer(0, 1 << 30));
   tracks.adopt(observer.scene(), branch->others());
   const std::size_t later[] = {static_cast<std::size_t>(random_.integer(8, 24)),
                                static_cast<std::size_t>(random_.integer(25, 48))};

@@ -9,17 +9,13 @@
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
-#include <nlohmann/json.hpp>
 
-#include "sim_host/train/conditioning.hpp"
-#include "sim_host/train/figures.hpp"
+#include "sim_host/train/evaluation.hpp"
 #include "sim_host/train/image_export.hpp"
 #include "sim_host/train/learning_curve.hpp"
 #include "sim_host/train/predict.hpp"
 #include "sim_host/train/random_number.hpp"
-#include "sim_host/train/reliability_plot.hpp"
 #include "sim_host/train/trainer.hpp"
 #include "sim_host/train/yields_row.hpp"
 
@@ -128,107 +124,14 @@ void add_run(CLI::App& tool, RunOptions& options) {
 }
 
 struct FiguresOptions {
-  std::filesystem::path data;
-  std::filesystem::path fresh;
-  std::filesystem::path checkpoint;
-  std::filesystem::path image;
-  std::filesystem::path json;
-  std::filesystem::path plot;
+  EvaluationOptions evaluation;
   std::string size = "mcu";
   int threads = 1;
 };
 
-// One predictor's line of the table, and its figures for the file.
-nlohmann::ordered_json judge(const char* name, const std::vector<VehicleErrors>& calibration,
-                             const std::vector<VehicleErrors>& errors,
-                             const std::vector<VehicleErrors>& reference) {
-  nlohmann::ordered_json figures = figures_by_scenario(errors, fitted_sigma_m(calibration), reference);
-  for (const auto& [scenario, of] : figures.items()) {
-    const auto mean = [&](const char* figure) { return of[figure]["mean"].get<double>(); };
-    const auto half = [&](const char* figure) { return of[figure]["half_width"].get<double>(); };
-    std::printf("%-22s %-12s %8zu %6.3f +- %.3f %9.3f %7.3f %7.3f %7.3f %7.3f   %+.3f +- %.3f\n", name,
-                scenario.c_str(), of["vehicles"].get<std::size_t>(), mean("top_1_ade"), half("top_1_ade"),
-                mean("weighted_ade"), mean("min_ade"), mean("top_1_fde"), mean("min_fde"), mean("nll"),
-                mean("top_1_ade_less_reference"), half("top_1_ade_less_reference"));
-  }
-  return figures;
-}
-
 int figures(const FiguresOptions& options) {
   use_threads(options.threads);
-  const SampleSet set(options.data);
-  const std::vector<std::size_t> calibration = samples_of(set, Part::kCalibration);
-  SampleSet fresh_set;
-  if (!options.fresh.empty()) fresh_set = SampleSet(options.fresh);
-  const SampleSet& judged_set = options.fresh.empty() ? set : fresh_set;
-  std::vector<std::size_t> samples = samples_of(judged_set, Part::kValidation);
-  if (!options.fresh.empty()) {
-    for (const Part part : {Part::kTraining, Part::kCalibration}) {
-      const auto more = samples_of(judged_set, part);
-      samples.insert(samples.end(), more.begin(), more.end());
-    }
-  }
-  const auto network = load_network(shape_named(options.size), options.checkpoint);
-  const double temperature = calibrated_temperature(*network, set, calibration);
-  calibrate_yields(*network, set, calibration, temperature);
-  std::printf(
-      "temperature %.3f, from %zu samples; %zu samples judged\n\n%-22s %-12s %8s %15s %9s %7s %7s %7s %7s   "
-      "%s\n",
-      temperature, calibration.size(), samples.size(), "predictor", "scenario", "vehicles", "top-1 ADE [m]",
-      "weighted", "nearest", "FDE", "nearest", "NLL", "ADE less kinematic");
-  const std::vector<VehicleErrors> kinematic =
-      errors_of(judged_set, samples, kinematic_forecasts(judged_set, samples));
-  nlohmann::ordered_json result{{"temperature", temperature}};
-  const auto add = [&](const char* name, auto&& forecasts_of) {
-    const std::vector<VehicleErrors> calibrated = errors_of(set, calibration, forecasts_of(set, calibration));
-    result["predictors"][name] =
-        judge(name, calibrated, errors_of(judged_set, samples, forecasts_of(judged_set, samples)), kinematic);
-    return fitted_sigma_m(calibrated);
-  };
-  const auto network_of = [&](bool with_plan) {
-    return [&network, temperature, with_plan](const SampleSet& of, const std::vector<std::size_t>& which) {
-      return network_forecasts(*network, of, which, with_plan, temperature);
-    };
-  };
-  add("constant velocity", steady_forecasts);
-  add("kinematic", kinematic_forecasts);
-  add("kinematic, 3 speeds", kinematic_variants);
-  add("satp, no plan", network_of(false));
-  const double sigma_m = add("satp, our plan", network_of(true));
-  // What a plan does to a forecast, and what is promised of it.
-  const auto condition = [&](const char* name, const Forecasts& planned) {
-    nlohmann::ordered_json& figures = result["conditioned"][name];
-    figures["conditioning"] = conditioning_figures(judged_set, samples, planned, sigma_m);
-    figures["gate"] = gate_figures(judged_set, samples, planned);
-    figures["yields"] = yield_figures(judged_set, samples, planned);
-    for (const auto& [figure, value] : figures.items())
-      std::printf("%s: %s %s\n", name, figure.c_str(), value.dump().c_str());
-  };
-  const Forecasts planned = network_of(true)(judged_set, samples);
-  if (!options.image.empty()) {
-    const std::vector<std::uint32_t> image = read_image(options.image);
-    for (const bool with_plan : {false, true}) {
-      add(with_plan ? "image, our plan" : "image, no plan",
-          [&image, with_plan](const SampleSet& of, const std::vector<std::size_t>& which) {
-            return image_forecasts(image, of, which, with_plan);
-          });
-    }
-    std::printf("\n");
-    condition("image", image_forecasts(image, judged_set, samples, true));
-  }
-  condition("satp", planned);
-  if (!options.plot.empty()) {
-    std::vector<Reliability> curves{
-        {"futures, by probability", result["predictors"]["satp, our plan"]["all"]["reliability"]}};
-    for (const auto& [name, figures] : result["conditioned"].items())
-      curves.push_back({"p(yields, we go), " + name, figures["yields"]["bins"]});
-    draw_reliability(curves, options.plot);
-  }
-  if (!options.json.empty()) {
-    std::ofstream out(options.json);
-    out << result.dump(1) << '\n';
-    if (!out) throw std::runtime_error(options.json.string() + " cannot be written");
-  }
+  evaluate(shape_named(options.size), options.evaluation);
   return kDone;
 }
 
@@ -310,14 +213,17 @@ void add_yields(CLI::App& tool, YieldsOptions& options) {
 void add_figures(CLI::App& tool, FiguresOptions& options) {
   CLI::App& command =
       *tool.add_subcommand("figures", "what a trained network is worth, beside the kinematic predictor");
+  EvaluationOptions& evaluation = options.evaluation;
   command
-      .add_option("--data", options.data, "the samples it was trained on: their calibration part calibrates")
+      .add_option("--data", evaluation.data,
+                  "the samples it was trained on: their calibration part calibrates")
       ->required();
-  command.add_option("--fresh", options.fresh, "samples to judge it on; else the validation part of --data");
-  command.add_option("--checkpoint", options.checkpoint, "of ./s4tp train run")->required();
-  command.add_option("--image", options.image, "of ./s4tp train export: judged as well");
-  command.add_option("--json", options.json, "file for all figures");
-  command.add_option("--plot", options.plot, "file for the reliability plot (SVG)");
+  command.add_option("--fresh", evaluation.fresh,
+                     "samples to judge it on; else the validation part of --data");
+  command.add_option("--checkpoint", evaluation.checkpoint, "of ./s4tp train run")->required();
+  command.add_option("--image", evaluation.image, "of ./s4tp train export: judged as well");
+  command.add_option("--json", evaluation.json, "file for all figures");
+  command.add_option("--plot", evaluation.plot, "file for the reliability plot (SVG)");
   command.add_option("--size", options.size, "mcu or teacher")->check(CLI::IsMember({"mcu", "teacher"}));
   command.add_option("--threads", options.threads)->check(CLI::Range(1, 64))->capture_default_str();
 }

@@ -1,61 +1,16 @@
 #pragma once
 /// A small world along lines, for properties of the guard: an ego that drives any plan the guard passes, and
-/// others who do the worst that the law leaves them. The law is written here again, by method.md 4.9's words.
+/// others who do the worst that the law leaves them.
 
 #include <algorithm>
 #include <cmath>
 #include <random>
 #include <vector>
 
+#include "tests/support/lawful_driver.hpp"
 #include "tests/support/shared_ground.hpp"
 
 namespace s4tp::test {
-
-/// Motion along a line; 5 m long, `s_m` is the box centre.
-struct Mover {
-  float s_m = 0.0F;
-  float speed_mps = 0.0F;
-  float acceleration_mps2 = 0.0F;
-
-  void drive(float wanted_mps2, float duration_s, float top_mps) {
-    float next_mps = std::max(0.0F, speed_mps + wanted_mps2 * duration_s);
-    if (wanted_mps2 > 0.0F) next_mps = std::min(next_mps, std::max(top_mps, speed_mps));
-    s_m += 0.5F * (speed_mps + next_mps) * duration_s;
-    acceleration_mps2 = (next_mps - speed_mps) / duration_s;
-    speed_mps = next_mps;
-  }
-};
-
-inline constexpr float kTickS = 0.05F;
-inline constexpr float kTopMps = 1.1F * kLimitMps;
-inline constexpr float kEntryM = 96.0F;  // of SharedGround's zone, on both ways
-inline constexpr float kExitM = 104.0F;
-
-/// One who shares ground with us, or leads us.
-struct Lawful {
-  Mover motion;
-  bool leads = false;  ///< in our own lane
-  bool was_left_out = false;
-  float known_s = 0.0F;
-  float stood_s = 0.0F;
-  // Random and bang-bang.
-  float wanted_mps2 = 0.0F;
-  float until_s = 0.0F;
-  // What it owes us now, braking up to `owed_mps2` from `owed_from_s` on; 0: nothing.
-  float owed_mps2 = 0.0F;
-  float owed_from_s = 0.0F;
-  bool stays = false;  ///< stands, and lets us pass
-
-  [[nodiscard]] float to_entry_m() const { return kEntryM - motion.s_m; }
-  /// Gaining speed as fast as the law allows for 1.5 s, it still stops half a metre before the zone with 2
-  /// m/s^2.
-  [[nodiscard]] bool can_be_asked() const {
-    Mover fastest = motion;
-    for (int i = 0; i < 150; ++i) fastest.drive(2.0F, 0.01F, kTopMps);
-    const float room_m = kEntryM - 0.5F - fastest.s_m;
-    return room_m > 0.0F && fastest.speed_mps * fastest.speed_mps <= 4.0F * room_m;
-  }
-};
 
 struct Traffic {
   SharedGround road;
@@ -76,7 +31,7 @@ struct Traffic {
   Traffic(Priority priority, bool merges, unsigned seed)
       : road(priority, merges), random(seed), merging(merges) {}
 
-  float between(float low, float high) { return std::uniform_real_distribution<float>(low, high)(random); }
+  float between(float low, float high) { return drawn_between(random, low, high); }
   bool chance(float share) { return between(0.0F, 1.0F) < share; }
   [[nodiscard]] bool we_yield() const {
     return road.scene.ego_paths[0].zones[0].priority != Priority::kFirstHasPriority;
@@ -207,52 +162,6 @@ struct Traffic {
     }
   }
 
-  void drive_other(Lawful& other, const Lawful* in_front) {
-    Mover& motion = other.motion;
-    if (time_s >= other.until_s) {
-      other.until_s = time_s + (chance(0.3F) ? kTickS : between(0.1F, 3.0F));
-      const float kind = between(0.0F, 1.0F);
-      other.wanted_mps2 = kind < 0.4F   ? 2.0F
-                          : kind < 0.6F ? -8.0F
-                          : kind < 0.7F ? 0.0F
-                                        : between(-8.0F, 2.0F);
-    }
-    float wanted_mps2 = other.wanted_mps2;
-    const auto stops_before = [&](float place_m, float braking_mps2) {
-      // It waits until braking is due, and then brakes as hard as that takes, and no less than it must.
-      Mover next = motion;
-      next.drive(wanted_mps2, kTickS, kTopMps);
-      const float room_m = place_m - next.s_m;
-      if (room_m > 0.0F && next.speed_mps * next.speed_mps <= 2.0F * braking_mps2 * room_m) return;
-      const float left_m = std::max(place_m - motion.s_m, 0.01F);
-      const float needed_mps2 = motion.speed_mps * motion.speed_mps / (2.0F * left_m);
-      wanted_mps2 = std::min(wanted_mps2, -std::max(braking_mps2, needed_mps2));
-    };
-    const bool gone = ego.s_m > kExitM;
-    if (!other.leads && !gone) {
-      if (other.stays) wanted_mps2 = -8.0F;
-      if (other.owed_mps2 > 3.0F && other.known_s < 1.0F) {
-        wanted_mps2 = std::min(wanted_mps2, 0.0F);
-      } else if (motion.s_m < kEntryM && other.owed_mps2 > 0.0F && time_s >= other.owed_from_s)
-        stops_before(kEntryM - 0.01F, other.owed_mps2);
-    }
-    if (in_front != nullptr) {
-      const float front_mps = in_front->motion.speed_mps;
-      stops_before(in_front->motion.s_m - 5.5F + front_mps * front_mps / 16.0F, 8.0F);
-    }
-    // Whoever has been in its lane ahead of it for a second is not driven into, if 4 m/s^2 do.
-    if (merging && !other.leads && ego_entered_s >= 0.0F && time_s >= ego_entered_s + 1.0F &&
-        motion.s_m < ego.s_m) {
-      const float slower_mps = std::max(0.0F, motion.speed_mps - ego.speed_mps);
-      const float gap_m = ego.s_m - motion.s_m - 5.05F;
-      const bool braking = ego.acceleration_mps2 < 0.0F;
-      if (slower_mps * slower_mps >= 8.0F * (gap_m - 0.05F * slower_mps - 0.1F) || gap_m < 0.3F)
-        wanted_mps2 = std::min(wanted_mps2, braking ? -8.0F : -4.0F);
-    }
-    // Whoever is left out keeps to the limit.
-    motion.drive(wanted_mps2, kTickS, left_out(other) ? kLimitMps : kTopMps);
-  }
-
   void tick() {
     const Lawful* in_front[2] = {nullptr, nullptr};
     for (std::size_t i = 0; i < others.size(); ++i) {
@@ -263,13 +172,8 @@ struct Traffic {
     }
     for (std::size_t i = 0; i < others.size(); ++i) {
       Lawful& other = others[i];
-      // D1: who could give way after what is left of its second does, and gains no speed until then.
-      const float its_mps = other.motion.speed_mps;
-      const float left_s = std::max(0.0F, 1.0F - other.known_s);
-      const float room_m = other.to_entry_m() - its_mps * left_s;
-      if (!we_yield() && !other.leads && room_m > 0.0F && its_mps * its_mps <= 8.0F * room_m)
-        other.owed_mps2 = 4.0F;
-      drive_other(other, in_front[i]);
+      if (!we_yield()) other.answer();
+      other.drive({ego, time_s, merging, ego_entered_s, left_out(other)}, in_front[i], random);
       if (!left_out(other)) other.known_s += kTickS;
       other.stood_s = other.motion.speed_mps < 0.3F ? other.stood_s + kTickS : 0.0F;
     }

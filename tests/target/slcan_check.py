@@ -92,9 +92,8 @@ def main(runner, target, image):
     expect(counted["sent"], 20 + answered, "sent")
     expect(counted["dropped"], 1 + asked - answered, "dropped, one of them before the start")
     expect(counted["errors"], 3, "errors")
-    # MPS-043: each burst of frames of the id watched for was noted in the tick it came in, within that tick's period.
+    # MPS-043: frames of the id watched for were noted, each once at most; phase_check.py judges when.
     assert 2 <= counted["arrivals"] <= 20 + asked, f"arrivals: {counted['arrivals']}"
-    expect(counted["elsewhere"], 0, "arrivals beyond a period")
     print(f"{asked - answered} of {asked} frames found the queue full; every line was whole")
 
 

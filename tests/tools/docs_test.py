@@ -53,6 +53,15 @@ class Pages(unittest.TestCase):
         self.write("docs/a.md", "`algo/gone.hpp` and `gone.md`\n")
         self.assertEqual(len(self.found()), 2)
 
+    # A test that is there and one that is not; a requirement of a header and one of none.
+    def test_evidence_that_is_gone_is_found(self):
+        self.write("algo/a.hpp", f"/// {FIRST} Brakes hard.\n")
+        self.write("tests/unit/a_test.cpp", f"// {FIRST}\nTEST(Gate, Brakes) {{\n}}\n")
+        self.write(check_docs.LIST, requirements_document.document(self.root)[0])
+        self.write("docs/a.md", f"{FIRST} by `Gate.Brakes`; {SECOND} by `Gate.Steers`; `gate.steers`, on US-101\n")
+        self.assertEqual(self.found(), ["docs/a.md: names the test Gate.Steers, which is not there",
+                                        f"docs/a.md: names {SECOND}, which no header promises"])
+
     # A page, and a section of one, that a comment names.
     def test_what_the_code_cites_is_looked_for(self):
         self.write("docs/method.md", "# Method\n## 3 Field\n**4.8 Refinement** x\n")

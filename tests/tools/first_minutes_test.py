@@ -29,6 +29,10 @@ class FirstMinutes(unittest.TestCase):
         for word in ("s4tp demo", "s4tp run --scenario left_turn", "s4tp --help"):
             self.assertIn(word, said)
 
+    # The plainest drive, of which nothing is chosen, reaches its goal.
+    def test_the_first_drive_arrives(self):
+        self.assertRegex(self.said("run", code=0), r"(?m)^s4tp, left_turn, seed \d+: goal after ")
+
     # A command or an option mistyped is named with the one that was meant; what is near to none, with where all are listed.
     def test_mistyped_words(self):
         for arguments, answer in ((("rnu",), "there is no command 'rnu'; did you mean run?"),

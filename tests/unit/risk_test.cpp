@@ -1,3 +1,4 @@
+// The risk of a trajectory: the field times the cost of what is in it.
 #include "algo/sadrf/risk.hpp"
 
 #include <gtest/gtest.h>
@@ -6,102 +7,11 @@
 #include <memory>
 
 #include "algo/core/math.hpp"
-#include "algo/sadrf/box_integral.hpp"
 #include "algo/sadrf/field.hpp"
+#include "tests/support/risk_stage.hpp"
 
 namespace s4tp::sadrf {
 namespace {
-
-/// A scene with everything the risk needs, and shorthand to fill it.
-struct Stage {
-  scene::Scene scene;
-  LaneMap map;
-  DrivableArea area;
-  satp::PredictionSet prediction;
-  satp::KinematicSet others;
-  Trajectory trajectory;
-  Parameters parameters;
-  RiskProfile profile;
-
-  /// Our car straight along y = `y_m` from x = 0.
-  void drive(float speed_mps, float y_m = 0.0F) {
-    for (int i = 0; i < kTrajectoryPoints; ++i) {
-      TrajectoryPoint& point = trajectory.points[i];
-      point = TrajectoryPoint{};
-      point.rear_axle = {speed_mps * kStepS * static_cast<float>(i), y_m, 0.0F};
-      point.speed_mps = speed_mps;
-    }
-  }
-
-  static satp::Mode straight(const Pose& start, float speed_mps, float probability) {
-    satp::Mode mode;
-    mode.probability = probability;
-    for (int i = 0; i < kHorizonSteps; ++i) {
-      mode.steps[i] = shift_ahead(start, speed_mps * kStepS * static_cast<float>(i + 1));
-    }
-    return mode;
-  }
-
-  /// A 5 x 1.8 m car, straight on at constant speed. \return its index
-  int add_car(const Pose& centre, float speed_mps) {
-    scene::Agent agent;
-    agent.track.centre = centre;
-    agent.track.speed_mps = speed_mps;
-    agent.track.length_m = 5.0F;
-    agent.track.width_m = 1.8F;
-    EXPECT_TRUE(scene.agents.push(agent));
-    EXPECT_TRUE(others.agents.push(straight(centre, speed_mps, 1.0F)));
-    return scene.agents.size() - 1;
-  }
-
-  /// Gives agent `index` two predicted futures instead of its kinematic one.
-  void predict(int index, const satp::Mode& one, const satp::Mode& two) {
-    satp::AgentPrediction of;
-    of.agent = static_cast<std::uint8_t>(index);
-    EXPECT_TRUE(of.modes.push(one));
-    EXPECT_TRUE(of.modes.push(two));
-    EXPECT_TRUE(prediction.agents.push(of));
-  }
-
-  void add_lane(int index, LaneKind kind, Point from, Point to, float width_m = 3.2F) {
-    Lane& lane = map.lanes[index];
-    lane.present = true;
-    lane.kind = kind;
-    lane.width_m = width_m;
-    lane.point_count = 2;
-    lane.points[0] = from;
-    lane.points[1] = to;
-    lane.length_m = distance(from, to);
-  }
-
-  void know_the_road() { build_drivable(&map, area); }
-
-  const RiskProfile& exact() {
-    exact_risk(scene, area, prediction, others, trajectory, parameters, profile);
-    return profile;
-  }
-
-  float rank() {
-    WorkMeter work{1'000'000};
-    return rank_risk_of_vehicles(scene, prediction, others, trajectory, parameters, work) +
-           rank_risk_of_road(area, trajectory, parameters, work);
-  }
-};
-
-/// Our lane along x with an opposite one to its left, both 3.2 m wide.
-void two_way_road(Stage& stage) {
-  stage.add_lane(0, LaneKind::kOurs, {-50.0F, 0.0F}, {250.0F, 0.0F});
-  stage.add_lane(1, LaneKind::kOpposite, {250.0F, 3.2F}, {-50.0F, 3.2F});
-  stage.know_the_road();
-}
-
-std::unique_ptr<Stage> stage_with_straight_drive(float speed_mps) {
-  auto stage = std::make_unique<Stage>();
-  stage->drive(speed_mps);
-  return stage;
-}
-
-}  // namespace
 
 // CORE-062: nobody there and no road known: no risk at all.
 TEST(Risk, EmptyWorldHasNone) {
@@ -152,7 +62,7 @@ TEST(Risk, OppositeLaneUnderTheCar) {
 // CORE-062: a circle driven in the middle of its own lane costs as little as a straight: the field follows
 // the path.
 TEST(Risk, TurningInLaneCentreCostsLittle) {
-  auto stage = std::make_unique<Stage>();
+  auto stage = std::make_unique<RiskStage>();
   const float radius = 30.0F;
   for (int lane = 0; lane < 12; ++lane) {
     Lane& piece = stage->map.lanes[lane];
@@ -214,7 +124,7 @@ TEST(Risk, ModesAddAndVehiclesCover) {
 
   const auto split = stage_with_straight_drive(12.0F);
   const int car = split->add_car(there, 0.0F);
-  const satp::Mode half = Stage::straight(there, 12.0F, 0.5F);
+  const satp::Mode half = RiskStage::straight(there, 12.0F, 0.5F);
   split->predict(car, half, half);
   EXPECT_NEAR(split->exact().obstacle[3], once, 1e-4F * once);
 
@@ -243,8 +153,8 @@ TEST(Risk, AgreesWithTheGridOfTheWholeScene) {
   stage->add_car({24.0F, 0.4F, 0.2F}, 9.0F);
   stage->add_car({26.0F, 1.2F, -0.3F}, 9.0F);
   const int watched = stage->add_car({22.0F, -2.5F, 0.0F}, 9.0F);
-  stage->predict(watched, Stage::straight({22.0F, -2.5F, 0.3F}, 9.0F, 0.4F),
-                 Stage::straight({22.0F, -2.5F, 0.0F}, 9.0F, 0.6F));
+  stage->predict(watched, RiskStage::straight({22.0F, -2.5F, 0.3F}, 9.0F, 0.4F),
+                 RiskStage::straight({22.0F, -2.5F, 0.0F}, 9.0F, 0.6F));
   constexpr int kStep = 4;
   const TrajectoryPoint& ego = stage->trajectory.points[kStep + 1];
   FieldParams params = field_params(stage->parameters, 1.8F);
@@ -289,7 +199,7 @@ TEST(Risk, NamesTheDominatingVehicle) {
 // dt * sum: 30 steps of R_obs 30,000, road 100, social 2,000: 0.1 * 30 * (30,000 + 100 + 0.5 * 2,000 + 2 *
 // 10,000).
 TEST(Risk, IntegralWeighsItsParts) {
-  const auto stage = std::make_unique<Stage>();
+  const auto stage = std::make_unique<RiskStage>();
   for (int i = 0; i < kHorizonSteps; ++i) {
     stage->profile.obstacle[i] = 30000.0F;
     stage->profile.road[i] = 100.0F;
@@ -299,80 +209,5 @@ TEST(Risk, IntegralWeighsItsParts) {
               3.0F * (30000.0F + 100.0F + 1000.0F + 20000.0F), 1.0F);
 }
 
-// CORE-063: the ranking level is within 10 % of the exact one in ordinary traffic, so that it can order
-// candidates.
-TEST(Risk, RankIsNearTheExactIntegral) {
-  for (const float offset_m : {-1.0F, 0.0F, 1.5F}) {
-    const auto stage = stage_with_straight_drive(12.0F);
-    stage->drive(12.0F, offset_m);
-    two_way_road(*stage);
-    stage->add_car({28.0F, 0.0F, 0.0F}, 10.0F);
-    stage->add_car({-25.0F, 0.0F, 0.0F}, 13.0F);
-    stage->add_car({80.0F, 3.2F, -3.14F}, 12.0F);
-    const float exact = risk_integral(stage->exact(), stage->parameters);
-    EXPECT_NEAR(stage->rank(), exact, 0.1F * exact) << offset_m;
-  }
-}
-
-namespace {
-
-/// Sixteen cars on a circle of 12 m around a point 25 m ahead, all on their way to it at 8 m/s: in 1.5 s all are there.
-std::unique_ptr<Stage> converging_crowd() {
-  auto stage = stage_with_straight_drive(10.0F);
-  two_way_road(*stage);
-  for (int i = 0; i < kMaxTracks; ++i) {
-    const float turn_rad = wrap_angle(kTwoPi * static_cast<float>(i) / static_cast<float>(kMaxTracks));
-    const Pose centre = shift_ahead({25.0F, 0.0F, turn_rad}, -12.0F);
-    stage->add_car(centre, 8.0F);
-  }
-  return stage;
-}
-
-struct Spent {
-  RiskProfile profile;
-  std::int32_t units;
-};
-
-Spent exact_within(const Stage& stage, std::int32_t units) {
-  Spent spent{};
-  WorkMeter work{units};
-  exact_risk(stage.scene, stage.area, stage.prediction, stage.others, stage.trajectory, stage.parameters,
-             spent.profile, work);
-  spent.units = units - work.left;
-  return spent;
-}
-
 }  // namespace
-
-// CORE-074, CORE-075: a crowd on one place takes over twice what a risk may cost; cut to that it keeps within it, and
-// is 20 % off at most; cut to a little over half of it, 25 %.
-TEST(Risk, ACrowdCostsNoMoreThanIsAllowed) {
-  const auto stage = converging_crowd();
-  const Spent whole = exact_within(*stage, 10'000'000);
-  EXPECT_GT(whole.units, 24'000);
-  const float risk = risk_integral(whole.profile, stage->parameters);
-  for (const std::int32_t units : {12'000, 7'000}) {
-    const float share = units > 10'000 ? 0.2F : 0.25F;
-    const Spent cut = exact_within(*stage, units);
-    EXPECT_LE(cut.units, units);
-    const float cut_risk = risk_integral(cut.profile, stage->parameters);
-    EXPECT_NE(cut_risk, risk);
-    EXPECT_NEAR(cut_risk, risk, share * risk) << units;
-  }
-}
-
-// CORE-075: with as much work as it takes, the cut risk is the whole one to the bit, whatever the order of its steps.
-TEST(Risk, EnoughWorkChangesNothing) {
-  const auto stage = converging_crowd();
-  const RiskProfile whole = stage->exact();
-  const Spent enough = exact_within(*stage, 100'000);
-  for (int i = 0; i < kHorizonSteps; ++i) {
-    EXPECT_EQ(whole.obstacle[i], enough.profile.obstacle[i]);
-    EXPECT_EQ(whole.social[i], enough.profile.social[i]);
-    EXPECT_EQ(whole.road[i], enough.profile.road[i]);
-  }
-  EXPECT_EQ(whole.dominating_agent, enough.profile.dominating_agent);
-  EXPECT_EQ(whole.dominating_step, enough.profile.dominating_step);
-}
-
 }  // namespace s4tp::sadrf

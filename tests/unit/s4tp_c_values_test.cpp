@@ -10,6 +10,7 @@
 #include "algo/api/s4tp.h"
 #include "algo/core/versions.hpp"
 #include "algo/planner/planner.hpp"
+#include "tests/support/c_facade.hpp"
 #include "tests/support/c_map.hpp"
 
 namespace s4tp {
@@ -37,7 +38,7 @@ TEST(CFacadeParameters, ByName) {
     EXPECT_EQ(s4tp_set_parameter(&parameters, row.name, std::nextafter(row.maximum, 1e30F)),
               S4TP_INVALID_PARAMETER);
     EXPECT_EQ(s4tp_set_parameter(&parameters, row.name, row.minimum - 1.0F), S4TP_INVALID_PARAMETER);
-    EXPECT_EQ(s4tp_set_parameter(&parameters, row.name, kNaN), S4TP_INVALID_PARAMETER);
+    EXPECT_EQ(s4tp_set_parameter(&parameters, row.name, test::kNaN), S4TP_INVALID_PARAMETER);
     EXPECT_EQ(s4tp_get_parameter(&parameters, row.name, &value), S4TP_OK);
     EXPECT_EQ(value, row.maximum);
   }

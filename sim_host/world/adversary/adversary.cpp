@@ -2,32 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
-#include <limits>
 #include <utility>
 
 namespace s4tp::world {
 namespace {
 
-constexpr double kGain_mps2 = 2.0;   // law.gain_mps2 of the firmware's defaults
-constexpr double kOverLimit = 1.1;   // law.over_limit
-constexpr double kStands_s = 3.0;    // without a reason, no longer ...
-constexpr double kDrives_s = 5.0;    // ... then it drives so long
-constexpr double kSeesEgo_m = 80.0;  // nobody looks for nearness from further away
-constexpr double kHorizon_s = 3.0;
-constexpr double kEgoMayGain_mps2 = 2.0;  // meanwhile, either way
-constexpr double kRoom_m = 0.1;           // a line is kept off by
-constexpr double kAtLine_m = 0.3;         // who waits for a licence of those who stand is so near
-constexpr double kGentle_mps2 = 3.0;
-constexpr double kSearching = 0.5;           // share of drivers who look for what comes nearest
-constexpr double kShortestMood_s = 0.5;      // of the others; the longest is ...
-constexpr double kMoreOfMood_s = 2.0;        // ... so much longer
+constexpr double kGain_mps2 = 2.0;           // law.gain_mps2 of the firmware's defaults
+constexpr double kOverLimit = 1.1;           // law.over_limit
+constexpr double kEgoMayGain_mps2 = 2.0;     // meanwhile, either way
+constexpr double kRoom_m = 0.1;              // a line is kept off by
+constexpr double kAtLine_m = 0.3;            // who waits for a licence of those who stand is so near
 constexpr double kUsualChange_s = 3.0;       // as Traffic changes lanes: ...
 constexpr double kSlowChange_mps = 15.0;     // ... below 5 m/s in proportion
 constexpr double kChangesAtLeast_mps = 1.0;  // slower ones are reckoned with as this
-
-enum Action { kFull, kRolls, kBrakes, kBrakesHard, kActions };
-constexpr double kUpTo[kActions] = {0.5, 0.7, 0.85, 1.0};  // draws that mean each
 
 std::vector<Stretch> stretches_of(const RoadIndex& road, const std::vector<WayPart>& way) {
   std::vector<Stretch> stretches;
@@ -54,14 +41,6 @@ std::optional<Ground> ground_of_other(const ZoneOnWay& zone, const Actor& other)
     }
   }
   return std::nullopt;
-}
-
-Vec2 place_on(const RoadIndex& road, const std::vector<WayPart>& way, double ahead_m) {
-  const WayPart* part = &way.front();
-  for (const WayPart& next : way) {
-    if (next.start_m <= ahead_m) part = &next;
-  }
-  return road.lane(part->lane).centre.at(ahead_m - part->start_m).point;
 }
 
 }  // namespace
@@ -117,7 +96,11 @@ void AdversaryTraffic::decide(const Actor* ego) {
     if (ego_) {
       const double most = hardest_mps2(law_, obstacles_of(car, self, mind), car.speed_mps,
                                        car.acceleration_mps2, kDecision_s);
-      car.acceleration_mps2 = choose(car, self, mind, most);
+      const std::uint64_t own = next_seed(next_seed(seed_ ^ 0xAD7E) + static_cast<std::uint64_t>(car.id));
+      const bool changing = car.change_done < 0.5;  // the gaps that were left are kept until the line
+      car.acceleration_mps2 =
+          chosen_mps2({*road_, law_, self, ego_->actor, time_s(), kDecision_s, mind.stood_s, changing, own},
+                      most, mind.mood);
     }
     consider_lane_change(car, self, others);
   }
@@ -263,47 +246,6 @@ bool AdversaryTraffic::may_enter(const Actor& self, const Mind& mind, double to_
   entry.other_stood_s = to_group_m < kAtLine_m ? ego_stood_s_ : 0.0;
   entry.both_stood_s = to_group_m < kAtLine_m ? std::min(mind.stood_s, ego_stood_s_) : 0.0;
   return licence_of(law_, entry) != Licence::kNone;
-}
-
-double AdversaryTraffic::nearest_m(const Actor& self, double acceleration_mps2) const {
-  const double top_mps = law_.over_limit * limit_mps(self.lane);
-  double nearest = std::numeric_limits<double>::infinity();
-  double way_m = 0.0;
-  double speed_mps = self.speed_mps;
-  for (double t = kDecision_s; t <= kHorizon_s; t += kDecision_s) {
-    const double before = speed_mps;
-    speed_mps = std::clamp(speed_mps + acceleration_mps2 * kDecision_s, 0.0, std::max(top_mps, before));
-    way_m += 0.5 * (before + speed_mps) * kDecision_s;
-    const Vec2 own = place_on(*road_, self.way, way_m);
-    const Vec2 ego = place_on(*road_, ego_->actor.way, ego_->actor.speed_mps * t);
-    nearest = std::min(nearest, std::hypot(own.x - ego.x, own.y - ego.y));
-  }
-  return nearest;
-}
-
-double AdversaryTraffic::choose(const TrafficCar& car, const Actor& self, Mind& mind,
-                                double most_mps2) const {
-  const double hard = -law_.rss.front_braking_mps2;
-  const double options[kActions] = {most_mps2, std::min(0.0, most_mps2), std::min(-kGentle_mps2, most_mps2),
-                                    std::min(hard, most_mps2)};
-  if (car.change_done < 0.5) return options[kRolls];  // the gaps that were left are kept until the line
-  if (mind.stood_s >= kStands_s) mind.drives_until_s = time_s() + kDrives_s;
-  if (time_s() < mind.drives_until_s) return options[kFull];
-  const std::uint64_t own = next_seed(next_seed(seed_ ^ 0xAD7E) + static_cast<std::uint64_t>(car.id));
-  if (hash_uniform(own) >= kSearching) {
-    if (time_s() >= mind.action_until_s) {
-      const double draw = hash_uniform(next_seed(own + ++mind.draws));
-      mind.action = static_cast<int>(std::upper_bound(std::begin(kUpTo), std::end(kUpTo), draw) - kUpTo);
-      mind.action_until_s =
-          time_s() + kShortestMood_s + kMoreOfMood_s * hash_uniform(next_seed(own + ++mind.draws));
-    }
-    return options[mind.action];
-  }
-  if (nearest_m(self, most_mps2) > kSeesEgo_m) return most_mps2;
-  const double* const best =
-      std::min_element(std::begin(options), std::end(options),
-                       [&](double a, double b) { return nearest_m(self, a) < nearest_m(self, b) - 1e-3; });
-  return *best;
 }
 
 bool AdversaryTraffic::may_change(const TrafficCar& car, const WayPart& beside) const {

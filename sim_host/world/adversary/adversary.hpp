@@ -15,15 +15,14 @@
 /// | a zone where the first comes                | goes in unless the ego is there                        |
 /// | a lane beside the ego                       | changes into it where RSS gaps are left (D3)           |
 ///
-/// LAW-042 Within these bounds half of the drivers change their mind at random (full power, rolling on, braking
-/// gently or as hard as can be), the others do what brings them nearest to the ego within 3 s. Nobody stands for
-/// ever: after `kStands_s` without a reason a car drives on.
+/// What a driver does within these bounds: driver_choice.hpp.
 
 #include <cstdint>
 #include <map>
 #include <memory>
 #include <optional>
 
+#include "sim_host/world/adversary/driver_choice.hpp"
 #include "sim_host/world/adversary/lawful.hpp"
 #include "sim_host/world/judge/standing.hpp"
 #include "sim_host/world/traffic/traffic.hpp"
@@ -43,14 +42,11 @@ class AdversaryTraffic final : public Traffic {
   /// What one driver keeps in mind from one decision to the next.
   struct Mind {
     double stood_s = 0.0;
-    double drives_until_s = 0.0;  ///< has stood for long: no braking for its own sake
-    double ego_ahead_s = -1.0;    ///< since when the ego has been the one ahead; < 0: it is not
-    bool owes_ahead = false;      ///< and is bound to brake for it
-    bool owes_zone = false;       ///< is bound to keep off the zones that the ego is on
+    double ego_ahead_s = -1.0;  ///< since when the ego has been the one ahead; < 0: it is not
+    bool owes_ahead = false;    ///< and is bound to brake for it
+    bool owes_zone = false;     ///< is bound to keep off the zones that the ego is on
     double owes_since_s = 0.0;
-    int action = 0;
-    double action_until_s = 0.0;
-    std::uint64_t draws = 0;
+    Mood mood;
   };
   /// The ego on its own way.
   struct Watched {
@@ -73,8 +69,6 @@ class AdversaryTraffic final : public Traffic {
                    std::vector<Obstacle>& all) const;
   [[nodiscard]] bool may_enter(const Actor& self, const Mind& mind, double to_group_m, const ZoneOnWay& zone,
                                double ego_entry_m, double ego_exit_m) const;
-  [[nodiscard]] double choose(const TrafficCar& car, const Actor& self, Mind& mind, double most_mps2) const;
-  [[nodiscard]] double nearest_m(const Actor& self, double acceleration_mps2) const;
   [[nodiscard]] double limit_mps(LaneId lane) const { return this->lane(lane).speed_limit_mps; }
 
   Law law_;

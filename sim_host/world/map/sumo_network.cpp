@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "sim_host/world/map/junction_links.hpp"
+#include "sim_host/world/map/sumo_junction.hpp"
 #include "sim_host/world/map/sumo_lane.hpp"
 #include "sim_host/world/map/xml_values.hpp"
 
@@ -16,13 +17,9 @@ namespace s4tp::world {
 namespace {
 
 // NET-004. Shapes are followed step by step, so a number in a small file must not say how many steps that are.
-constexpr double kLongestThroughJunction_m = 1'000.0;  // of one way
-constexpr double kWaysThroughJunction_m = 8'000.0;  // of all ways of one junction: each is compared with each
-constexpr std::size_t kLinksMax = 256;              // of one junction: as many as SUMO builds
-constexpr std::size_t kPartsOfWay = 100;            // lanes in a row, inside a junction
-constexpr double kLanesTogether_m = 2e7;            // of the whole network: those of a capital are 1.5e7
-constexpr std::size_t kSuccessorsMax = 64;          // of one lane
-constexpr double kPointsPerMetre = 10.0;            // of one lane, and ...
+constexpr double kLanesTogether_m = 2e7;    // of the whole network: those of a capital are 1.5e7
+constexpr std::size_t kSuccessorsMax = 64;  // of one lane
+constexpr double kPointsPerMetre = 10.0;    // of one lane, and ...
 constexpr double kPointsBeside = 100.0;  // ... of the shortest: thinning them out is quadratic in a stretch
 
 class Reader {
@@ -55,7 +52,7 @@ class Reader {
         round_turn(each, lane(each.predecessors[0]), lane(each.successors[0]));
       }
     }
-    network_.conflicts = find_conflicts(network_.lanes, read_junctions(net));
+    network_.conflicts = find_conflicts(network_.lanes, read_junctions(net, network_.lanes, names_));
     join_seams();
     return std::move(network_);
   }
@@ -75,7 +72,7 @@ class Reader {
       fail_at("<edge> at byte " + std::to_string(edge.offset_debug()), "expected an id");
     }
     const bool walked = function == "walkingarea" || function == "crossing";
-    if (!priority_.try_emplace(id, edge.attribute("priority").as_int(-1)).second) {
+    if (!names_.priority.try_emplace(id, edge.attribute("priority").as_int(-1)).second) {
       fail_at("edge \"" + id + "\"", "expected an id of its own; there is another of that name");
     }
     std::map<int, LaneId> by_index;
@@ -103,7 +100,7 @@ class Reader {
       by_index[lane->index] = number;
       may_go_left[lane->index] = change_open(node, "changeLeft");
       may_go_right[lane->index] = change_open(node, "changeRight");
-      lane_of_[name] = number;
+      names_.lane_of[name] = number;
       network_.lanes.push_back(*std::move(lane));
     }
     for (const auto& [index, number] : by_index) {
@@ -137,7 +134,8 @@ class Reader {
         fail_at(where, "names the lane \"" + name + "\", which no <edge> has");
       }
     }
-    const bool open = lane_of_.count(from_lane) != 0 && lane_of_.count(to_lane) != 0 && open_to_cars(node);
+    const bool open =
+        names_.lane_of.count(from_lane) != 0 && names_.lane_of.count(to_lane) != 0 && open_to_cars(node);
     if (open || from_lane.front() != ':') {
       connections_[from_lane].push_back({via, to_lane, open});
     } else {
@@ -160,8 +158,8 @@ class Reader {
           }
           std::string inside;
           if (connection.open) {
-            const LaneId before = lane_of_.at(from);
-            const LaneId after = lane_of_.at(connection.to);
+            const LaneId before = names_.lane_of.at(from);
+            const LaneId after = names_.lane_of.at(connection.to);
             if (std::optional<NetworkLane> bridge = bridge_between(lane(before), lane(after))) {
               inside = name + "_0";
               bridge->name = inside;
@@ -169,13 +167,13 @@ class Reader {
               if (!known_.insert(inside).second) {
                 fail_at("junction \"" + id + "\"", "expected a via for each of its connections, or for none");
               }
-              lane_of_[inside] = static_cast<LaneId>(network_.lanes.size());
+              names_.lane_of[inside] = static_cast<LaneId>(network_.lanes.size());
               network_.lanes.push_back(*std::move(bridge));
               connections_[inside].push_back({"", connection.to, true});
               connection.via = inside;
             }
           }
-          bridges_[id].push_back(inside);
+          names_.bridges[id].push_back(inside);
         }
       }
     }
@@ -185,7 +183,7 @@ class Reader {
   std::string first_usable(const Connection& connection) const {
     Connection at = connection;
     for (std::size_t hops = 0; !at.via.empty() && hops <= known_.size(); ++hops) {
-      if (lane_of_.count(at.via) != 0) {
+      if (names_.lane_of.count(at.via) != 0) {
         return at.via;
       }
       const auto next = passed_over_.find(at.via);
@@ -218,20 +216,12 @@ class Reader {
     }
   }
 
-  static void check_through(const NetworkLane& inside, double length_m) {
-    if (length_m > kLongestThroughJunction_m) {
-      fail_at("lane \"" + inside.name + "\"", "its way through the junction is " +
-                                                  std::to_string(std::lround(length_m)) +
-                                                  " m long: expected at most 1000 m");
-    }
-  }
-
   void link_lanes(const std::string& from, const std::string& to) {
-    const auto target = lane_of_.find(to);
-    if (target == lane_of_.end()) {
+    const auto target = names_.lane_of.find(to);
+    if (target == names_.lane_of.end()) {
       return;
     }
-    const LaneId from_id = lane_of_.at(from);
+    const LaneId from_id = names_.lane_of.at(from);
     std::vector<LaneId>& successors = network_.lanes[static_cast<std::size_t>(from_id)].successors;
     if (std::find(successors.begin(), successors.end(), target->second) == successors.end()) {
       successors.push_back(target->second);
@@ -240,62 +230,6 @@ class Reader {
       }
       network_.lanes[static_cast<std::size_t>(target->second)].predecessors.push_back(from_id);
     }
-  }
-
-  /// The link that a lane inside a junction belongs to, and its index among the junction's requests: intLanes
-  /// lists the lanes in their order, of a link in two parts the second one.
-  std::vector<Junction> read_junctions(const pugi::xml_node& net) const {
-    std::vector<Junction> junctions;
-    std::set<LaneId> listed;
-    for (const pugi::xml_node node : net.children("junction")) {
-      if (std::string(node.attribute("type").value()) == "internal") {
-        continue;
-      }
-      const std::string where = "junction \"" + std::string(node.attribute("id").value()) + "\"";
-      Junction junction;
-      double ways_m = 0.0;
-      junction.signals = std::string(node.attribute("type").value()).rfind("traffic_light", 0) == 0;
-      junction.first_come = std::string(node.attribute("type").value()) == "allway_stop";
-      std::vector<std::string> names = words_in(node.attribute("intLanes").value());
-      const auto bridges = bridges_.find(node.attribute("id").value());
-      if (names.empty() && bridges != bridges_.end()) {
-        names = bridges->second;
-      }
-      if (names.size() > kLinksMax) fail_at(where, "it has more than 256 ways through it");
-      for (const std::string& name : names) {
-        const auto inside = lane_of_.find(name);
-        if (inside != lane_of_.end() && !listed.insert(inside->second).second) {
-          fail_at(where, "lists the lane \"" + name + "\", which is listed already");
-        }
-        junction.links.push_back(inside == lane_of_.end() ? Link{} : link_through(inside->second));
-        for (const LaneId part : junction.links.back().inside) ways_m += lane(part).centre.length_m();
-        if (ways_m > kWaysThroughJunction_m) {
-          fail_at(where, "its ways are more than 8 km long together");
-        }
-      }
-      if (junction.links.empty()) {
-        continue;
-      }
-      for (const pugi::xml_node request : node.children("request")) {
-        const std::size_t index = request.attribute("index").as_uint(~0U);
-        const auto bits = [&](const char* name) {
-          const std::string text = request.attribute(name).value();
-          if (index >= junction.links.size() || text.find_first_not_of("01") != std::string::npos) {
-            fail_at(where, "request index=\"" + std::string(request.attribute("index").value()) +
-                               "\": expected an index below the number of intLanes, and " + name +
-                               " of 0s and 1s");
-          }
-          std::vector<bool> found(text.size());
-          std::transform(text.rbegin(), text.rend(), found.begin(), [](char c) { return c == '1'; });
-          return found;  // the text's last character is link 0
-        };
-        const std::vector<bool> yields_to = bits("response");
-        junction.links[index].yields_to = yields_to;
-        junction.links[index].foes = bits("foes");
-      }
-      junctions.push_back(std::move(junction));
-    }
-    return junctions;
   }
 
   /// Where nobody crosses or merges (a node that only adds or ends a lane) a junction is a mere seam: its
@@ -319,42 +253,10 @@ class Reader {
 
   const NetworkLane& lane(LaneId id) const { return network_.lanes[static_cast<std::size_t>(id)]; }
 
-  Link link_through(LaneId inside) const {
-    Link link;
-    link.inside = {inside};
-    while (!lane(link.inside.front()).predecessors.empty() &&
-           lane(lane(link.inside.front()).predecessors.front()).in_junction &&
-           link.inside.size() <= kPartsOfWay) {
-      link.inside.insert(link.inside.begin(), lane(link.inside.front()).predecessors.front());
-    }
-    while (!lane(link.inside.back()).successors.empty() &&
-           lane(lane(link.inside.back()).successors.front()).in_junction &&
-           link.inside.size() <= kPartsOfWay) {
-      link.inside.push_back(lane(link.inside.back()).successors.front());
-    }
-    if (lane(link.inside.front()).predecessors.empty() || lane(link.inside.back()).successors.empty()) {
-      return {};  // no car can come here or get away
-    }
-    if (link.inside.size() > kPartsOfWay) {
-      fail_at("lane \"" + lane(inside).name + "\"", "its way through the junction has more than 100 lanes");
-    }
-    link.from = lane(link.inside.front()).predecessors.front();
-    link.to = lane(link.inside.back()).successors.front();
-    link.priority = priority_.at(lane(link.from).edge);
-    double length_m = 0.0;
-    for (const LaneId each : link.inside) {
-      length_m += lane(each).centre.length_m();
-    }
-    check_through(lane(inside), length_m);
-    return link;
-  }
-
   Network network_;
+  NetworkNames names_;
   std::set<std::string> known_;  ///< every lane's name, those cars may not use too
-  std::map<std::string, LaneId> lane_of_;
   std::map<std::string, std::vector<Connection>> connections_;
-  std::map<std::string, int> priority_;                      ///< of an edge; SUMO's -1: not said
-  std::map<std::string, std::vector<std::string>> bridges_;  ///< lanes put into a junction
   std::map<std::string, Connection> passed_over_;
 };
 

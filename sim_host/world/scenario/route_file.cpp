@@ -6,9 +6,9 @@
 #include <stdexcept>
 #include <utility>
 
-#include "sim_host/world/map/find_route.hpp"
 #include "sim_host/world/map/xml_values.hpp"
 #include "sim_host/world/scenario/flow_attributes.hpp"
+#include "sim_host/world/scenario/route_choices.hpp"
 #include "sim_host/world/scenario/traffic_limits.hpp"
 #include "sim_host/world/scenario/vehicle_types.hpp"
 
@@ -26,11 +26,11 @@ double draws_of(const DemandFlow& flow) {
 
 class Reader {
  public:
-  explicit Reader(const Network& network) : network_(network) {}
+  explicit Reader(const Network& network) : network_(network), choices_(network) {}
 
   Demand read(const pugi::xml_node& root) {
     types_.read(root);
-    read_routes(root);
+    choices_.read(root);
     read_demand(root, pugi::xml_node());
     for (const auto& [what, count] : left_out_) {
       demand_.notes.push_back(std::to_string(count) + " left out: " + what);
@@ -39,97 +39,6 @@ class Reader {
   }
 
  private:
-  /// A route as named in the file: one or, of a distribution, several, each once, with their weights.
-  using Choice = std::map<std::size_t, double>;  ///< by index into ways_
-
-  void read_routes(const pugi::xml_node& root) {
-    for (const pugi::xml_node node : root.children("route")) {
-      named_[node.attribute("id").value()] = {{way(edges_of(node)), 1.0}};
-    }
-    for (const pugi::xml_node node : root.children("routeDistribution")) {
-      named_[node.attribute("id").value()] = distribution(node);
-    }
-  }
-
-  std::vector<std::string> edges_of(const pugi::xml_node& node) const {
-    const std::vector<std::string> edges = words_in(node.attribute("edges").value());
-    if (edges.empty()) {
-      fail_at(node, "edges: expected at least one edge");
-    }
-    return edges;
-  }
-
-  /// Equal ones have one index.
-  std::size_t way(const std::vector<std::string>& edges) {
-    const auto [entry, is_new] = way_index_.try_emplace(edges, ways_.size());
-    if (is_new) {
-      ways_.push_back(edges);
-    }
-    return entry->second;
-  }
-
-  void count_choices(const pugi::xml_node& node, std::size_t more) {
-    choices_ += more;
-    if (choices_ > kChoicesMax) {
-      fail_at(node,
-              "the file has more than " + std::to_string(kChoicesMax) + " routes and drivers to choose from");
-    }
-  }
-
-  /// Distributions of distributions grow fast; weights grow with them.
-  void add(const pugi::xml_node& node, std::size_t way, double weight, Choice& to) {
-    const auto [entry, is_new] = to.try_emplace(way, 0.0);
-    entry->second += weight;
-    count_choices(node, is_new ? 1 : 0);
-    if (to.size() > kChoiceMax) {
-      fail_at(node, "more than " + std::to_string(kChoiceMax) + " routes to choose from");
-    }
-    if (entry->second > kWeightMax) {
-      fail_at(node, "a route of more than " + std::to_string(static_cast<long>(kWeightMax)) +
-                        " times the weight of another");
-    }
-  }
-
-  Choice distribution(const pugi::xml_node& node) {
-    Choice choice;
-    for (const pugi::xml_node route : node.children("route")) {
-      if (const pugi::xml_attribute refers = route.attribute("refId")) {
-        append(node, refers.value(), attribute_number(route, "probability", 1.0, 0.0, 1e9), choice);
-        continue;
-      }
-      const std::size_t own = way(edges_of(route));
-      add(node, own, attribute_number(route, "probability", 1.0, 0.0, 1e9), choice);
-      if (route.attribute("id")) {
-        named_[route.attribute("id").value()] = {{own, 1.0}};
-      }
-    }
-    const std::vector<std::string> names = words_in(node.attribute("routes").value());
-    const std::vector<std::string> weights = words_in(node.attribute("probabilities").value());
-    for (std::size_t i = 0; i < names.size(); ++i) {
-      const double weight = weights.empty()      ? 1.0
-                            : i < weights.size() ? number_in(weights[i]).value_or(-1.0)
-                                                 : -1.0;
-      if (weight < 0.0) {
-        fail_at(node, "probabilities: expected a number of 0 and more for each of routes");
-      }
-      append(node, names[i], weight, choice);
-    }
-    if (choice.empty()) {
-      fail_at(node, "expected at least one route");
-    }
-    return choice;
-  }
-
-  void append(const pugi::xml_node& node, const std::string& name, double weight, Choice& to) {
-    const auto found = named_.find(name);
-    if (found == named_.end()) {
-      fail_at(node, "there is no <route id=\"" + name + "\">");
-    }
-    for (const auto& [way, own] : found->second) {
-      add(node, way, weight * own, to);
-    }
-  }
-
   /// \param interval  gives begin and end to the flows in it; may be empty
   void read_demand(const pugi::xml_node& parent, const pugi::xml_node& interval) {
     static const std::set<std::string> elsewhere{"person", "personFlow", "container", "containerFlow"};
@@ -172,7 +81,7 @@ class Reader {
     if (kinds->size() > kDriversMax) {
       fail_at(node, "more than " + std::to_string(kDriversMax) + " kinds of drivers to choose from");
     }
-    count_choices(node, kinds->size());
+    choices_.count(node, kinds->size());
     bool car = false;
     for (const VehicleType& kind : *kinds) {
       if (kind.use != RoadUse::kElsewhere) {
@@ -214,43 +123,10 @@ class Reader {
     demand_.flows.push_back(std::move(flow));
   }
 
-  Choice choice_of(const pugi::xml_node& node) {
-    if (const pugi::xml_node own = node.child("route")) {
-      return {{way(edges_of(own)), 1.0}};
-    }
-    if (const pugi::xml_node own = node.child("routeDistribution")) {
-      return distribution(own);
-    }
-    Choice choice;
-    if (node.attribute("route")) {
-      append(node, node.attribute("route").value(), 1.0, choice);
-      return choice;
-    }
-    std::vector<std::string> stations = words_in(node.attribute("via").value());
-    for (const char* end : {"from", "to"}) {
-      if (!node.attribute(end)) {
-        fail_at(node, "expected a route, or from and to edges (zones and junctions as ends are not known)");
-      }
-    }
-    stations.insert(stations.begin(), node.attribute("from").value());
-    stations.push_back(node.attribute("to").value());
-    std::vector<std::string> edges{stations.front()};
-    // Longer than the network is, it passes an edge again, from where it is left out anyway.
-    for (std::size_t i = 1; i < stations.size() && edges.size() <= network_.lanes.size(); ++i) {
-      try {
-        const std::vector<std::string> on = find_route(network_, stations[i - 1], stations[i]);
-        edges.insert(edges.end(), on.begin() + 1, on.end());
-      } catch (const std::runtime_error& error) {
-        fail_at(node, error.what());
-      }
-    }
-    return {{way(edges), 1.0}};
-  }
-
   void add_routes(const pugi::xml_node& node, DemandFlow& flow) {
     const std::string arrival = node.attribute("arrivalLane").as_string("current");
-    for (const auto& [chosen, weight] : choice_of(node)) {
-      std::vector<std::string> edges = ways_[chosen];
+    for (const auto& [chosen, weight] : choices_.of(node)) {
+      std::vector<std::string> edges = choices_.edges(chosen);
       std::set<std::string> seen;
       const auto again = std::find_if(edges.begin(), edges.end(),
                                       [&](const std::string& e) { return !seen.insert(e).second; });
@@ -296,11 +172,8 @@ class Reader {
 
   const Network& network_;
   VehicleTypes types_;
-  std::vector<std::vector<std::string>> ways_;  ///< lists of edges, as they stand in the file
-  std::map<std::vector<std::string>, std::size_t> way_index_;
-  std::map<std::string, Choice> named_;
-  std::size_t choices_ = 0;  ///< of all that was built
-  std::size_t guided_ = 0;   ///< lanes along demand_.routes
+  RouteChoices choices_;
+  std::size_t guided_ = 0;  ///< lanes along demand_.routes
   double cars_ = 0.0;
   std::map<std::pair<std::vector<std::string>, int>, std::size_t> index_;
   std::map<std::string, int> left_out_;
