@@ -1,6 +1,9 @@
 // A serial line's characters: what is read as a frame is one, and its line is read back the same.
 
+#include <cctype>
+#include <cstdio>
 #include <cstring>
+#include <string>
 
 #include "hal/slcan.hpp"
 #include "tests/fuzz/input.hpp"
@@ -30,14 +33,46 @@ void check(const hal::CanFrame& frame) {
   expect(same(again, frame), "what is written is read back");
 }
 
+/// SLCAN-008, by the letter: the line that ends here, line feeds apart, begins with t and the three digits of the id.
+class PlainWatch {
+ public:
+  explicit PlainWatch(std::uint32_t id) : id_(id) {}
+  bool take(char character) {
+    if (character == '\n') return false;
+    if (character != '\r' && character != '\a') {
+      line_ += character;
+      return false;
+    }
+    char begin[8];
+    std::snprintf(begin, sizeof begin, "t%03x", static_cast<unsigned>(id_));
+    std::string head = line_.substr(0, 4);
+    for (std::size_t i = 1; i < head.size(); ++i)
+      head[i] = static_cast<char>(std::tolower(static_cast<unsigned char>(head[i])));
+    line_.clear();
+    return character == '\r' && head == begin;
+  }
+
+ private:
+  std::uint32_t id_;
+  std::string line_;
+};
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   hal::SlcanParser parser;
+  constexpr std::uint32_t kWatched = 0x12A;
+  hal::SlcanWatch watch(kWatched);
+  PlainWatch plain(kWatched);
   const hal::CanFrame before{.id = 0x055, .length = 1, .data = {7}};
   for (std::size_t i = 0; i < size; ++i) {
     hal::CanFrame frame = before;
-    const hal::SlcanEvent event = parser.take(static_cast<char>(data[i]), frame);
+    const auto character = static_cast<char>(data[i]);
+    const bool ends = watch.take(character);
+    expect(ends == plain.take(character), "the watch sees the id's lines, and no others");
+    const hal::SlcanEvent event = parser.take(character, frame);
+    if (event == hal::SlcanEvent::kFrame)
+      expect(ends == (frame.id == kWatched), "a frame of the id watched is seen");
     if (event == hal::SlcanEvent::kFrame) {
       check(frame);
     } else {
