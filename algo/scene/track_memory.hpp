@@ -34,7 +34,7 @@ class TrackMemory {
   void forget_all();
 
   /// Takes a whole list. \param centre  of our box, at the list's time
-  void take(const TrackList& tracks, std::uint32_t list_ms, Point centre);
+  void take(const TrackList& list, std::uint32_t list_ms, Point centre);
 
   /// CORE-030 Drops who is missing from the lists of a second, or is where the newest has another vehicle. No list says
   /// that anybody has gone while there is none: without lists for a second all stay until we stand, a minute at most.
