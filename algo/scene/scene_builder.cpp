@@ -1,6 +1,7 @@
 #include "algo/scene/scene_builder.hpp"
 
 #include "algo/core/inline.hpp"
+#include "algo/core/input_ranges.hpp"
 #include "algo/core/standing.hpp"
 #include "algo/core/vehicle_time.hpp"
 #include "algo/scene/agent_paths.hpp"
@@ -15,7 +16,6 @@ constexpr std::int32_t kLateMs = 500;  // CORE-030: a list that is still taken
 constexpr float kCoastS = 1.0F;        // longer nobody is expected to go on as it was seen
 constexpr float kAtJunctionM = 15.0F;  // standing this far before the zone, or nearer, is waiting for it
 constexpr std::int32_t kLongestStepMs = 500;  // a hole in time is no waiting
-constexpr std::int32_t kLongestStandMs = 60'000;
 constexpr std::uint16_t kPresentBit = 1U << (kHistorySamples - 1);
 
 // Work (WorkMeter's units).
@@ -24,7 +24,7 @@ constexpr int kAgentWork = 60;
 constexpr int kClashWork = 60;
 
 bool sound(const EgoState& ego) {
-  return abs(ego.rear_axle.x_m) < 1e5F && abs(ego.rear_axle.y_m) < 1e5F &&
+  return abs(ego.rear_axle.x_m) < kFarthestInputM && abs(ego.rear_axle.y_m) < kFarthestInputM &&
          abs(ego.rear_axle.heading_rad) < 10.0F && is_finite(ego.speed_mps) &&
          is_finite(ego.acceleration_mps2) && is_finite(ego.yaw_rate_radps) && is_finite(ego.steering_rad);
 }
@@ -66,8 +66,8 @@ void SceneBuilder::note_waiting(std::int32_t passed_ms, const Scene& scene, cons
   }
   if (!at_junction) {
     waited_ms_ = 0;
-  } else if (scene.ego.speed_mps < kStandingMps && waited_ms_ < kLongestStandMs) {
-    waited_ms_ = waited_ms_ + passed_ms;
+  } else if (scene.ego.speed_mps < kStandingMps) {
+    waited_ms_ = bounded_ms(waited_ms_ + passed_ms);
   }
 }
 

@@ -7,10 +7,9 @@
 namespace s4tp::scene {
 namespace {
 
-constexpr std::int32_t kMissingMs = 1000;         // a vehicle that fresh lists lack
-constexpr std::int32_t kLongestBlindMs = 60'000;  // without lists
-constexpr std::int32_t kLongestMs = 60'000;       // that a duration counts
-constexpr float kSameVehicleM = 2.0F;             // a new id this near a lost vehicle is that vehicle
+constexpr std::int32_t kMissingMs = 1000;    // a vehicle that fresh lists lack
+constexpr std::int32_t kLongestMs = 60'000;  // that a duration counts, and that anybody stays without lists
+constexpr float kSameVehicleM = 2.0F;        // a new id this near a lost vehicle is that vehicle
 constexpr float kSameSpeedMps = 4.0F;
 constexpr float kJumpM = 8.0F;    // an id this far from where it should be is another vehicle
 constexpr float kHinderS = 2.5F;  // a vehicle within this headway explains another's braking
@@ -203,7 +202,7 @@ void TrackMemory::drop_unseen(std::uint32_t by_ms) {
 
 void TrackMemory::forget_lost(std::uint32_t time_ms, bool ego_stands) {
   const std::int32_t blind_ms = elapsed_ms(last_list_ms_, time_ms);
-  const bool over = blind_ms > kLongestBlindMs || (blind_ms > kMissingMs && ego_stands);
+  const bool over = blind_ms > kLongestMs || (blind_ms > kMissingMs && ego_stands);
   drop_unseen(blind_ms <= kFreshMs || over ? time_ms : last_list_ms_);
   for (int i = tracks.size() - 1; i >= 0; --i) {
     if (in_anothers_place(tracks[i])) tracks.swap_remove(i);
