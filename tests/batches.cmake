@@ -27,7 +27,7 @@ set(integration_batches
   "allowance authentic_drive baselines board_twin closed_loop data_drive ecu_cycle ecu_parameters ecu_reports empty_roads"
   "authentic_processes two_processes"
   "blind_leader campaign ecu_faults ecu_modes fault_campaign map_on_the_wire plan_words_drives threads traffic"
-  "ecu_lies lies target_loop"
+  "ecu_lies ecu_minimum_risk lies target_loop"
   "sumo_driver sumo_process sumo_traffic")
 
 # s4tp_test_batches(TARGET FOLDER)

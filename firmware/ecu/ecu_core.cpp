@@ -123,7 +123,7 @@ void EcuCore::take_result() {
   plan_late_ = result.start_ms != boundary_ms_;
   if (plan_late_) return;  // its instant has passed
   if (result.plan.kind == PlanKind::kNone || refused_ || !is_finite(result.plan)) return;
-  if ((plausibility_.faults() & kLyingFaults) != 0) return;
+  if (!takes(result.plan.kind)) return;
   plan_ = result.plan;
   explanation_ = result.explanation;
   plan_age_.renew();
@@ -137,6 +137,12 @@ void EcuCore::take_result() {
   publish(RecordKind::kPlan, &record, sizeof(record));
 }
 
+bool EcuCore::takes(PlanKind kind) const {
+  if ((plausibility_.faults() & kLyingFaults) != 0) return false;
+  if (mode_ != Mode::kMinimumRisk) return true;
+  return drives_fail_safe() && kind == PlanKind::kMinimumRisk;
+}
+
 void EcuCore::supervise() {
   Observations observed;
   inputs_.observe(observed);
@@ -148,6 +154,8 @@ void EcuCore::supervise() {
   observed.implausible = plausibility_.faults();
   observed.plan_distance_m = tracker_.error().distance_m;
   faults_ = find_faults(observed);
+  const bool held = fail_safe_holds_ || mode_ != Mode::kMinimumRisk;
+  fail_safe_holds_ = held && (faults_ & kEndingFaults & ~kUnseenFaults & ~kSilentFaults) == 0;
   well_ticks_ = faults_ == 0 ? well_ticks_ + 1 : 0;
 }
 
@@ -231,6 +239,8 @@ gate::Command EcuCore::ask() {
     case Mode::kDegraded:
       return tracker_.follow(plan_, inputs_.now_ms(), ego, parameters_);
     case Mode::kMinimumRisk:
+      if (drives_fail_safe()) return tracker_.drive_fail_safe(plan_, inputs_.now_ms(), ego, parameters_);
+      return tracker_.stop(plan_, ego, parameters_);
     case Mode::kStopped:
       return tracker_.stop(plan_, ego, parameters_);
     default:

@@ -74,7 +74,13 @@ class EcuCore {
   void give_snapshot();
   void supervise();
   void change_mode();
-  [[nodiscard]] bool following() const { return mode_ == Mode::kDriving || mode_ == Mode::kDegraded; }
+  [[nodiscard]] bool following() const {
+    return mode_ == Mode::kDriving || mode_ == Mode::kDegraded || mode_ == Mode::kMinimumRisk;
+  }
+  /// ECU-107 A stop begun is gone on with: meanwhile no plan to drive on takes effect, and where it is not the fail-safe
+  /// that is driven, none at all.
+  [[nodiscard]] bool takes(PlanKind kind) const;
+  [[nodiscard]] bool drives_fail_safe() const { return fail_safe_holds_ && (faults_ & kSilentFaults) == 0; }
   [[nodiscard]] gate::Command ask();
   void report(const gate::Command& command);
   void publish(RecordKind kind, const void* record, std::uint32_t size) const;
@@ -113,6 +119,7 @@ class EcuCore {
   bool refused_ = false;
   satp::WeightStatus weights_ = satp::WeightStatus::kAbsent;
   bool gate_denied_ = false;
+  bool fail_safe_holds_ = true;  ///< ECU-105: nothing has ended it in this manoeuvre
   bool engage_armed_ = true;
 };
 

@@ -21,7 +21,7 @@ enum class Mode : std::uint8_t {
   kReady = 1,        ///< ECU-002 all inputs whole, a plan is at hand, waiting to be engaged
   kDriving = 2,      ///< ECU-003 following plans
   kDegraded = 3,     ///< ECU-004 driving with something missing: slower, no lane change
-  kMinimumRisk = 4,  ///< ECU-005 stopping safely along the last plan's path, without the planner
+  kMinimumRisk = 4,  ///< ECU-005 stopping along the path of the plan in force, as ECU-105 says
   kStopped = 5,      ///< ECU-006 at rest after a minimum-risk manoeuvre, held until released
   kFault = 6,        ///< ECU-007 cannot drive: self-test or internal fault
 };
@@ -75,6 +75,15 @@ inline constexpr Faults kDegradingFaults = bit(FaultBit::kMotionTiming) | bit(Fa
                                            bit(FaultBit::kClockImplausible);
 /// Faults that end the drive; all others but the driver's override.
 inline constexpr Faults kEndingFaults = kAllFaults & ~(kDegradingFaults | bit(FaultBit::kDriverOverride));
+
+/// ECU-105 The minimum-risk manoeuvre is the fail-safe in force, as the guard has shown it: driven on to its branch (out
+/// of the junction, over to the other lane), then braked. While a silent fault stands it is braked; once any ending
+/// fault but the unseen and the silent ones has come, it is braked to the end.
+inline constexpr Faults kUnseenFaults =
+    bit(FaultBit::kTracksLost) | bit(FaultBit::kMapLost) | bit(FaultBit::kPlanLost);
+/// What the vehicle says of itself is missing.
+inline constexpr Faults kSilentFaults =
+    bit(FaultBit::kMotionMissing) | bit(FaultBit::kPoseMissing) | bit(FaultBit::kSteeringMissing);
 
 /// ECU-100 While one of these stands no new plan takes effect: it was made from what is not believed, and the
 /// minimum-risk manoeuvre goes on along the one before.

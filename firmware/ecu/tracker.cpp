@@ -64,6 +64,11 @@ Place nearest(const Trajectory& trajectory, Point car) {
   return place;
 }
 
+/// From the plan's start to its fail-safe's branch.
+std::int32_t branch_ms(const Plan& plan) {
+  return to_int(1000.0F * plan.fail_safe.branch_s, 0, kHorizonSteps * kStepMs);
+}
+
 /// Geometry and the tyres' share.
 float steering_for_curvature(float curvature_1pm, float speed_mps, const Parameters& parameters) {
   const float bound = parameters.vehicle.steering_max_rad;
@@ -82,9 +87,8 @@ gate::Command Tracker::follow(const Plan& plan, std::uint32_t now_ms, const EgoS
                               const Parameters& parameters) {
   const auto elapsed_ms = static_cast<std::int32_t>(now_ms - plan.start_ms);
   // A stop is followed to its end; a plan to drive only as far as the guard's fail-safe counts on.
-  const std::int32_t branch_ms = to_int(1000.0F * plan.fail_safe.branch_s, 0, kHorizonSteps * kStepMs);
   const bool has_branch = plan.kind == PlanKind::kDrive && plan.fail_safe.braking_mps2 > 0.0F;
-  const std::int32_t last_ms = has_branch ? branch_ms : kHorizonSteps * kStepMs;
+  const std::int32_t last_ms = has_branch ? branch_ms(plan) : kHorizonSteps * kStepMs;
   if (plan.kind == PlanKind::kNone || elapsed_ms > last_ms) return stop(plan, ego, parameters);
   const TrajectoryPoint now = sample(plan, now_ms);
   const Point offset = to_local(now.rear_axle, position(ego.rear_axle));
@@ -94,6 +98,13 @@ gate::Command Tracker::follow(const Plan& plan, std::uint32_t now_ms, const EgoS
   command.acceleration_mps2 = drive(plan, now_ms, ego, parameters);
   acceleration_mps2_ = command.acceleration_mps2;
   return command;
+}
+
+gate::Command Tracker::drive_fail_safe(const Plan& plan, std::uint32_t now_ms, const EgoState& ego,
+                                       const Parameters& parameters) {
+  const auto elapsed_ms = static_cast<std::int32_t>(now_ms - plan.start_ms);
+  if (elapsed_ms < branch_ms(plan)) return follow(plan, now_ms, ego, parameters);
+  return stop(plan, ego, parameters);
 }
 
 gate::Command Tracker::stop(const Plan& last, const EgoState& ego, const Parameters& parameters) {

@@ -43,6 +43,10 @@ class Tracker {
   /// may be what failed.
   [[nodiscard]] gate::Command stop(const Plan& last, const EgoState& ego, const Parameters& parameters);
 
+  /// ECU-106 Drives the fail-safe of `plan`: follow() up to its branch, then stop().
+  [[nodiscard]] gate::Command drive_fail_safe(const Plan& plan, std::uint32_t now_ms, const EgoState& ego,
+                                              const Parameters& parameters);
+
   /// Of the last follow(); all zero after anything else.
   [[nodiscard]] const TrackingError& error() const { return error_; }
 

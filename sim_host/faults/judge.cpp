@@ -31,6 +31,7 @@ constexpr int kStatusTicks = 10;
 constexpr int kCommandAgeMax_ticks = 10;  // after which the car brakes by itself
 constexpr double kSlowing_mps2 = 2.0;
 constexpr int kGraceTicks = 100;
+constexpr int kLatestBranchTicks = 300;  // the horizon of a plan
 constexpr double kStanding_mps = 0.1;
 constexpr int kRestTicks = 100;  // standing so long, a minimum-risk manoeuvre is over
 constexpr int kLongSettling = 650;
@@ -114,6 +115,9 @@ void Judge::read_status(const std::vector<wire::Frame>& sent) {
     if (status.mode != static_cast<std::uint8_t>(mode_)) {
       breach(Breach::kSilence, "status and command name different modes");
     }
+    const ecu::Faults in_doubt = status.faults & ecu::kEndingFaults & ~ecu::kUnseenFaults;
+    in_doubt_ = in_doubt != 0;
+    fail_safe_over_ = fail_safe_over_ || (in_doubt & ~ecu::kSilentFaults) != 0;
   }
   if (ticks_since_status_ > kStatusTicks) breach(Breach::kSilence, "no status frame for 100 ms");
 }
@@ -135,10 +139,10 @@ void Judge::judge_tick(const std::vector<wire::Frame>& sent, bool off_bus) {
   if (command.accepted != (taken_ & 0xFFF)) {
     breach(Breach::kSilence, "the command echoes another number of frames than were taken");
   }
-  check_limits(command);
   mode_ = static_cast<ecu::Mode>(command.mode);
   if (mode_ == ecu::Mode::kFault) breach(Breach::kFaultMode, "the ECU gave itself up");
   read_status(sent);
+  check_limits(command);
   last_ = command;
   has_command_ = true;
   ticks_since_command_ = 0;
@@ -181,7 +185,8 @@ void Judge::check_limits(const wire::Command& command) {
   }
   const bool stale = motion_age_ticks_ > kMotionAgeMax_ticks;
   demand(!stale || acceleration <= -kDeniedBraking_mps2 + tolerance, "GATE-008 stale, but not braking");
-  demand(mode == ecu::Mode::kDriving || mode == ecu::Mode::kDegraded || acceleration < 0.0,
+  const bool told_of_doubt = ticks_since_status_ == 0 && in_doubt_;
+  demand(drives() || (before_branch() && !told_of_doubt) || acceleration < 0.0,
          "a minimum-risk manoeuvre that does not brake");
   const double bound_rad =
       std::atan(kLateralMax_mps2 * kWheelbase_m / std::max(known_speed_mps_ * known_speed_mps_, 1e-3));
@@ -209,12 +214,25 @@ void Judge::check_limits(const wire::Command& command) {
 }
 
 bool Judge::drives() const {
-  return (mode_ == ecu::Mode::kDriving || mode_ == ecu::Mode::kDegraded) && !off_bus_ &&
-         command_age_ticks_ <= kCommandAgeMax_ticks;
+  return mode_ == ecu::Mode::kDriving || mode_ == ecu::Mode::kDegraded;
+}
+
+bool Judge::before_branch() const {
+  return mode_ == ecu::Mode::kMinimumRisk && !fail_safe_over_ && minimum_risk_ticks_ <= kLatestBranchTicks;
+}
+
+void Judge::contact(const std::string& cause) {
+  if (!touched_ && !cut_off_) breach(Breach::kContact, cause);
+  touched_ = true;
 }
 
 void Judge::check_standing() {
-  if (tick_ <= 0 || drives()) {
+  const bool stops = mode_ == ecu::Mode::kMinimumRisk;
+  minimum_risk_ticks_ = stops ? minimum_risk_ticks_ + 1 : 0;
+  fail_safe_over_ = fail_safe_over_ && stops;
+  const bool heard = !off_bus_ && command_age_ticks_ <= kCommandAgeMax_ticks;
+  cut_off_ = tick_ > 0 && (!heard || (cut_off_ && !drives()));
+  if (tick_ <= 0 || (heard && (drives() || (before_branch() && !in_doubt_)))) {
     idle_ticks_ = 0;
     standing_ticks_ = 0;
     idle_speed_mps_ = speed_mps_;

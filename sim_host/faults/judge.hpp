@@ -6,11 +6,14 @@
 /// of that tick, intact, its counter one further; a status frame every tenth tick, of the same mode.
 /// FAULT-011 Never outside the limits of the command gate, at the speed of the newest intact motion frame
 /// among those it says it has taken. FAULT-012 While it does not drive, whatever the reason, the car slows
-/// down by 2 m/s^2 at least, one second of grace, until it stands, and then stays where it is. FAULT-013 When
+/// down by 2 m/s^2 at least, one second of grace, until it stands, and then stays where it is; in the
+/// minimum-risk mode only once the branch of its fail-safe is behind, 3 s at most, unless it reports a fault
+/// that ends that (ECU-105). FAULT-013 When
 /// the faults have been over for long enough (settling_ticks()), it drives again without any fault, or has
 /// come to rest for good (kStopped), or the driver took over and it waits. FAULT-014 It never reaches kFault,
 /// crashes (a signal) or hangs. FAULT-018 Whatever is lost, late, repeated or damaged, it touches nobody by its
-/// own fault, as the world judges it; where a sender lies it may be led astray, which is counted beside.
+/// own fault, as the world judges it. Two are counted beside: where a sender lies it may be led astray, and where
+/// nothing comes from it for 100 ms the vehicle brakes by itself, wherever that is, until it drives again.
 
 #include <cstdint>
 #include <string>
@@ -77,7 +80,7 @@ class Judge {
   /// Ends a tick.
   void end_tick();
   /// The car touches somebody, and the fault is its own. \param cause  in words
-  void contact(const std::string& cause) { breach(Breach::kContact, cause); }
+  void contact(const std::string& cause);
 
   [[nodiscard]] bool breached() const { return verdict_.breach != Breach::kNone; }
   [[nodiscard]] ecu::Mode mode() const { return mode_; }  ///< as its commands say
@@ -93,6 +96,8 @@ class Judge {
   void check_standing();
   void check_recovery();
   [[nodiscard]] bool drives() const;
+  /// It may be on its way to its fail-safe's branch.
+  [[nodiscard]] bool before_branch() const;
 
   int settling_ticks_;
   Verdict verdict_;
@@ -116,6 +121,11 @@ class Judge {
   int ticks_since_status_ = 0;   ///< control ticks
   int command_age_ticks_ = 0;    ///< ticks of 10 ms
   ecu::Mode mode_ = ecu::Mode::kStandby;
+  int minimum_risk_ticks_ = 0;   ///< since the manoeuvre began
+  bool in_doubt_ = false;        ///< its last status names a fault of the ego's own state
+  bool fail_safe_over_ = false;  ///< one was named in this manoeuvre that ends the fail-safe
+  bool cut_off_ = false;         ///< it brakes by itself, or has not driven since
+  bool touched_ = false;
 
   // Since when it does not drive.
   int idle_ticks_ = 0;

@@ -6,6 +6,7 @@
 namespace s4tp::faults {
 namespace {
 
+using ecu::FaultBit;
 using ecu::Mode;
 using wire::Frame;
 
@@ -16,6 +17,7 @@ class Bench {
  public:
   Judge judge{kSettling};
   Mode mode = Mode::kDriving;
+  ecu::Faults faults = 0;  ///< as its status says
   float acceleration_mps2 = 0.0F;
   float steering_rad = 0.0F;
   double speed_mps = 10.0;  ///< true, and told
@@ -30,6 +32,7 @@ class Bench {
     if (status && number % 10 == 0) {
       wire::EcuStatus message;
       message.mode = static_cast<std::uint8_t>(mode);
+      message.faults = faults;
       sent.push_back(sealed(message, status_sender_));
     }
     wire::Command command;
@@ -174,6 +177,7 @@ TEST(FaultJudge, FindsWhatIsOutsideTheLimits) {
   expect(
       "a minimu", [](Bench& b) { b.acceleration_mps2 = 0.0F; }, with([](Bench& b) {
         b.mode = Mode::kMinimumRisk;
+        b.faults = bit(FaultBit::kBusOff);
         b.acceleration_mps2 = -0.1F;
       }));
 }
@@ -265,6 +269,7 @@ TEST(FaultJudge, WatchesTheCarStop) {
   Bench rolls;
   EXPECT_EQ(rolls.ticks(20), Breach::kNone);
   rolls.mode = Mode::kMinimumRisk;
+  rolls.faults = bit(FaultBit::kPoseMissing) | bit(FaultBit::kTracksLost);
   rolls.acceleration_mps2 = -4.0F;
   EXPECT_EQ(rolls.ticks(100), Breach::kNone);
   EXPECT_EQ(rolls.ticks(20), Breach::kUnsafeStop);
@@ -280,6 +285,45 @@ TEST(FaultJudge, WatchesTheCarStop) {
   }
   brakes.speed_mps = 0.5;
   EXPECT_EQ(brakes.ticks(1), Breach::kUnsafeStop);
+}
+
+// FAULT-012: for want of lists it may drive on to its fail-safe's branch, 3 s at most, and then has its second of grace.
+TEST(FaultJudge, LetsTheFailSafeComeToItsBranch) {
+  Bench drives_on;
+  drives_on.mode = Mode::kMinimumRisk;
+  drives_on.faults = bit(FaultBit::kTracksLost);
+  drives_on.acceleration_mps2 = 0.5F;
+  EXPECT_EQ(drives_on.ticks(301), Breach::kNone);
+  drives_on.acceleration_mps2 = -4.0F;
+  EXPECT_EQ(drives_on.ticks(100), Breach::kNone);
+  EXPECT_EQ(drives_on.ticks(10), Breach::kUnsafeStop);
+
+  Bench never_brakes;
+  never_brakes.mode = Mode::kMinimumRisk;
+  never_brakes.faults = bit(FaultBit::kMapLost) | bit(FaultBit::kPlanLost);
+  EXPECT_EQ(never_brakes.ticks(301), Breach::kNone);
+  EXPECT_EQ(never_brakes.ticks(1), Breach::kLimits);
+}
+
+// FAULT-012: on its way to the branch, a status that says the pose is missing stands beside a command that brakes; the next one,
+// with the pose back, need not. Once it says that the pose is implausible, all brake.
+TEST(FaultJudge, TheFailSafeEndsWhereTheEgoIsInDoubt) {
+  const auto breach = [](FaultBit doubt, float meanwhile_mps2, float later_mps2) {
+    Bench bench;
+    bench.mode = Mode::kMinimumRisk;
+    bench.faults = bit(FaultBit::kTracksLost);
+    EXPECT_EQ(bench.ticks(9), Breach::kNone);
+    bench.faults = bench.faults | bit(doubt);
+    bench.acceleration_mps2 = meanwhile_mps2;
+    if (bench.ticks(10) != Breach::kNone) return bench.judge.verdict().breach;
+    bench.faults = bit(FaultBit::kTracksLost);
+    bench.acceleration_mps2 = later_mps2;
+    return bench.ticks(20);
+  };
+  EXPECT_EQ(breach(FaultBit::kPoseMissing, -0.1F, 0.0F), Breach::kNone);
+  EXPECT_EQ(breach(FaultBit::kPoseMissing, 0.0F, 0.0F), Breach::kLimits);
+  EXPECT_EQ(breach(FaultBit::kPoseImplausible, -0.1F, 0.0F), Breach::kLimits);
+  EXPECT_EQ(breach(FaultBit::kPoseImplausible, -0.1F, -0.1F), Breach::kNone);
 }
 
 // FAULT-013: degraded while faults last is sound; 250 ticks after the last one it is not.
@@ -309,6 +353,29 @@ TEST(FaultJudge, AContactIsAFailure) {
   bench.judge.contact("we ran into another from behind");
   EXPECT_EQ(bench.judge.verdict().breach, Breach::kContact);
   EXPECT_EQ(bench.judge.verdict().what, "we ran into another from behind");
+}
+
+// FAULT-018: from 110 ms after its last command on the vehicle brakes by itself, and whom it touches then is counted beside; so it
+// is in the stop that follows, until it drives again.
+TEST(FaultJudge, WhoIsCutOffTouchesByNoFaultOfOurs) {
+  const auto touches = [](int unheard_ticks, Mode mode, int later_ticks) {
+    Bench bench;
+    bench.ticks(20);
+    for (int i = 0; i < unheard_ticks; ++i) {
+      bench.begin();
+      bench.judge.end_tick();
+    }
+    bench.mode = mode;
+    bench.acceleration_mps2 = mode == Mode::kDriving ? 0.0F : -4.0F;
+    bench.ticks(later_ticks);
+    EXPECT_FALSE(bench.judge.breached()) << bench.judge.verdict().what;
+    bench.judge.contact("changed lane into");
+    return bench.judge.verdict().breach;
+  };
+  EXPECT_EQ(touches(10, Mode::kDriving, 0), Breach::kContact);
+  EXPECT_EQ(touches(11, Mode::kDriving, 0), Breach::kNone);
+  EXPECT_EQ(touches(11, Mode::kStopped, 20), Breach::kNone);
+  EXPECT_EQ(touches(11, Mode::kDriving, 1), Breach::kContact);
 }
 
 }  // namespace

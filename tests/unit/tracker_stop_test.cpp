@@ -37,6 +37,23 @@ TEST(Tracker, DrivesTheFailSafePastItsBranch) {
   EXPECT_GT(Tracker().follow(plan, 360, ego, {}).acceleration_mps2, -1.0F);
 }
 
+// ECU-106: a fail-safe that branches after 0.35 s is driven as planned up to there, and braked with 6 m/s^2 from there on, of a
+// plan to drive and of one that is a stop itself; one that branches at once is braked at once.
+TEST(Tracker, DrivesTheFailSafeUpToItsBranch) {
+  EgoState ego;
+  ego.rear_axle.x_m = 3.5F;
+  ego.speed_mps = 10.0F;
+  Plan plan = plan_of(straight(10.0), 0);
+  plan.fail_safe = {0.35F, 6.0F};
+  for (const PlanKind kind : {PlanKind::kDrive, PlanKind::kMinimumRisk}) {
+    plan.kind = kind;
+    EXPECT_GT(Tracker().drive_fail_safe(plan, 340, ego, {}).acceleration_mps2, -1.0F);
+    EXPECT_EQ(Tracker().drive_fail_safe(plan, 350, ego, {}).acceleration_mps2, -6.0F);
+  }
+  plan.fail_safe.branch_s = 0.0F;
+  EXPECT_EQ(Tracker().drive_fail_safe(plan, 0, ego, {}).acceleration_mps2, -6.0F);
+}
+
 // ECU-053: stopping out of the turn's middle stays on the turn; and brakes as hard as the plan where that is
 // harder.
 TEST(Tracker, StopsAlongThePlansPath) {
