@@ -67,6 +67,16 @@ float gap_cost(const scene::Scene& scene, const LaneCostToGo& cost_to_go, int pa
          min(cost_to_go.time_to_gap_s(lane, there_s_m, speed_mps), kLongestS);
 }
 
+/// The same at the end of a motion that is still `beside_m` from that lane: as far as it is not over, it is in ours.
+float lane_cost_between(const scene::Scene& scene, const LaneCostToGo& cost_to_go, int path, float s_m,
+                        float beside_m, float width_m, float speed_mps, const Parameters& parameters) {
+  const float there = lane_cost(scene, cost_to_go, path, s_m, speed_mps, parameters);
+  const float left = clamp((beside_m / width_m - kInLaneShare) / (1.0F - kInLaneShare), 0.0F, 1.0F);
+  if (path == 0 || left <= 0.0F) return there;
+  const float own_s_m = s_m + scene.ego_paths[0].frenet.s_m - scene.ego_paths[path].frenet.s_m;
+  return lerp(there, lane_cost(scene, cost_to_go, 0, own_s_m, speed_mps, parameters), left);
+}
+
 /// The last place at which a lane change that is due may still be between the lanes: where ours ends. Followed
 /// along a motion.
 struct LastPlace {
@@ -158,7 +168,8 @@ CostBreakdown score_motion(const scene::Scene& scene, const LaneCostToGo& cost_t
   cost.jerk = parameters.scoring.jerk * (jerk_sum / steps);
   cost.lateral = parameters.scoring.lateral_acceleration * (lateral_sum / steps);
   const float end_mps = trajectory.points[kHorizonSteps].speed_mps;
-  const float lane = lane_cost(scene, cost_to_go, path_index, s_m, end_mps, parameters);
+  const float lane =
+      lane_cost_between(scene, cost_to_go, path_index, s_m, abs(last.at_d_m), width_m, end_mps, parameters);
   cost.lane = parameters.scoring.lane_offset * (offset_sum / samples) + lane;
   if (path.manoeuvre == scene::Manoeuvre::kKeep)
     cost.lane = cost.lane + gap_cost(scene, cost_to_go, path_index, s_m, end_mps, lane, parameters);

@@ -14,6 +14,7 @@ constexpr int kJunctionParts = 4;       // lanes one way across a junction is cu
 constexpr float kHeadingWeight = 0.5F;  // m/rad
 constexpr float kStayM = 0.6F;          // hysteresis: changes over 0.3 m beyond the middle
 constexpr float kGoOnM = 0.3F;          // the same for a successor of the previous lane
+constexpr float kPerChangeM = 0.05F;  // where lanes part, ours is the one that needs fewer changes
 constexpr float kOffRouteM = 1.0F;
 constexpr float kNotOursM = 2.0F;
 
@@ -102,6 +103,7 @@ void LaneTable::fit(const Pose& pose, const LaneHint& hint, Fits& fits) const {
       found.score -= kGoOnM;
     }
     if (hint.follows_route && !lane.on_route) found.score += kOffRouteM;
+    if (hint.follows_route) found.score += kPerChangeM * abs(static_cast<float>(lane.changes_needed));
     if (hint.follows_route && lane.kind != LaneKind::kOurs) found.score += kNotOursM;
     insert(fits, found, [](const LaneFit& a, const LaneFit& b) { return a.score < b.score; });
   }
