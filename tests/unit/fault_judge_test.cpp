@@ -2,6 +2,7 @@
 
 #include "firmware/wire/e2e.hpp"
 #include "sim_host/faults/judge.hpp"
+#include "tests/support/sealed_frames.hpp"
 
 namespace s4tp::faults {
 namespace {
@@ -30,14 +31,14 @@ class Bench {
     if (status && number % 10 == 0) {
       wire::EcuStatus message;
       message.mode = static_cast<std::uint8_t>(mode);
-      sent.push_back(sealed(message, status_sender_));
+      sent.push_back(test::sealed(message, status_sender_));
     }
     wire::Command command;
     command.acceleration_mps2 = acceleration_mps2;
     command.steering_rad = steering_rad;
     command.mode = static_cast<std::uint8_t>(mode);
     command.accepted = static_cast<std::uint16_t>(accepted_ & 0xFFF);
-    sent.push_back(sealed(command, command_sender_));
+    sent.push_back(test::sealed(command, command_sender_));
     return sent;
   }
 
@@ -46,7 +47,7 @@ class Bench {
     if (!motion) return;
     wire::Motion message;
     message.speed_mps = static_cast<float>(speed_mps);
-    take(sealed(message, motion_sender_));
+    take(test::sealed(message, motion_sender_));
   }
 
   void take(const Frame& frame) {
@@ -64,14 +65,6 @@ class Bench {
   }
 
  private:
-  template <class Message>
-  static Frame sealed(const Message& message, wire::E2eSender& sender) {
-    Frame frame;
-    EXPECT_TRUE(wire::encode(message, frame));
-    sender.protect(frame);
-    return frame;
-  }
-
   int accepted_ = 0;
   wire::E2eSender motion_sender_;
   wire::E2eSender status_sender_;
