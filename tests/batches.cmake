@@ -2,7 +2,7 @@
 # there once. No two tests of a batch name something alike in their anonymous namespaces; a test in none is compiled alone.
 set(unit_batches
   "attribution bicycle box branch bus_end bus_name clips clusters codec"
-  "candidates candidates_aside running_plan guard guard_change guard_licence lane_cost_to_go lane_reach legal_occupancy"
+  "candidates candidates_lateral_offset running_plan guard guard_change guard_licence lane_cost_to_go lane_reach legal_occupancy"
   "candump command_check core drf_controller drivable e2e ecu_exchange ecu_inputs ecu_process"
   "encounters fail_safe families fault_judge fault_script faulty_bus field figures"
   "foreign_networks gate gate_denial hal_sim heat_map idm_lane ilqr inconsistent_map input_link key_file"

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Who may include whom: fails on any include that this table does not allow, and on a table by which rooms include each other.
+"""Who may include whom: fails on any include that this table does not allow, on a table by which rooms include each other,
+and on a list of installed headers (algo/api/headers.txt) that is not what firmware includes and what those include in turn.
 
     check_includes.py [ROOT]
 """
@@ -9,6 +10,17 @@ import pathlib
 import re
 import sys
 
+ROOT = pathlib.Path(__file__).parent.parent
+HEADERS = "algo/api/headers.txt"
+
+
+def installed(root):
+    """(headers of the core for firmware and users, those that only come with them) as the list of `root` has them"""
+    lines = [line for line in (root / HEADERS).read_text(encoding="utf-8").splitlines() if not line.startswith("#")]
+    return [line for line in lines if line[0] != " "], [line.strip() for line in lines if line[0] == " "]
+
+
+PUBLIC, _ = installed(ROOT)
 # The core's folders, each with what it may include, in the order in which data flows. A name with .hpp is one header of a
 # folder further on that still has to move down; no other one of it may be included.
 ALGO = {
@@ -42,7 +54,7 @@ DRIVING = {
     "baselines": ["metrics/"],
     "campaign": [*REGISTRY, "metrics/", "roads/", "sumo/"],
     "clips": [],
-    "faults": [*REGISTRY, "metrics/"],
+    "faults": [*REGISTRY, "campaign/fault_names.hpp", "metrics/"],
     "train": ["campaign/", "clips/"],
     "view": ["campaign/", "metrics/"],
     "recording": ["campaign/", "metrics/", "view/"],
@@ -59,10 +71,10 @@ ALLOWED = {
     "firmware/wire/": [],
     "firmware/gate/": ["firmware/wire/"],
     "firmware/can/": ["firmware/wire/", "hal/"],
-    "firmware/ecu/": ["algo/", "firmware/can/", "firmware/gate/", "firmware/wire/", "hal/"],
+    "firmware/ecu/": [*PUBLIC, "firmware/can/", "firmware/gate/", "firmware/wire/", "hal/"],
     "firmware/lockstep/": ["firmware/can/", "firmware/ecu/", "firmware/wire/", "hal/"],
     "firmware/secoc/": ["firmware/can/", "firmware/wire/", "hal/"],
-    "firmware/targets/": ["algo/", "firmware/", "hal/"],
+    "firmware/targets/": [*PUBLIC, "firmware/", "hal/"],
     **{f"sim_host/world/{room}/": ["firmware/wire/", *(f"sim_host/world/{below}" for below in under)]
        for room, under in WORLD.items()},
     "sim_host/sumo/": [f"sim_host/world/{room}/" for room in ("map", "scenario", "traffic")],
@@ -83,7 +95,7 @@ FORBIDDEN = {
     "hal/sim/": ["hal/linux/", "hal/mps/"],
 }
 # The core, the firmware and the interfaces: no library but the C++ headers that need none, and Eigen in algo's .cpp by
-# way of one header. It and what includes it are not installed: check_headers.py sees to that.
+# way of one header. None of them is installed (algo/api/headers.txt): check_headers.py sees to that.
 EIGEN_HEADER = "algo/core/linear_algebra.hpp"
 FREESTANDING = ("algo/", "hal/", "firmware/")
 STANDARD = {"cstdint", "cstddef", "cstring", "climits", "limits", "type_traits", "utility", "atomic", "array", "new",
@@ -134,6 +146,24 @@ def circle(allowed):
     return []
 
 
+def core_includes(text):
+    return {match[2] for match in map(INCLUDE.match, text.splitlines()) if match and match[2].startswith("algo/")}
+
+
+def list_findings(root):
+    """What is wrong with the list of installed headers."""
+    public, others = installed(root)
+    reached, to_read = set(), set(public)
+    while to_read:
+        reached |= to_read
+        to_read = set().union(*(core_includes((root / header).read_text(encoding="utf-8")) for header in to_read)) - reached
+    firmware = [file for file in (root / "firmware").rglob("*") if file.suffix in (".hpp", ".cpp")]
+    used = set().union(*(core_includes(file.read_text(encoding="utf-8")) for file in firmware))
+    return [*(f"{HEADERS}: {header}: no firmware includes it" for header in sorted(set(public) - used)),
+            *(f"{HEADERS}: {header}: is missing, a header of the list includes it" for header in sorted(reached - {*public, *others})),
+            *(f"{HEADERS}: {header}: no header at the margin needs it" for header in sorted(set(others) - reached | set(public) & set(others)))]
+
+
 def findings(root):
     result = circle(ALLOWED)
     for folder in ROOTS:
@@ -150,8 +180,8 @@ def findings(root):
 
 
 def main(arguments):
-    root = pathlib.Path(arguments[0] if arguments else pathlib.Path(__file__).parent.parent)
-    found = findings(root)
+    root = pathlib.Path(arguments[0]) if arguments else ROOT
+    found = findings(root) + list_findings(root)
     print("\n".join(found) if found else "includes: all allowed by the table")
     return 1 if found else 0
 

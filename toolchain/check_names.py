@@ -26,22 +26,27 @@ ANYWHERE = (
 )
 # What is ordinary English otherwise: as names in the code only.
 NAMES = (
+    (r"\w*(?:aside_m|Aside)\w*", "lateral offset"),
     (r"Ways?|kLikelyWay", "path hypothesis"),
     (r"(?:Ego)?Passage|Resolve", "right-of-way verdict"),
     (r"k?(?:Trusted|GivenUp|Idle)", "yield belief"),
 )
+# What the world's traffic has by that name: as names in the core only.
+CORE_NAMES = (
+    (r"ways", "path hypothesis: paths"),
+    (r"sights?_?|Sight", "path context"),
+)
 NO_CODE = re.compile(r'"(?:\\.|[^"\\])*"|//.*|^\s*\*.*')
 
 
-def old_names(line, code):
-    """(what stands there, what to write) for each old name of the line."""
+def old_names(line, names):
+    """(what stands there, what to write) for each old name of the line; `names`: those old as names of this code."""
     for pattern, word in ANYWHERE:
         for found in re.finditer(pattern, line, re.IGNORECASE):
             yield found[0], word
-    if code:
-        for pattern, word in NAMES:
-            for found in re.finditer(rf"(?<!\w)(?:{pattern})(?!\w)", NO_CODE.sub("", line)):
-                yield found[0], word
+    for pattern, word in names:
+        for found in re.finditer(rf"(?<!\w)(?:{pattern})(?!\w)", NO_CODE.sub("", line)):
+            yield found[0], word
 
 
 def findings(root):
@@ -49,9 +54,11 @@ def findings(root):
     pages = [root / name for name in PAGES if (root / name).exists()]
     files = [file for folder in FOLDERS for file in sorted((root / folder).rglob("*")) if file.suffix in SUFFIXES]
     for file in [*pages, *files]:
-        code = file.suffix not in (".md", ".html", ".toml")
+        path = file.relative_to(root).as_posix()
+        code = NAMES + CORE_NAMES if path.startswith("algo/") else NAMES
+        names = () if file.suffix in (".md", ".html", ".toml") else code
         for number, line in enumerate(file.read_text(encoding="utf-8").splitlines(), 1):
-            result += [f"{file.relative_to(root).as_posix()}:{number}: {name}: {word}" for name, word in old_names(line, code)]
+            result += [f"{path}:{number}: {name}: {word}" for name, word in old_names(line, names)]
     return result
 
 

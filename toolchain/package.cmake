@@ -22,11 +22,13 @@ install(TARGETS ${package_targets} EXPORT s4tp
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} INCLUDES DESTINATION ${package_headers})
 install(EXPORT s4tp NAMESPACE s4tp:: FILE s4tp-targets.cmake DESTINATION ${package_config})
 
-install(DIRECTORY algo DESTINATION ${package_headers} FILES_MATCHING PATTERN *.hpp PATTERN *.def
-  PATTERN api EXCLUDE PATTERN c_conversion.hpp EXCLUDE PATTERN inline.hpp EXCLUDE PATTERN sort.hpp EXCLUDE PATTERN guard_own.hpp EXCLUDE PATTERN linear_algebra.hpp EXCLUDE
-  PATTERN embedding.hpp EXCLUDE PATTERN requantize.hpp EXCLUDE PATTERN output.hpp EXCLUDE
-  PATTERN kernel_*.hpp EXCLUDE PATTERN lanes*.hpp EXCLUDE PATTERN slices.hpp EXCLUDE
-  PATTERN ilqr_model.hpp EXCLUDE PATTERN ilqr_backward.hpp EXCLUDE)
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS algo/api/headers.txt)
+file(STRINGS algo/api/headers.txt core_headers REGEX "^ *algo/")
+foreach(header ${core_headers})
+  string(STRIP ${header} header)
+  cmake_path(GET header PARENT_PATH folder)
+  install(FILES ${header} DESTINATION ${package_headers}/${folder})
+endforeach()
 install(FILES algo/api/s4tp.h DESTINATION ${package_headers})
 foreach(room wire gate ecu secoc)
   install(DIRECTORY firmware/${room} DESTINATION ${package_headers}/firmware FILES_MATCHING PATTERN *.hpp PATTERN *.dbc)

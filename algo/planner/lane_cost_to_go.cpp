@@ -1,6 +1,7 @@
 #include "algo/planner/lane_cost_to_go.hpp"
 
 #include "algo/core/inline.hpp"
+#include "algo/occupancy/pace.hpp"
 #include "algo/safety/change_gaps.hpp"
 #include "algo/trajectory/along_path.hpp"
 #include "algo/trajectory/bicycle.hpp"
@@ -21,17 +22,6 @@ constexpr int kGapWork = 8;     // ... to find the gaps, ...
 constexpr int kAskingWork = 4;  // ... to ask how long it delays us and how to close up on it, ...
 constexpr int kAskingLaneWork = 6;
 constexpr int kOtherWork = 2;  // ... to see that it does not count
-
-/// Time over `way_m` from `speed_mps`, accelerating to the limit.
-float driving_time_s(float way_m, float speed_mps, float limit_mps, float acceleration_mps2) {
-  if (way_m <= 0.0F) return 0.0F;
-  if (speed_mps >= limit_mps) return way_m / limit_mps;
-  const float build_up_m = (square(limit_mps) - square(speed_mps)) / (2.0F * acceleration_mps2);
-  if (way_m >= build_up_m) {
-    return (limit_mps - speed_mps) / acceleration_mps2 + (way_m - build_up_m) / limit_mps;
-  }
-  return (sqrt(square(speed_mps) + 2.0F * acceleration_mps2 * way_m) - speed_mps) / acceleration_mps2;
-}
 
 /// Where our front is at the end of the lane, or of the part of it where lane changes due can be made.
 float lane_end_s_m(const scene::Scene& scene, const scene::EgoPath& path, const Parameters& parameters) {
@@ -129,8 +119,9 @@ float LaneCostToGo::behind_s(const LaneVehicle& other, float to_s_m) const {
 }
 
 float LaneCostToGo::arrival_s(const Lane& lane, float to_s_m, float s_m, float& speed_mps) const {
-  float longest_s =
-      driving_time_s(to_s_m - s_m, speed_mps, lane.limit_mps, parameters_->comfort.acceleration_mps2);
+  const occupancy::Pace alone = {min(speed_mps, lane.limit_mps), parameters_->comfort.acceleration_mps2,
+                                 lane.limit_mps};
+  float longest_s = occupancy::time_to_cover_s(alone, to_s_m - s_m);
   speed_mps = lane.limit_mps;
   for (const LaneVehicle& other : lane.seen) {
     if (!other.in_lane || other.s_m < s_m + centre_m_) continue;

@@ -19,9 +19,9 @@ constexpr std::uint8_t kNobody = 255;
 
 /// What the network reads, and what is predicted of all vehicles.
 std::int32_t encode_work(const scene::Scene& scene) {
-  int ways = 0;
-  for (int i = 0; i < scene.watched; ++i) ways += scene.agents[i].paths.size();
-  return work::kEncode + work::kEncodeWatched * scene.watched + work::kEncodePath * ways +
+  int paths = 0;
+  for (int i = 0; i < scene.watched; ++i) paths += scene.agents[i].paths.size();
+  return work::kEncode + work::kEncodeWatched * scene.watched + work::kEncodePath * paths +
          work::kGoesOn * scene.agents.size();
 }
 
@@ -87,12 +87,12 @@ Status PlanningCycle::plan(const PlannerInput& input, Plan& plan, Explanation& e
                                     parameters_, scene_);
       believe(scene_);
       const int drivable_work = sadrf::build_drivable(input.map, drivable_);
-      const int aside_work = trajectory::set_lateral_offsets(parameters_, scene_);
+      const int lateral_offset_work = trajectory::set_lateral_offsets(parameters_, scene_);
       explanation.id_clashes = scene_.id_clashes;
       explanation.tracks_left_out = scene_.known.left_out;
       explanation.lanes_left_out = input.map != nullptr ? input.map->lanes_left_out : std::uint8_t{0};
       count(explanation, Stage::kScene, scene_.agents.size());
-      work_.spend(Stage::kScene, scene_.work + drivable_work + aside_work);
+      work_.spend(Stage::kScene, scene_.work + drivable_work + lateral_offset_work);
     }
     start_ = trajectory::plan_start(input.ego, input.now_ms, running_, start_ms_, parameters_);
     if (status == Status::kOk) {

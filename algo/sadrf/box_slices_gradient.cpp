@@ -74,21 +74,21 @@ AllRates rates(const Field& field, const Slice& slice) {
   const float w = field.curvature_1pm * slice.s_m;
   // The foot moves by s^2 (w - sin w) / w^2 along and s^2 (1 - cos w) / w^2 to the left per curvature.
   float along = 0.0F;
-  float aside = 0.0F;
+  float across = 0.0F;
   if (abs(w) < 0.5F) {
     const float w2 = square(w);
     along = w * (1.0F / 6.0F - w2 * (1.0F / 120.0F - w2 * (1.0F / 5040.0F)));
-    aside = 0.5F - w2 * (1.0F / 24.0F - w2 * (1.0F / 720.0F));
+    across = 0.5F - w2 * (1.0F / 24.0F - w2 * (1.0F / 720.0F));
   } else {
     const SinCos turned = sin_cos(w);
     along = (w - turned.sin) / square(w);
-    aside = (1.0F - turned.cos) / square(w);
+    across = (1.0F - turned.cos) / square(w);
   }
   const float s2 = square(slice.s_m);
   return {{-t.x_m, 0.0F, t.y_m},
           {-t.y_m, 0.0F, -t.x_m},
           {cross(t, slice.foot), 1.0F, -dot(slice.foot, t)},
-          {-s2 * along, slice.s_m, -s2 * aside}};
+          {-s2 * along, slice.s_m, -s2 * across}};
 }
 
 /// The part of a slice to one side of the path.

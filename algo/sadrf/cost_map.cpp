@@ -65,8 +65,8 @@ float obstacle_cost(const CostBoxes& boxes, const Pose& cell, float side_m) {
   for (int i = 0; i < kSamples; ++i) {
     for (int j = 0; j < kSamples; ++j) {
       const Point along = (static_cast<float>(i) - kFirst) * ahead;
-      const Point aside = (static_cast<float>(j) - kFirst) * left;
-      sum += obstacle_cost(boxes, position(cell) + along + aside);
+      const Point across = (static_cast<float>(j) - kFirst) * left;
+      sum += obstacle_cost(boxes, position(cell) + along + across);
     }
   }
   return sum / float{kSamples * kSamples};

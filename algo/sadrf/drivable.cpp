@@ -150,10 +150,10 @@ Interval across_segment(Point a, Point b, float half_width_m, Point station, Poi
   const float join_m = kJoinM + reach_m;
   const float ahead = dot(along, offset);
   if (ahead < -join_m * length_m || ahead > squared + join_m * length_m) return nothing;
-  const float aside = cross(along, offset);
-  if (abs(aside) > (half_width_m + reach_m) * length_m) return nothing;
+  const float across = cross(along, offset);
+  if (abs(across) > (half_width_m + reach_m) * length_m) return nothing;
   const float side_m = half_width_m * length_m;
-  constrain(aside, cross(along, left), -side_m, side_m, interval);
+  constrain(across, cross(along, left), -side_m, side_m, interval);
   if (interval.left_m <= interval.right_m) return interval;
   const float join = kJoinM * length_m;
   constrain(ahead, dot(along, left), -join, squared + join, interval);

@@ -36,9 +36,9 @@ constexpr int kWayOverWork = 115;
 }  // namespace
 
 int Guard::judge_work(int path) const {
-  const Sight& sight = sights_[path];
-  return kJudgeWork + kGroupWork * sight.groups.size() + kThreatWork * sight.threats.size() +
-         kFollowerWork * sight.behind.size() + kWayOverWork * sight.on_way_over.size();
+  const PathContext& context = contexts_[path];
+  return kJudgeWork + kGroupWork * context.groups.size() + kThreatWork * context.threats.size() +
+         kFollowerWork * context.behind.size() + kWayOverWork * context.on_way_over.size();
 }
 
 int Guard::commit_work() const {
@@ -57,9 +57,9 @@ bool Guard::is_latched(std::uint8_t track, LaneIndex lane) const {
 
 bool Guard::is_bound(int path) const {
   if (path < 0 || path >= scene_->ego_paths.size()) return false;
-  const Sight& sight = sights_[path];
-  for (const ZoneGroup& group : sight.groups) {
-    if (sight.start_s_m + centre_m_ < group.exit_s_m) return sight.stop_s_m > group.entry_s_m;
+  const PathContext& context = contexts_[path];
+  for (const ZoneGroup& group : context.groups) {
+    if (context.start_s_m + centre_m_ < group.exit_s_m) return context.stop_s_m > group.entry_s_m;
   }
   return false;
 }
@@ -80,7 +80,7 @@ void Guard::commit(int path, const Verdict& verdict) {
   for (int z = 0; z < ego_path.zones.size() && z < verdict.cleared_end; ++z) {
     for (int i = 0; i < scene_->agents.size(); ++i) {
       const Latch latch{scene_->agents[i].track.id, ego_path.zones[z].other_lane};
-      if ((sights_[path].staying_out[z] >> i & 1U) != 0 && !is_latched(latch.track, latch.lane))
+      if ((contexts_[path].staying_out[z] >> i & 1U) != 0 && !is_latched(latch.track, latch.lane))
         (void)latched_.push(latch);
     }
   }
@@ -100,13 +100,13 @@ float Guard::way_over_ends_s_m(std::uint8_t agent_index, const Trajectory& traje
   return trajectory::kNoDeadEndM;
 }
 
-bool Guard::followers_can_brake(const Sight& sight, const Own& own, float brakes_from_s, float braking_mps2,
-                                Verdict& verdict) const {
+bool Guard::followers_can_brake(const PathContext& context, const Own& own, float brakes_from_s,
+                                float braking_mps2, Verdict& verdict) const {
   const auto& rss = parameters_->rss;
   const float half_m = 0.5F * parameters_->vehicle.length_m;
-  for (const InLane& behind : sight.behind) {
+  for (const InLane& behind : context.behind) {
     // From when we are over the line it has its response time, then it brakes down to our speed.
-    const float onset_s = sight.half_over ? 0.0F : kOverLineS;
+    const float onset_s = context.half_over ? 0.0F : kOverLineS;
     const float from_s = onset_s + rss.response_s;
     float s_m = behind.bumper_s_m;
     float speed_mps = behind.speed_mps;
@@ -146,10 +146,10 @@ Verdict Guard::judge(int path_index, const Trajectory& trajectory) const {
     return verdict;
   }
   const scene::EgoPath& path = scene_->ego_paths[path_index];
-  const Sight& sight = sights_[path_index];
+  const PathContext& context = contexts_[path_index];
   const auto& guard = parameters_->guard;
   Own own;
-  own.s_m[0] = sight.start_s_m + centre_m_;
+  own.s_m[0] = context.start_s_m + centre_m_;
   own.speed_mps[0] = trajectory.points[0].speed_mps;
   for (int i = 1; i < kTrajectoryPoints; ++i) {
     own.speed_mps[i] = trajectory.points[i].speed_mps;
@@ -164,7 +164,7 @@ Verdict Guard::judge(int path_index, const Trajectory& trajectory) const {
   verdict.fail_safe = {guard.takeover_s, guard.braking_mps2};
   const float front_m = front_m_ - centre_m_;
   // Who cannot stop before the end any more brakes; at rest it stays.
-  const float last_s_m = sight.end_s_m - front_m;
+  const float last_s_m = context.end_s_m - front_m;
   const float at_once_s_m = own.at_once_s_m(guard.braking_mps2);
   const bool past = at_once_s_m > last_s_m;
   if (stop_s_m > (past ? own.at_once_s_m(kEndShare * guard.braking_mps2) + kRoundingM : last_s_m)) {
@@ -179,9 +179,9 @@ Verdict Guard::judge(int path_index, const Trajectory& trajectory) const {
     const bool slower = its_mps < own.speed_mps[0];
     return max(free_s_m, (slower ? lerp(at_once_s_m, coasting_s_m, kEasesOff) : coasting_s_m) + kRoundingM);
   };
-  float free_s_m = reachable_s_m(sight.leader_stop_s_m - front_m - guard.margin_m, sight.leader_mps);
-  std::uint8_t ahead = sight.leader;
-  for (const InLane& other : sight.on_way_over) {
+  float free_s_m = reachable_s_m(context.leader_stop_s_m - front_m - guard.margin_m, context.leader_mps);
+  std::uint8_t ahead = context.leader;
+  for (const InLane& other : context.on_way_over) {
     const float ends_s_m = reachable_s_m(way_over_ends_s_m(other.agent, trajectory, own), other.speed_mps);
     if (ends_s_m >= free_s_m) continue;
     free_s_m = ends_s_m;
@@ -192,12 +192,12 @@ Verdict Guard::judge(int path_index, const Trajectory& trajectory) const {
     verdict = {Cause::kLeader, ahead};
     return verdict;
   }
-  if (sight.changes && !sight.half_over &&
-      own.place_at_m(kOverLineS, 0.0F) + front_m + guard.margin_m > sight.beside_s_m) {
-    verdict = {Cause::kLeader, sight.beside};
+  if (context.changes && !context.half_over &&
+      own.place_at_m(kOverLineS, 0.0F) + front_m + guard.margin_m > context.beside_s_m) {
+    verdict = {Cause::kLeader, context.beside};
     return verdict;
   }
-  for (const ZoneGroup& group : sight.groups) {
+  for (const ZoneGroup& group : context.groups) {
     if (own.s_m[0] >= group.exit_s_m) continue;
     // A stop that is being driven may use up the tube. Whoever stands nearer than that may go on standing, but
     // comes no nearer: a start that is broken off needs the room.
@@ -208,7 +208,7 @@ Verdict Guard::judge(int path_index, const Trajectory& trajectory) const {
       // It can still be given up, but no longer at ease: that is worth knowing.
       if (own.stop_s_m(parameters_->comfort.braking_mps2) > wait_s_m) {
         Verdict claim;
-        verdict.hard = !passes_group(path, sight, group, own, claim);
+        verdict.hard = !passes_group(path, context, group, own, claim);
       }
       break;
     }
@@ -217,11 +217,11 @@ Verdict Guard::judge(int path_index, const Trajectory& trajectory) const {
     verdict.fail_safe.branch_s = max(verdict.fail_safe.branch_s, min(clear_s, kHorizonS));
     verdict.clears = true;
     verdict.cleared_end = group.end;
-    if (!passes_group(path, sight, group, own, verdict)) return verdict;
+    if (!passes_group(path, context, group, own, verdict)) return verdict;
     if (verdict.stops_short) break;  // the fail-safe comes no further
   }
   if (verdict.stops_short) verdict.fail_safe.branch_s = guard.takeover_s;
-  if (sight.changes && !sight.half_over) {
+  if (context.changes && !context.half_over) {
     bool brakes = false;
     for (const Settling& settling : kSettlings) {
       const float braking_mps2 = settling.share * guard.braking_mps2;
@@ -232,7 +232,7 @@ Verdict Guard::judge(int path_index, const Trajectory& trajectory) const {
                     occupancy::stopping_way_m(own.speed_at_mps(from_s, 0.0F), braking_mps2)
               : own.stop_s_m(braking_mps2);
       if (stops_s_m > free_s_m) continue;
-      brakes = followers_can_brake(sight, own, from_s, braking_mps2, verdict);
+      brakes = followers_can_brake(context, own, from_s, braking_mps2, verdict);
       if (!brakes) continue;
       verdict.fail_safe = {max(verdict.fail_safe.branch_s, from_s), braking_mps2};
       break;

@@ -92,7 +92,7 @@ class Guard {
   [[nodiscard]] int judge_work(int path) const;
 
   /// Where plans on `path` begin: of our rear axle, along it.
-  [[nodiscard]] float start_s_m(int path) const { return sights_[path].start_s_m; }
+  [[nodiscard]] float start_s_m(int path) const { return contexts_[path].start_s_m; }
 
   /// What commit() takes at most [WorkMeter's units].
   [[nodiscard]] int commit_work() const;
@@ -125,7 +125,7 @@ class Guard {
   };
   using InLaneList = BoundedVector<InLane, 4>;
   /// What one path offers to all plans on it.
-  struct Sight {
+  struct PathContext {
     float start_s_m = 0.0F;        ///< of our rear axle at plan start
     float stop_s_m = 0.0F;         ///< where our centre stands if the fail-safe begins as soon as it can
     float end_s_m = 0.0F;          ///< of the road
@@ -153,32 +153,32 @@ class Guard {
   void look_at_path(int path_index);
   /// Whether a vehicle ahead, not in the path's strip, is where our box may be before it has come over to that, as far as
   /// a plan may bring us before we can stand. \param other  its agent; receives the rest
-  [[nodiscard]] bool is_on_way_over(const scene::EgoPath& path, const Sight& sight, InLane& other);
+  [[nodiscard]] bool is_on_way_over(const scene::EgoPath& path, const PathContext& context, InLane& other);
   /// Of many in a lane the nearest ones matter.
   static void keep_nearest(InLaneList& list, const InLane& other, float own_s_m);
-  void find_groups(const scene::EgoPath& path, Sight& sight) const;
+  void find_groups(const scene::EgoPath& path, PathContext& context) const;
   void find_threats(const scene::EgoPath& path, const occupancy::LaneReach (&reach)[kMaxTracks],
-                    Sight& sight);
+                    PathContext& context);
   // guard_unseen.cpp
   void look_beyond(const occupancy::LaneReach (&reach)[kMaxTracks]);
   void expect_from(LaneIndex lane, float s_m, const occupancy::LaneReach (&reach)[kMaxTracks]);
-  void expect_everywhere();                ///< in every zone, and beside us
-  void expect_beside(Sight& sight) const;  ///< in the lane we change into, and nobody else there
-  void expect_ahead(const scene::EgoPath& path, Sight& sight);
-  [[nodiscard]] bool held_back(const Sight& sight, int zone, const scene::ConflictZone& ground,
+  void expect_everywhere();                        ///< in every zone, and beside us
+  void expect_beside(PathContext& context) const;  ///< in the lane we change into, and nobody else there
+  void expect_ahead(const scene::EgoPath& path, PathContext& context);
+  [[nodiscard]] bool held_back(const PathContext& context, int zone, const scene::ConflictZone& ground,
                                const occupancy::LaneReach& straight_on,
                                const occupancy::LaneReach (&reach)[kMaxTracks], ZoneOccupancy& when) const;
   [[nodiscard]] bool is_behind(const ZoneOccupancy (&when)[kMaxTracks], int index) const;
   /// Whether the next group on it cannot be stopped before any more.
   [[nodiscard]] bool is_bound(int path) const;
   [[nodiscard]] bool is_latched(std::uint8_t track, LaneIndex lane) const;
-  [[nodiscard]] bool passes_group(const scene::EgoPath& path, const Sight& sight, const ZoneGroup& group,
-                                  const Own& own, Verdict& verdict) const;
-  [[nodiscard]] bool passes_threat(const scene::EgoPath& path, const Sight& sight, const Threat& threat,
-                                   const Own& own, Verdict& verdict) const;
+  [[nodiscard]] bool passes_group(const scene::EgoPath& path, const PathContext& context,
+                                  const ZoneGroup& group, const Own& own, Verdict& verdict) const;
+  [[nodiscard]] bool passes_threat(const scene::EgoPath& path, const PathContext& context,
+                                   const Threat& threat, const Own& own, Verdict& verdict) const;
   /// Whether the fail-safe stands where nobody comes who cannot stop for it.
-  [[nodiscard]] bool stops_short(const scene::EgoPath& path, const Sight& sight, const ZoneGroup& group,
-                                 const Own& own) const;
+  [[nodiscard]] bool stops_short(const scene::EgoPath& path, const PathContext& context,
+                                 const ZoneGroup& group, const Own& own) const;
   /// Until the plan in force is to be out of its group, from plan start on.
   [[nodiscard]] float time_left_s() const;
   /// Whether a plan that cannot stay out of the group any more is out of it at most `late_s` later than it was to be.
@@ -186,7 +186,7 @@ class Guard {
   /// Where our centre is before a plan brings our box to where the vehicle stands after braking as hard as can be.
   [[nodiscard]] float way_over_ends_s_m(std::uint8_t agent_index, const Trajectory& trajectory,
                                         const Own& own) const;
-  [[nodiscard]] bool followers_can_brake(const Sight& sight, const Own& own, float brakes_from_s,
+  [[nodiscard]] bool followers_can_brake(const PathContext& context, const Own& own, float brakes_from_s,
                                          float braking_mps2, Verdict& verdict) const;
 
   const scene::Scene* scene_ = nullptr;
@@ -197,7 +197,7 @@ class Guard {
   float lead_s_ = 0.0F;
   float centre_m_ = 0.0F;  ///< from our rear axle
   float front_m_ = 0.0F;
-  Sight sights_[kPaths];
+  PathContext contexts_[kPaths];
   BoundedVector<Latch, 2 * kMaxTracks> latched_;
   bool goes_through_ = false;      ///< the plan in force, a group of zones
   bool stops_short_ = false;       ///< ... but stops in it, short of somebody

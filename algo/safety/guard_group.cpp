@@ -14,13 +14,13 @@ constexpr float kLateS = 0.3F;               // so much later, who has let us go
 
 }  // namespace
 
-bool Guard::passes_threat(const scene::EgoPath& path, const Sight& sight, const Threat& threat,
+bool Guard::passes_threat(const scene::EgoPath& path, const PathContext& context, const Threat& threat,
                           const Own& own, Verdict& verdict) const {
   const scene::ConflictZone& zone = path.zones[threat.zone];
   const ZoneOccupancy& when = threat.when;
   if (when.claim != Claim::kMayCome) return true;
   float cap_mps = 0.0F;
-  for (const ZoneGroup& group : sight.groups) {
+  for (const ZoneGroup& group : context.groups) {
     if (threat.zone >= group.first && threat.zone < group.end) cap_mps = group.cap_mps;
   }
   const float in_s = own.time_at_s(zone.entry_s_m, cap_mps);
@@ -77,10 +77,10 @@ bool Guard::leaves_in_time(const ZoneGroup& group, const Own& own, float late_s)
   return !goes_through_;
 }
 
-bool Guard::passes_group(const scene::EgoPath& path, const Sight& sight, const ZoneGroup& group,
+bool Guard::passes_group(const scene::EgoPath& path, const PathContext& context, const ZoneGroup& group,
                          const Own& own, Verdict& verdict) const {
   const bool inside = own.s_m[0] > group.entry_s_m;
-  const bool entered = inside || (goes_through_ && sight.stop_s_m > group.stop_s_m);
+  const bool entered = inside || (goes_through_ && context.stop_s_m > group.stop_s_m);
   const bool stands = own.end_s_m() < group.exit_s_m && own.speed_mps[kHorizonSteps] < kStandingMps;
   if (!entered && group.yields) {
     if (stands) {
@@ -89,23 +89,23 @@ bool Guard::passes_group(const scene::EgoPath& path, const Sight& sight, const Z
     }
     // Room beyond it, if whoever is ahead brakes hard.
     const float rear_to_front_m = front_m_ - centre_m_;
-    if (sight.leader_stop_s_m - rear_to_front_m - parameters_->guard.margin_m < group.exit_s_m) {
-      verdict = {Cause::kNoRoom, sight.leader};
+    if (context.leader_stop_s_m - rear_to_front_m - parameters_->guard.margin_m < group.exit_s_m) {
+      verdict = {Cause::kNoRoom, context.leader};
       return false;
     }
   }
-  if (sight.too_many && !inside) {
+  if (context.too_many && !inside) {
     verdict = {Cause::kZone};
     return false;
   }
   const float bound_s_m = own.at_once_s_m(parameters_->vehicle.braking_max_mps2);
-  for (const Threat& threat : sight.threats) {
+  for (const Threat& threat : context.threats) {
     if (threat.zone < group.first || threat.zone >= group.end) continue;
     const scene::ConflictZone& zone = path.zones[threat.zone];
     if (own.s_m[0] > zone.exit_s_m) continue;
     if (threat.licensed && (own.blocked || leaves_in_time(group, own, kLateS))) continue;
     Verdict refused = verdict;
-    if (passes_threat(path, sight, threat, own, refused)) continue;
+    if (passes_threat(path, context, threat, own, refused)) continue;
     // Who cannot stay out any more leaves it as soon as it was to.
     const bool bound = bound_s_m > zone.entry_s_m;
     const bool behind_it = zone.merging && threat.when.to_entry_m <= 0.0F;
@@ -114,18 +114,18 @@ bool Guard::passes_group(const scene::EgoPath& path, const Sight& sight, const Z
     const float left_s = time_left_s();
     const bool no_reason = goes_through_ && !stops_short_ && !own.blocked && !zone.merging && left_s > 0.0F &&
                            threat.when.from_s > left_s;
-    verdict.stops_short = entered && !no_reason && stops_short(path, sight, group, own);
+    verdict.stops_short = entered && !no_reason && stops_short(path, context, group, own);
     if (!verdict.stops_short) verdict = refused;
     return verdict.stops_short;
   }
   return true;
 }
 
-bool Guard::stops_short(const scene::EgoPath& path, const Sight& sight, const ZoneGroup& group,
+bool Guard::stops_short(const scene::EgoPath& path, const PathContext& context, const ZoneGroup& group,
                         const Own& own) const {
   const float stop_s_m = own.stop_s_m(parameters_->guard.braking_mps2);
   const float bound_s_m = own.at_once_s_m(parameters_->vehicle.braking_max_mps2);
-  for (const Threat& threat : sight.threats) {
+  for (const Threat& threat : context.threats) {
     if (threat.zone < group.first || threat.zone >= group.end) continue;
     const scene::ConflictZone& zone = path.zones[threat.zone];
     const bool stands_there = own.s_m[0] <= zone.exit_s_m && stop_s_m > zone.entry_s_m;

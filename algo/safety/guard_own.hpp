@@ -2,7 +2,6 @@
 /// A plan as the guard sees it: the box centre along the path.
 
 #include "algo/core/inline.hpp"
-#include "algo/core/math.hpp"
 #include "algo/occupancy/pace.hpp"
 #include "algo/safety/guard.hpp"
 
@@ -38,21 +37,15 @@ struct Guard::Own {
                  kHorizonS + occupancy::time_to_cover_s(beyond(cap_mps), at_s_m - end_s_m()));
     int i = 0;
     while (i < kHorizonSteps && s_m[i] < at_s_m) ++i;
-    if (i == 0) return 0.0F;
-    return (static_cast<float>(i) - (s_m[i] - at_s_m) / (s_m[i] - s_m[i - 1])) * kStepS;
+    return static_cast<float>(i) * kStepS;
   }
   [[nodiscard]] float speed_at_mps(float time_s, float cap_mps) const {
     if (time_s >= kHorizonS) return occupancy::speed_after_mps(beyond(cap_mps), time_s - kHorizonS);
-    return between(speed_mps, time_s);
+    return speed_mps[to_int(time_s / kStepS, 0, kHorizonSteps)];
   }
   [[nodiscard]] float place_at_m(float time_s, float cap_mps) const {
     if (time_s >= kHorizonS) return end_s_m() + occupancy::way_after_m(beyond(cap_mps), time_s - kHorizonS);
-    return between(s_m, time_s);
-  }
-  [[nodiscard]] static float between(const float (&values)[kTrajectoryPoints], float time_s) {
-    const float steps = time_s / kStepS;
-    const int i = to_int(floor(steps), 0, kHorizonSteps - 1);
-    return lerp(values[i], values[i + 1], clamp(steps - static_cast<float>(i), 0.0F, 1.0F));
+    return s_m[to_int(time_s / kStepS, 0, kHorizonSteps)];
   }
 };
 

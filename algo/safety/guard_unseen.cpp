@@ -49,7 +49,7 @@ void Guard::look_beyond(const LaneReach (&reach)[kMaxTracks]) {
   const scene::KnownGround& known = scene_->known;
   const LaneMap& map = *scene_->map;
   for (int path = 0; path < scene_->ego_paths.size(); ++path)
-    expect_ahead(scene_->ego_paths[path], sights_[path]);
+    expect_ahead(scene_->ego_paths[path], contexts_[path]);
   const int most = work_ + kMostWork;
   for (LaneIndex index = 0; index < kMaxLanes; ++index) {
     const Lane& lane = map.lanes[index];
@@ -91,15 +91,15 @@ void Guard::look_beyond(const LaneReach (&reach)[kMaxTracks]) {
 }
 
 void Guard::expect_everywhere() {
-  for (Sight& sight : sights_) {
-    sight.too_many = true;
-    expect_beside(sight);
+  for (PathContext& context : contexts_) {
+    context.too_many = true;
+    expect_beside(context);
   }
 }
 
-void Guard::expect_beside(Sight& sight) const {
-  sight.behind.clear();
-  (void)sight.behind.push({kUnseen, sight.start_s_m + front_m_, start_.speed_mps});
+void Guard::expect_beside(PathContext& context) const {
+  context.behind.clear();
+  (void)context.behind.push({kUnseen, context.start_s_m + front_m_, start_.speed_mps});
 }
 
 void Guard::expect_from(LaneIndex lane, float s_m, const LaneReach (&reach)[kMaxTracks]) {
@@ -119,7 +119,7 @@ void Guard::expect_from(LaneIndex lane, float s_m, const LaneReach (&reach)[kMax
            straight_on.measure(*scene_->map, somebody, false);
   for (int p = 0; p < scene_->ego_paths.size(); ++p) {
     const scene::EgoPath& path = scene_->ego_paths[p];
-    Sight& sight = sights_[p];
+    PathContext& context = contexts_[p];
     work_ += (kZoneWork + kHeldWork * scene_->agents.size()) * path.zones.size();
     for (int z = 0; z < path.zones.size(); ++z) {
       const scene::ConflictZone& zone = path.zones[z];
@@ -128,31 +128,31 @@ void Guard::expect_from(LaneIndex lane, float s_m, const LaneReach (&reach)[kMax
                                    *parameters_)};
       if (threat.when.claim != Claim::kMayCome) continue;
       threat.when.until_s = kNeverS;  // another one may follow
-      if (held_back(sight, z, zone, straight_on, reach, threat.when)) continue;
+      if (held_back(context, z, zone, straight_on, reach, threat.when)) continue;
       int known = 0;
-      while (known < sight.threats.size() &&
-             !(sight.threats[known].zone == threat.zone && sight.threats[known].agent == kUnseen))
+      while (known < context.threats.size() &&
+             !(context.threats[known].zone == threat.zone && context.threats[known].agent == kUnseen))
         ++known;
-      if (known == sight.threats.size()) {
-        if (!sight.threats.push(threat)) sight.too_many = true;
-      } else if (threat.when.from_s < sight.threats[known].when.from_s) {
-        sight.threats[known] = threat;
+      if (known == context.threats.size()) {
+        if (!context.threats.push(threat)) context.too_many = true;
+      } else if (threat.when.from_s < context.threats[known].when.from_s) {
+        context.threats[known] = threat;
       }
     }
     // In a lane we change into, behind us: where nobody is between.
     const float to_start_m = straight_on.to_start_m(path.path.lanes[0].lane);
-    if (!sight.changes || to_start_m >= kNoWayM) continue;
+    if (!context.changes || to_start_m >= kNoWayM) continue;
     const float since_s = lead_s_ + 1e-3F * static_cast<float>(scene_->known.age_ms);
     const InLane behind{kUnseen, -to_start_m + 0.5F * kLengthM + limit_mps * since_s, limit_mps};
     if (-to_start_m > path.frenet.s_m + centre_m_) continue;
-    const bool nearer = sight.behind.size() == 1 && sight.behind[0].agent == kUnseen &&
-                        behind.bumper_s_m > sight.behind[0].bumper_s_m;
-    if (nearer) sight.behind[0] = behind;
-    if (sight.behind.empty()) (void)sight.behind.push(behind);
+    const bool nearer = context.behind.size() == 1 && context.behind[0].agent == kUnseen &&
+                        behind.bumper_s_m > context.behind[0].bumper_s_m;
+    if (nearer) context.behind[0] = behind;
+    if (context.behind.empty()) (void)context.behind.push(behind);
   }
 }
 
-bool Guard::held_back(const Sight& sight, int zone, const scene::ConflictZone& ground,
+bool Guard::held_back(const PathContext& context, int zone, const scene::ConflictZone& ground,
                       const LaneReach& straight_on, const LaneReach (&reach)[kMaxTracks],
                       ZoneOccupancy& when) const {
   for (int i = 0; i < scene_->agents.size(); ++i) {
@@ -161,16 +161,16 @@ bool Guard::held_back(const Sight& sight, int zone, const scene::ConflictZone& g
     const float ahead_m = straight_on.to_start_m(lane) - reach[i].to_start_m(lane);
     const float to_entry_m = reach[i].to_start_m(ground.other_lane) + ground.other_entry_m;
     if (ahead_m <= 0.0F || to_entry_m <= 0.0F || to_entry_m >= when.to_entry_m) continue;
-    if ((sight.staying_out[zone] >> i & 1U) != 0) return true;
-    for (const Threat& threat : sight.threats) {
+    if ((context.staying_out[zone] >> i & 1U) != 0) return true;
+    for (const Threat& threat : context.threats) {
       if (threat.zone == zone && threat.agent == i) when.from_s = max(when.from_s, threat.when.from_s);
     }
   }
   return false;
 }
 
-void Guard::expect_ahead(const scene::EgoPath& path, Sight& sight) {
-  if (sight.leader != 255) return;
+void Guard::expect_ahead(const scene::EgoPath& path, PathContext& context) {
+  if (context.leader != 255) return;
   const scene::KnownGround& known = scene_->known;
   const float centre_s_m = path.frenet.s_m + centre_m_;
   for (const scene::PathLane& part : path.path.lanes) {
@@ -183,9 +183,9 @@ void Guard::expect_ahead(const scene::EgoPath& path, Sight& sight) {
       const float length_m = distance(from, to);
       if (start_s_m + length_m > centre_s_m && !is_known(known, to)) {
         const float edge_s_m = start_s_m + clamp(cut(known, from, to).out_m, 0.0F, length_m);
-        sight.leader_stop_s_m = max(edge_s_m, centre_s_m) - 0.5F * kLengthM;
-        sight.leader = kUnseen;
-        sight.leader_mps = 0.0F;
+        context.leader_stop_s_m = max(edge_s_m, centre_s_m) - 0.5F * kLengthM;
+        context.leader = kUnseen;
+        context.leader_mps = 0.0F;
         return;
       }
       start_s_m = start_s_m + length_m;

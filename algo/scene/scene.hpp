@@ -60,10 +60,10 @@ struct EgoPath {
   Manoeuvre manoeuvre = Manoeuvre::kKeep;
   std::int8_t changes_needed = 0;  ///< from that lane to the route's
   LanePath path;
-  Frenet frenet;               ///< of our rear axle
-  float aside_m = 0.0F;        ///< left of the centre line it is driven, past who stand (lateral_offset.hpp)
-  float route_end_s_m = 0.0F;  ///< where a lane change must be finished, or the path's end
-  float goal_s_m = 0.0F;       ///< where the goal lies along it
+  Frenet frenet;                  ///< of our rear axle
+  float lateral_offset_m = 0.0F;  ///< left of the centre line it is driven, past who stand
+  float route_end_s_m = 0.0F;     ///< where a lane change must be finished, or the path's end
+  float goal_s_m = 0.0F;          ///< where the goal lies along it
   BoundedVector<ConflictZone, kMaxPathZones> zones;
 };
 

@@ -59,7 +59,7 @@ bool sweeps(const scene::Scene& scene, const scene::EgoPath& path, const scene::
     if (s_m > to_s_m) break;
     seen.work += kSweepWork;
     const Pose centre_line = cursor.at(s_m).pose;
-    const Point there = offset_point(centre_line, 0.0F, path.aside_m);
+    const Point there = offset_point(centre_line, 0.0F, path.lateral_offset_m);
     const Box ours = ego_box({there.x_m, there.y_m, centre_line.heading_rad}, parameters);
     touches = separation(ours, other) < kStripM;
   }

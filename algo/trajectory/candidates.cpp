@@ -111,7 +111,7 @@ void prepare(const scene::Scene& scene, const scene::EgoPath& path, const Trajec
   const scene::Frenet frenet =
       scene::project(*scene.map, path.path, position(start.rear_axle), guess_s_m, 10.0F, work);
   work += build_reference(*scene.map, path.path, frenet.s_m, start.speed_mps, parameters, line);
-  line.aside_m = path.aside_m;
+  line.lateral_offset_m = path.lateral_offset_m;
   course.where = locate_on(line, position(start.rear_axle), frenet.s_m);
   course.leader = find_leader(scene, path, path.frenet.s_m, parameters);
   course.leader_touch_s_m = path.frenet.s_m + course.leader.gap_m;

@@ -17,11 +17,11 @@ constexpr float kAcrossCos = 0.7071F;  // 45 degrees
 constexpr int kTwoPointsWork = 6;
 constexpr int kTwoPassedWork = 3;
 
-constexpr float kAsidesM[] = {0.0F, -0.35F, 0.35F, -0.7F, 0.7F};
-constexpr int kAsides = static_cast<int>(sizeof(kAsidesM) / sizeof(kAsidesM[0]));
-constexpr unsigned kAnywhere = (1U << kAsides) - 1U;
+constexpr float kLateralOffsetsM[] = {0.0F, -0.35F, 0.35F, -0.7F, 0.7F};
+constexpr int kLateralOffsets = static_cast<int>(sizeof(kLateralOffsetsM) / sizeof(kLateralOffsetsM[0]));
+constexpr unsigned kAnywhere = (1U << kLateralOffsets) - 1U;
 
-/// One who stands, and from which places (bit k: kAsidesM[k]) our box has left room to it so far.
+/// One who stands, and from which places (bit k: kLateralOffsetsM[k]) our box has left room to it so far.
 struct Bystander {
   Point centre;
   Point ahead;  ///< unit vector of its heading
@@ -58,11 +58,11 @@ unsigned passed_from(const Pose& centre_line, Point ahead, const Bystander& othe
   const float its_ahead_m = dot(other.ahead, offset);
   const float its_left_m = cross(other.ahead, offset);
   unsigned passed = 0;
-  for (int k = 0; k < kAsides; ++k) {
-    const float aside_m = kAsidesM[k];
-    const bool passes = abs(left_m - aside_m) >= wide_enough_m ||
-                        abs(its_ahead_m - aside_m * sine) >= its_long_enough_m ||
-                        abs(its_left_m - aside_m * cosine) >= its_wide_enough_m;
+  for (int k = 0; k < kLateralOffsets; ++k) {
+    const float lateral_offset_m = kLateralOffsetsM[k];
+    const bool passes = abs(left_m - lateral_offset_m) >= wide_enough_m ||
+                        abs(its_ahead_m - lateral_offset_m * sine) >= its_long_enough_m ||
+                        abs(its_left_m - lateral_offset_m * cosine) >= its_wide_enough_m;
     if (passes) passed |= 1U << k;
   }
   return other.from & passed;
@@ -71,14 +71,15 @@ unsigned passed_from(const Pose& centre_line, Point ahead, const Bystander& othe
 /// Those within a lane of `width_m`.
 unsigned within_lane(float width_m, const Parameters& parameters) {
   unsigned within = 1U;
-  for (int k = 1; k < kAsides; ++k) {
-    if (2.0F * abs(kAsidesM[k]) + parameters.vehicle.width_m <= width_m + kRoundingM) within |= 1U << k;
+  for (int k = 1; k < kLateralOffsets; ++k) {
+    if (2.0F * abs(kLateralOffsetsM[k]) + parameters.vehicle.width_m <= width_m + kRoundingM)
+      within |= 1U << k;
   }
   return within;
 }
 
-float find_aside_m(const scene::Scene& scene, const scene::EgoPath& path, const Parameters& parameters,
-                   Bystanders& bystanders, int& work) {
+float find_lateral_offset_m(const scene::Scene& scene, const scene::EgoPath& path,
+                            const Parameters& parameters, Bystanders& bystanders, int& work) {
   for (Bystander& other : bystanders) other.from = kAnywhere;
   float width_m = kWideM;
   scene::PathCursor cursor(*scene.map, path.path);
@@ -96,7 +97,7 @@ float find_aside_m(const scene::Scene& scene, const scene::EgoPath& path, const 
   }
   int least = 0;
   while ((all >> least & 1U) == 0) ++least;
-  return kAsidesM[least];
+  return kLateralOffsetsM[least];
 }
 
 }  // namespace
@@ -114,7 +115,8 @@ int set_lateral_offsets(const Parameters& parameters, scene::Scene& scene) {
                            0.5F * agent.track.length_m, 0.5F * agent.track.width_m, kAnywhere});
   }
   for (scene::EgoPath& path : scene.ego_paths) {
-    path.aside_m = bystanders.empty() ? 0.0F : find_aside_m(scene, path, parameters, bystanders, work);
+    path.lateral_offset_m =
+        bystanders.empty() ? 0.0F : find_lateral_offset_m(scene, path, parameters, bystanders, work);
   }
   return work;
 }

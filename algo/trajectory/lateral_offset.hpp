@@ -12,7 +12,7 @@ inline constexpr float kBystanderGapM = 0.4F;
 /// Whether the vehicle stands, as far as its measured speed tells.
 [[nodiscard]] bool is_standing(const scene::Agent& agent);
 
-/// Sets EgoPath::aside_m of every path (CAND-018): the least of 0, 0.35 and 0.7 m to either side from which
+/// Sets EgoPath::lateral_offset_m of every path (CAND-018): the least of 0, 0.35 and 0.7 m to either side from which
 /// our box passes all who stand across or against it, over the next 30 m, with kBystanderGapM. Never beyond
 /// the lanes' edges; who cannot be passed so is not minded, and who stands along the path is a leader, not a
 /// bystander. \pre scene.map is there, or there are no ego paths

@@ -136,7 +136,7 @@ void build_refinement(const ReferenceLine& line, float start_s_m, const Surround
     const MotionState& before = i > 0 ? problem.steps[i - 1].reference : problem.start;
     set_reference(parameters, before, state_of(point, origin, before.heading_rad), step);
     where = locate_on(line, position(point.rear_axle), where.s_m + kStepS * point.speed_mps);
-    const float offset_m = where.d_m - line.aside_m;
+    const float offset_m = where.d_m - line.lateral_offset_m;
     step.lane_offset_m = abs(offset_m) < kInLaneM ? offset_m : 0.0F;
     set_across_bounds(offset_m, step);
     step.speed_cap_mps = max(reference_at(line, where.s_m).speed_cap_mps, point.speed_mps);

@@ -146,7 +146,7 @@ void cap_speeds(const Parameters& parameters, ReferenceLine& line) {
 int build_reference(const LaneMap& map, const scene::LanePath& path, float from_s_m, float speed_mps,
                     const Parameters& parameters, ReferenceLine& line) {
   line.spacing_m = max(1.0F, kSpacingPerSpeed * speed_mps);
-  line.aside_m = 0.0F;
+  line.lateral_offset_m = 0.0F;
   // Samples lie on a fixed grid of the path: lines built from slightly different places agree.
   line.start_s_m = (floor(from_s_m / line.spacing_m) - kBehind) * line.spacing_m;
   scene::PathCursor cursor(map, path);

@@ -26,7 +26,7 @@ struct ReferenceLine {
   };
   float start_s_m = 0.0F;  ///< arc length of samples[0] along the path
   float spacing_m = 1.0F;
-  float aside_m = 0.0F;  ///< left of it motion settles: EgoPath's, past who stand
+  float lateral_offset_m = 0.0F;  ///< left of it motion settles: EgoPath's, past who stand
   Sample samples[kReferenceSamples];
 };
 

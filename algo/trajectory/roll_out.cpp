@@ -131,7 +131,7 @@ void shift_plan(const ReferenceLine& line, const Candidate& candidate, const Pla
   const ReferenceCoordinates where = locate(last);
   const float error_rad =
       wrap_angle(end.rear_axle.heading_rad - reference_at(line, where.s_m).pose.heading_rad);
-  if (abs(where.d_m - line.aside_m) > kOnLineM || abs(error_rad) > kAcrossRad) {
+  if (abs(where.d_m - line.lateral_offset_m) > kOnLineM || abs(error_rad) > kAcrossRad) {
     // Still on its way to the line: one step more at a time, smoothed each time, would carry it across.
     const int first = last > kSteeredAnew ? last - kSteeredAnew : 0;
     tail.steered = true;
@@ -146,7 +146,7 @@ void shift_plan(const ReferenceLine& line, const Candidate& candidate, const Pla
 
 float lateral_length_m(const ReferenceLine& line, const TrajectoryPoint& start, ReferenceCoordinates where,
                        const Parameters& parameters) {
-  const float d_m = where.d_m - line.aside_m;
+  const float d_m = where.d_m - line.lateral_offset_m;
   const float offset_m = abs(d_m);
   const float change_s = parameters.comfort.lane_change_s;
   const float at_speed_m =
@@ -179,7 +179,7 @@ void shape_lateral(const ReferenceLine& line, const TrajectoryPoint& start, Refe
   const float c0 = where.d_m;
   const float c1 = slope * length_m;
   const float c2 = 0.5F * bend * length_m * length_m;
-  const float h = line.aside_m - ((c0 + c1) + c2);
+  const float h = line.lateral_offset_m - ((c0 + c1) + c2);
   const float g = -(c1 + 2.0F * c2);
   const float f = -2.0F * c2;
   candidate.lateral[0] = c0;

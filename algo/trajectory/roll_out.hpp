@@ -12,7 +12,7 @@ namespace s4tp::trajectory {
                                      ReferenceCoordinates where, const Parameters& parameters);
 
 /// Writes start_s_m and the quintic of `candidate`: from `start` (offset, heading, curvature) to the line's
-/// aside_m, parallel to it, over `length_m` of way.
+/// lateral_offset_m, parallel to it, over `length_m` of way.
 void shape_lateral(const ReferenceLine& line, const TrajectoryPoint& start, ReferenceCoordinates where,
                    float length_m, Candidate& candidate);
 

@@ -15,7 +15,7 @@ constexpr float kPreviewS = 0.25F;        // wheels are turned for where we are 
 float wanted_curvature_1pm(const ReferenceLine& line, float s_m, const TrajectoryPoint& point) {
   const ReferenceLine::Sample centre = reference_at(line, s_m);
   const float ahead_1pm = curvature_at(line, s_m + kPreviewS * point.speed_mps);
-  const float d_m = to_local(centre.pose, position(point.rear_axle)).y_m - line.aside_m;
+  const float d_m = to_local(centre.pose, position(point.rear_axle)).y_m - line.lateral_offset_m;
   const float error_rad =
       clamp(wrap_angle(point.rear_axle.heading_rad - centre.pose.heading_rad), -1.2F, 1.2F);
   const SinCos error = sin_cos(error_rad);

@@ -9,11 +9,11 @@
 #include <functional>
 #include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "algo/core/parameters.hpp"
 #include "sim_host/processes/own_files.hpp"
+#include "sim_host/processes/own_folder.hpp"
 #include "sim_host/world/scenario/scenario.hpp"
 
 namespace s4tp::commands {
@@ -55,24 +55,7 @@ struct Command {
 extern const CLI::Validator kSeed;
 extern const CLI::Validator kEpisodes;
 
-/// A folder for a result nobody named one for: `wanted`, or, where a result is already, the next free of
-/// wanted-2, wanted-3, ... FILE-010 It is made here, so that two commands at the same time never get the same
-/// one. \throws std::runtime_error
-[[nodiscard]] std::filesystem::path folder_of_its_own(const std::filesystem::path& wanted);
-
-/// One made by folder_of_its_own(): it goes again with this object if nothing was written to it.
-class OwnFolder {
- public:
-  OwnFolder() = default;
-  explicit OwnFolder(std::filesystem::path made) : made_(std::move(made)) {}
-  ~OwnFolder();
-  OwnFolder(OwnFolder&& from) noexcept : made_(std::exchange(from.made_, {})) {}
-  OwnFolder(const OwnFolder&) = delete;
-  OwnFolder& operator=(const OwnFolder&) = delete;
-
- private:
-  std::filesystem::path made_;
-};
+using processes::OwnFolder;
 
 /// `eval --scenario left_turn merge` names two scenarios, one of which has a subcommand's name: the names
 /// that follow a list's option become one argument, joined with commas. \param arguments  as main() has them,

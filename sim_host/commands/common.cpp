@@ -3,7 +3,6 @@
 #include <iostream>
 #include <stdexcept>
 #include <string_view>
-#include <system_error>
 
 #include "sim_host/campaign/parameters_file.hpp"
 #include "sim_host/campaign/record_limits.hpp"
@@ -30,19 +29,6 @@ CLI::Validator whole(std::uint64_t low, std::uint64_t high) {
 const CLI::Validator kSeed = whole(0, campaign::kSeedMax - campaign::kEpisodesMax);
 const CLI::Validator kEpisodes = whole(1, campaign::kEpisodesMax);
 
-std::filesystem::path folder_of_its_own(const std::filesystem::path& wanted) {
-  if (wanted.has_parent_path()) std::filesystem::create_directories(wanted.parent_path());
-  std::filesystem::path folder = wanted;
-  for (int i = 2; !std::filesystem::create_directory(folder); ++i) {
-    folder = wanted;
-    folder += "-" + std::to_string(i);
-  }
-  if (folder != wanted)
-    std::cerr << "note: " << wanted.string() << " holds a result already; this one goes to "
-              << folder.string() << '\n';
-  return folder;
-}
-
 std::vector<std::string> with_lists_joined(const std::vector<std::string>& arguments) {
   constexpr std::array<std::string_view, 2> kLists{"--scenario", "--scenarios"};
   std::vector<std::string> joined;
@@ -64,15 +50,8 @@ std::vector<std::string> with_lists_joined(const std::vector<std::string>& argum
   return joined;
 }
 
-OwnFolder::~OwnFolder() {
-  std::error_code not_empty;
-  if (!made_.empty()) std::filesystem::remove(made_, not_empty);
-}
-
 OwnFolder CommonOptions::choose_out() {
-  if (out_named != nullptr && out_named->count() > 0) return {};
-  out = folder_of_its_own(out);
-  return OwnFolder(out);
+  return processes::choose_folder(out, out_named != nullptr && out_named->count() > 0);
 }
 
 void CommonOptions::add_to(CLI::App& command) {

@@ -12,6 +12,7 @@
 #include "hal/sim/bus.hpp"
 #include "hal/sim/null_devices.hpp"
 #include "sim_host/baselines/any_ecu.hpp"
+#include "sim_host/campaign/fault_names.hpp"
 #include "sim_host/faults/faulty_bus.hpp"
 #include "sim_host/world/world.hpp"
 
@@ -49,9 +50,12 @@ class Story final : public hal::Telemetry {
     const auto& change = *static_cast<const ecu::ModeRecord*>(record);
     modes |= 1U << static_cast<unsigned>(change.to);
     if (out_ == nullptr) return true;
-    *out_ << "tick " << std::setw(5) << tick << ": mode " << static_cast<int>(change.from) << " -> "
-          << static_cast<int>(change.to) << " (ECU-0" << static_cast<int>(change.reason) << "), faults 0x"
-          << std::hex << change.faults << std::dec << '\n';
+    *out_ << "tick " << std::setw(5) << tick << ": " << ecu::mode_name(change.from) << " -> "
+          << ecu::mode_name(change.to) << " (ECU-0" << static_cast<int>(change.reason) << ")";
+    if (change.faults != 0)
+      *out_ << ", faults 0x" << std::hex << change.faults << std::dec << ": "
+            << campaign::fault_names(change.faults);
+    *out_ << '\n';
     return true;
   }
 

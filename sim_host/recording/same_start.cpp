@@ -45,8 +45,8 @@ std::string straight_on(const Network& network, LaneId lane) {
   std::string edges = lane_of(network, lane).edge;
   std::set<std::string> passed{edges};
   while (!lane_of(network, lane).successors.empty()) {
-    const std::vector<LaneId>& ways = lane_of(network, lane).successors;
-    lane = *std::min_element(ways.begin(), ways.end(), [&](LaneId a, LaneId b) {
+    const std::vector<LaneId>& successors = lane_of(network, lane).successors;
+    lane = *std::min_element(successors.begin(), successors.end(), [&](LaneId a, LaneId b) {
       return turn_rad(lane_of(network, a)) < turn_rad(lane_of(network, b));
     });
     const NetworkLane& next = lane_of(network, lane);

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <string>
 
+#include "sim_host/campaign/fault_names.hpp"
 #include "sim_host/telemetry/dds_header.hpp"
 #include "sim_host/telemetry/dds_messages.hpp"
 
@@ -65,11 +66,7 @@ DiagnosticArray diagnostics(const ecu::ControlRecord& control, const StatusRecor
   if (input != nullptr) describe(*input, one[3], arena);
   for (int i = 0; i < 3; ++i) one[i].hardware_id = arena.text("s4tp");
 
-  std::string faults;
-  for (int bit = 0; bit < ecu::kFaultCount; ++bit) {
-    if ((control.faults >> bit & 1) != 0)
-      faults += (faults.empty() ? "" : ", ") + std::string(ecu::fault_name(bit));
-  }
+  const std::string faults = campaign::fault_names(control.faults);
   one[0].name = arena.text("s4tp: mode");
   one[0].message = arena.text(ecu::mode_name(control.mode));
   const bool ended = control.mode == ecu::Mode::kMinimumRisk || control.mode == ecu::Mode::kFault;

@@ -198,9 +198,6 @@ ordered_json cycle_json(const ecu::PlanRecord& plan, const CycleRecord& cycle, c
   const std::vector<GroundClaim> claims = claims_of(plan, cycle, parameters);
   const WhoMatters who = who_matters(trace, cycle, claims);
   const EgoState& us = cycle.scene.ego;
-  const auto rejected = [&](trajectory::Rejection why) {
-    return std::count(e.rejections, e.rejections + std::min<int>(e.candidate_count, kMaxCandidates), why);
-  };
   ordered_json json{
       {"t", plan.plan.start_ms},
       {"ego", box_json(shift_ahead(us.rear_axle, trajectory::rear_axle_to_centre_m(parameters)), us.speed_mps,
@@ -227,8 +224,8 @@ ordered_json cycle_json(const ecu::PlanRecord& plan, const CycleRecord& cycle, c
       {"cost", terms(e.chosen_cost)},
       {"runner_up", terms(e.runner_up_cost)},
       {"counts",
-       {e.candidate_count, rejected(trajectory::Rejection::kInfeasible),
-        rejected(trajectory::Rejection::kRefused)}},
+       {e.candidate_count, view::rejected(e, trajectory::Rejection::kInfeasible),
+        view::rejected(e, trajectory::Rejection::kRefused)}},
       {"risk", {peaks(e.risk.obstacle), peaks(e.risk.road), peaks(e.risk.social)}},
       {"stages", stages_json(plan, cycle)}};
   if (risk != nullptr) json["haze"] = risk_json(*risk, cycle);

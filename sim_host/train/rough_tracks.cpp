@@ -11,8 +11,8 @@ namespace s4tp::train {
 namespace {
 
 constexpr double kSpeedError_mps = 0.6;
-constexpr double kLasting_s = 0.5;      // errors forget themselves in this time
-constexpr double kAsideError_m = 0.12;  // across, relative to where it is seen now
+constexpr double kLasting_s = 0.5;       // errors forget themselves in this time
+constexpr double kAcrossError_m = 0.12;  // across, relative to where it is seen now
 constexpr double kYawRateError_radps = 0.06;
 constexpr double kAccelerationError_mps2 = 0.4;  // beyond that of the speeds it is taken from
 constexpr double kFullFrom_mps = 3.0;            // slower ones are seen better
@@ -61,7 +61,7 @@ void roughen_vehicle(double level, Normal& normal, int index, satp::NetworkInput
   const double speed_mps = static_cast<double>(input.speed_mps[index]);
   const double rough = level * std::min(1.0, speed_mps / kFullFrom_mps);
   const Errors faster = lasting(rough * kSpeedError_mps, normal);
-  const Errors aside = lasting(rough * kAsideError_m, normal);
+  const Errors across = lasting(rough * kAcrossError_m, normal);
   double behind_m = 0.0;  // who was faster was further back
   for (std::size_t j = kHistorySamples; j-- > 0;) {
     if (j < kNow) behind_m += faster[j] * static_cast<double>(kStepS);
@@ -70,7 +70,7 @@ void roughen_vehicle(double level, Normal& normal, int index, satp::NetworkInput
     const double heading_rad = static_cast<double>(row[2]);
     speed_up(std::max(faster[j], -speed_mps), heading_rad, row[3], row[4]);
     row[0] -= static_cast<float>(behind_m);
-    row[1] += static_cast<float>(aside[j] - aside[kNow]);
+    row[1] += static_cast<float>(across[j] - across[kNow]);
   }
   const double seen_faster_mps = std::max(faster[kNow], -speed_mps);
   input.speed_mps[index] += static_cast<float>(seen_faster_mps);

@@ -1,7 +1,8 @@
 #include "sim_host/view/explanation_table.hpp"
 
-#include <algorithm>
 #include <cstdio>
+
+#include "sim_host/view/plan_numbers.hpp"
 
 namespace s4tp::view {
 namespace {
@@ -25,12 +26,6 @@ const char* cause_name(safety::Cause cause) {
   static constexpr const char* kCauses[] = {"",         "no path", "road end",     "leader",
                                             "follower", "zone",    "stops in zone"};
   return kCauses[static_cast<int>(cause)];
-}
-
-int rejected(const planner::Explanation& explanation, trajectory::Rejection why) {
-  const trajectory::Rejection* const end =
-      explanation.rejections + std::min<int>(explanation.candidate_count, kMaxCandidates);
-  return static_cast<int>(std::count(explanation.rejections, end, why));
 }
 
 }  // namespace

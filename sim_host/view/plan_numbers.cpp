@@ -36,16 +36,16 @@ std::string blocking_text(const campaign::CycleTrace& cycle, const planner::Bloc
   return line;
 }
 
-int rejected(const planner::Explanation& e, trajectory::Rejection why) {
-  return static_cast<int>(
-      std::count(e.rejections, e.rejections + std::min<int>(e.candidate_count, kMaxCandidates), why));
-}
-
 }  // namespace
 
 const char* name_of(scene::Manoeuvre manoeuvre) {
   static constexpr const char* kNames[] = {"keep", "left", "right"};
   return kNames[static_cast<int>(manoeuvre)];
+}
+
+int rejected(const planner::Explanation& e, trajectory::Rejection why) {
+  return static_cast<int>(
+      std::count(e.rejections, e.rejections + std::min<int>(e.candidate_count, kMaxCandidates), why));
 }
 
 std::string in_numbers(const campaign::CycleTrace& cycle) {

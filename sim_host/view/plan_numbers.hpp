@@ -10,6 +10,9 @@ namespace s4tp::view {
 /// Several lines, without a newline at the end.
 [[nodiscard]] std::string in_numbers(const campaign::CycleTrace& cycle);
 
+/// How many candidates of the cycle were rejected for that reason.
+[[nodiscard]] int rejected(const planner::Explanation& explanation, trajectory::Rejection why);
+
 [[nodiscard]] const char* name_of(scene::Manoeuvre manoeuvre);
 
 }  // namespace s4tp::view

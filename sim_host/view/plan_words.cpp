@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "algo/core/inline.hpp"
+#include "sim_host/campaign/fault_names.hpp"
 #include "sim_host/view/html.hpp"
 #include "sim_host/view/plan_numbers.hpp"
 
@@ -85,12 +86,7 @@ bool moves_on(Doing doing) {
 }
 
 std::string fault_words(const campaign::EcuState& ecu) {
-  std::string names;
-  for (int bit = 0; bit < ecu::kFaultCount; ++bit) {
-    if ((ecu.stopped_for >> bit & 1U) != 0)
-      names += (names.empty() ? "" : ", ") + std::string(ecu::fault_name(bit));
-  }
-  const std::string found = "the ECU found a fault (" + names + ") and ";
+  const std::string found = "the ECU found a fault (" + campaign::fault_names(ecu.stopped_for) + ") and ";
   if (ecu.mode == ecu::Mode::kMinimumRisk) return found + "no longer follows the planner";
   return found + (ecu.mode == ecu::Mode::kStopped ? "stands until the driver takes over" : "cannot drive");
 }

@@ -8,6 +8,7 @@
 #include "sim_host/campaign/episode_record.hpp"
 #include "sim_host/metrics/metrics.hpp"
 #include "sim_host/view/haze.hpp"
+#include "sim_host/view/plan_numbers.hpp"
 #include "sim_host/view/plan_words.hpp"
 #include "sim_host/world/traffic/box.hpp"
 
@@ -185,18 +186,14 @@ ordered_json cycle_json(const CycleTrace& cycle, const Snapshot& now, Vec2 origi
   json["modes"] = modes;
   if (!explains(cycle)) return json;
 
-  const auto rejected = [&](trajectory::Rejection why) {
-    const trajectory::Rejection* const end = e.rejections + std::min<int>(e.candidate_count, kMaxCandidates);
-    return std::count(e.rejections, end, why);
-  };
   const auto named = [&](std::uint8_t id) {
     const auto track =
         std::find_if(cycle.tracks.begin(), cycle.tracks.end(), [&](const Track& t) { return t.id == id; });
     return track != cycle.tracks.end() ? car_of(*track, now, origin) : -1;
   };
   json["risk"] = {peaks(cycle.risk.obstacle), peaks(cycle.risk.road), peaks(cycle.risk.social)};
-  json["candidates"] = {e.candidate_count, rejected(trajectory::Rejection::kInfeasible),
-                        rejected(trajectory::Rejection::kRefused)};
+  json["candidates"] = {e.candidate_count, rejected(e, trajectory::Rejection::kInfeasible),
+                        rejected(e, trajectory::Rejection::kRefused)};
   json["cost"] = costs(e.chosen_cost);
   json["runner_up"] = costs(e.runner_up_cost);
   json["riskiest"] = named(e.dominating_track);

@@ -22,6 +22,7 @@
 
 #include "sim_host/campaign/progress.hpp"
 #include "sim_host/processes/child_process.hpp"
+#include "sim_host/processes/own_folder.hpp"
 #include "sim_host/telemetry/live_drive.hpp"
 #include "sim_host/world/scenario/scenario.hpp"
 #include "tests/benchmark/dds_subscriber.hpp"
@@ -254,9 +255,11 @@ int main(int argc, char** argv) {
   app.add_option("--ddsperf", options.ddsperf_s,
                  "seconds for each of ddsperf's figures (default 10; 0: without)")
       ->check(CLI::NonNegativeNumber);
-  app.add_option("--out", options.out, "folder for results.json (default out/bench_dds)");
+  const CLI::Option* const out_named =
+      app.add_option("--out", options.out, "folder for results.json (default out/bench_dds)");
   CLI11_PARSE(app, argc, argv);
   try {
+    const processes::OwnFolder own = processes::choose_folder(options.out, out_named->count() > 0);
     fs::create_directories(options.out);
     const std::uint32_t domain = 20U + static_cast<std::uint32_t>(getpid()) % 200U;
     const std::vector<Row> rows = measure(options, domain);

@@ -11,6 +11,7 @@
 
 #include "algo/trajectory/ilqr.hpp"
 #include "sim_host/campaign/progress.hpp"
+#include "sim_host/processes/own_folder.hpp"
 #include "tests/benchmark/recorded_problems.hpp"
 #include "tests/benchmark/reference_solver.hpp"
 
@@ -149,9 +150,11 @@ int main(int argc, char** argv) {
       ->check(CLI::PositiveNumber);
   app.add_option("--read", file, "problems recorded before, instead of driving");
   app.add_option("--json", json, "the numbers (default: results.json in --out)");
-  app.add_option("--out", out, "where problems.bin is kept (default out/bench)");
+  const CLI::Option* const out_named =
+      app.add_option("--out", out, "where problems.bin is kept (default out/bench)");
   CLI11_PARSE(app, argc, argv);
   try {
+    const processes::OwnFolder own = processes::choose_folder(out, out_named->count() > 0);
     std::filesystem::create_directories(out);
     const RecordedProblems recorded = file.empty() ? record(count, stride) : read_problems(file);
     if (file.empty()) write_problems(out / "problems.bin", recorded);

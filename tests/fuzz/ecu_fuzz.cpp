@@ -23,9 +23,9 @@ void any_plan(Input& input, const planner::PlannerInput& world, Plan& plan) {
   const float speed_mps = input.real(0.0F, 60.0F);
   const float curvature_1pm = input.real(-2.0F, 2.0F);
   const float acceleration_mps2 = input.real(-13.0F, 13.0F);
-  const float aside_m = input.real(-20.0F, 20.0F);
+  const float left_m = input.real(-20.0F, 20.0F);
   Pose pose = shift_ahead(world.ego.rear_axle, input.real(-20.0F, 20.0F));
-  pose.y_m += aside_m;
+  pose.y_m += left_m;
   for (TrajectoryPoint& point : plan.trajectory.points) {
     point = {pose, speed_mps, acceleration_mps2, curvature_1pm};
     pose = shift_ahead(pose, speed_mps * kStepS);

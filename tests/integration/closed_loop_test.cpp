@@ -2,13 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <set>
-#include <sstream>
 
 #include "sim_host/campaign/campaign.hpp"
 #include "sim_host/campaign/driver.hpp"
 #include "sim_host/campaign/episode.hpp"
+#include "tests/support/content.hpp"
 
 namespace s4tp::campaign {
 namespace {
@@ -23,12 +22,6 @@ EpisodeResult drive(const std::string& scenario, std::uint64_t seed, const std::
   options.trace = true;
   if (!log.empty()) options.log = log;
   return run_episode(shipped(scenario), options);
-}
-
-std::string content(const std::filesystem::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file).rdbuf();
-  return text.str();
 }
 
 // An empty straight road would be too easy to fail: with traffic, seed 1 of cruise reaches its goal.
@@ -52,8 +45,8 @@ TEST(ClosedLoop, IsDeterministicInItsSeed) {
   (void)drive("left_turn", 3, folder / "s4tp_loop_a.log");
   (void)drive("left_turn", 3, folder / "s4tp_loop_b.log");
   (void)drive("left_turn", 4, folder / "s4tp_loop_c.log");
-  EXPECT_EQ(content(folder / "s4tp_loop_a.log"), content(folder / "s4tp_loop_b.log"));
-  EXPECT_NE(content(folder / "s4tp_loop_a.log"), content(folder / "s4tp_loop_c.log"));
+  EXPECT_EQ(test::content(folder / "s4tp_loop_a.log"), test::content(folder / "s4tp_loop_b.log"));
+  EXPECT_NE(test::content(folder / "s4tp_loop_a.log"), test::content(folder / "s4tp_loop_c.log"));
 }
 
 // Perception silent for good from 1 s on: tracks are stale after 0.3 s, lost after 1 s, and the car comes to

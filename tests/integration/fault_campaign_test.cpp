@@ -9,12 +9,12 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <sstream>
 #include <stdexcept>
 #include <thread>
 
 #include "firmware/wire/e2e.hpp"
+#include "tests/support/content.hpp"
 
 namespace s4tp::faults {
 namespace {
@@ -178,9 +178,7 @@ TEST(FaultCampaign, DoesNotDependOnJobs) {
     const auto file =
         std::filesystem::temp_directory_path() / ("s4tp_faults_" + std::to_string(jobs) + ".json");
     write_json(file, run_campaign(shipped(), run, options));
-    std::ostringstream text;
-    text << std::ifstream(file).rdbuf();
-    return text.str();
+    return test::content(file);
   };
   EXPECT_EQ(numbers(1), numbers(3));
 }
@@ -204,11 +202,20 @@ TEST(FaultRun, DrivesThroughWhatDoesNoHarm) {
   }
 }
 
-// Three seconds off the bus: the car stops, and the ECU, back on the bus, says that it did.
+// Three seconds off the bus: the car stops, and the ECU, back on the bus, says that it did. The story has modes and
+// faults by their names; without a fault it has none.
 TEST(FaultRun, ComesBackAfterBusOff) {
-  const RunResult result = run(single("fault bus_off from 100 for 300 messages - intensity 0 dice 1"));
+  std::ostringstream story;
+  RunOptions options;
+  options.story = &story;
+  const RunResult result =
+      run_script(shipped(), single("fault bus_off from 100 for 300 messages - intensity 0 dice 1"), options);
   EXPECT_EQ(result.verdict.breach, Breach::kNone) << result.verdict.what;
   EXPECT_EQ(result.verdict.outcome, Outcome::kStopped);
+  EXPECT_NE(story.str().find(": ready -> driving (ECU-034)\n"), std::string::npos) << story.str();
+  EXPECT_NE(story.str().find("tick   100: driving -> minimum risk (ECU-036), faults 0x1000: bus off\n"),
+            std::string::npos)
+      << story.str();
 }
 
 }  // namespace

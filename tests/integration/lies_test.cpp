@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "sim_host/campaign/fault_names.hpp"
 #include "sim_host/faults/fault_run.hpp"
 
 namespace s4tp::faults {
@@ -71,14 +72,6 @@ struct Seen {
   RunResult result;
 };
 
-std::string names_of(ecu::Faults faults) {
-  std::string names;
-  for (int i = 0; i < ecu::kFaultCount; ++i) {
-    if (((faults >> i) & 1U) != 0U) names += std::string(ecu::fault_name(i)) + ", ";
-  }
-  return names;
-}
-
 double apart_m(const Pose& one, const Pose& other) {
   return static_cast<double>(distance(position(one), position(other)));
 }
@@ -113,7 +106,7 @@ Seen expose(Lie lie, int from_tick, const Scenarios& scenarios, const std::strin
     if ((core.faults() & kImplausible) == 0) return;
     seen.after_s = 0.01 * (tick - first_tick + 1);
     seen.way_m = seen.whole_way_m;
-    seen.answer = names_of(core.faults() & kImplausible) + ecu::mode_name(core.mode());
+    seen.answer = campaign::fault_names(core.faults() & kImplausible) + ", " + ecu::mode_name(core.mode());
   };
   seen.result = run_script(scenarios, script, options);
   return seen;

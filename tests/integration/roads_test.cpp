@@ -6,11 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <map>
 #include <numbers>
 #include <set>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -20,6 +18,7 @@
 #include "sim_host/world/scenario/scenario.hpp"
 #include "sim_host/world/traffic/traffic_engine.hpp"
 #include "sim_host/world/traffic/traffic_flow.hpp"
+#include "tests/support/content.hpp"
 #include "tests/support/networks.hpp"
 
 namespace s4tp::roads {
@@ -31,12 +30,6 @@ using world::NetworkLane;
 using world::Scenario;
 
 const fs::path kMix = fs::path(S4TP_SOURCE_DIR) / "sim_host/scenarios/social.toml";
-
-std::string text_of(const fs::path& file) {
-  std::stringstream text;
-  text << std::ifstream(file).rdbuf();
-  return text.str();
-}
 
 const NetworkLane& lane_at(const Scenario& road, world::LaneId lane) {
   return road.network.lanes.at(static_cast<std::size_t>(lane));
@@ -137,7 +130,7 @@ TEST(Roads, CoverWhatTheyShould) {
       EXPECT_FALSE(plan.departures.empty());
       if (flavour == "smarts") add_to(coverage, written.family, road);
     }
-    const std::string network = text_of(written.folder / "network.net.xml");
+    const std::string network = test::content(written.folder / "network.net.xml");
     for (const char* rule : {"priority", "priority_stop", "allway_stop", "right_before_left", "zipper"}) {
       if (network.find("type=\"" + std::string(rule) + '"') != std::string::npos) rules.insert(rule);
     }
@@ -180,8 +173,9 @@ TEST(Roads, AreAFunctionOfTheirNumber) {
     const WrittenRoad& before = written[number - 300];
     EXPECT_EQ(again.refused, before.refused);
     for (const char* file : {"network.net.xml", "scenario.toml", "social.toml"}) {
-      EXPECT_FALSE(text_of(again.folder / file).empty()) << file;
-      EXPECT_EQ(text_of(again.folder / file), text_of(before.folder / file)) << before.folder << file;
+      EXPECT_FALSE(test::content(again.folder / file).empty()) << file;
+      EXPECT_EQ(test::content(again.folder / file), test::content(before.folder / file))
+          << before.folder << file;
     }
   }
 }

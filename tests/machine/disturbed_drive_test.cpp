@@ -61,13 +61,13 @@ TEST_F(DriveOnVcan, ForgedCommandsNeverReachTheCar) {
       write(spoofed);
     }
   }
-  Program player("exec canplayer -l i -I forge.log >/dev/null");
-  Program sender(
+  Process player("exec canplayer -l i -I forge.log >/dev/null");
+  Process sender(
       "while :; do cansend vcan0 00000008#8087F389A066602B; cansend vcan0 008#R; cansend vcan0 008#8087; "
       "done");
   const Drive forged = drive("forged");
-  player.end(SIGTERM);
-  sender.end(SIGTERM);
+  (void)player.end_all(SIGTERM);
+  (void)sender.end_all(SIGTERM);
   EXPECT_LE(forged.code, 1) << forged.said;
   const std::vector<wire::Frame> all = frames_of_log(forged.log);
   EXPECT_TRUE(same(only(all, is_of_world), only(frames_of_log(inside()), is_of_world)));
@@ -79,7 +79,7 @@ TEST_F(DriveOnVcan, ForgedCommandsNeverReachTheCar) {
 
 // A flood of other traffic, 1000 frames/s: the drive is the one without it.
 TEST_F(DriveOnVcan, FloodOfOtherIdsChangesNothing) {
-  const Program flood("exec cangen vcan0 -g 1 -I 555 -L 8 -D r");
+  const Process flood("exec cangen vcan0 -g 1 -I 555 -L 8 -D r");
   const Drive flooded = drive("flooded");
   EXPECT_LE(flooded.code, 1) << flooded.said;
   EXPECT_EQ(content(flooded.log), content(inside()));
@@ -102,9 +102,9 @@ TEST_F(DriveOnVcan, RandomFramesOnOurIdsDegradeAtWorst) {
     line += std::string("cangen vcan0 -g 50 -I ") + id + " -L r -D r & ";
   }
   Listener listener;
-  Program fuzz(line + "wait");
+  Process fuzz(line + "wait");
   const Drive fuzzed = drive("fuzzed", "", 40);
-  fuzz.end(SIGTERM);
+  (void)fuzz.end_all(SIGTERM);
   EXPECT_TRUE(fuzzed.code == 0 || fuzzed.code == 1 || fuzzed.code == 124) << fuzzed.code << '\n'
                                                                           << fuzzed.said;
   EXPECT_NE(fuzzed.said.find(" 0 unanswered"), std::string::npos) << fuzzed.said;

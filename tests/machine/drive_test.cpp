@@ -51,9 +51,9 @@ TEST_F(DriveOnVcan, CanplayerGivesTheSamePlans) {
     }
   }
   Listener listener;
-  Program ecu("exec " + kPrograms + "s4tp_ecu_process --bus vcan0 --silence 10 >ecu.txt 2>&1");
+  Process ecu("exec " + kPrograms.string() + "/s4tp_ecu_process --bus vcan0 --silence 10 >ecu.txt 2>&1");
   until_heard("sff");
-  EXPECT_EQ(Program("exec timeout 100 canplayer -I world.log >/dev/null").wait(), 0);
+  EXPECT_EQ(Process("exec timeout 100 canplayer -I world.log >/dev/null").wait(), 0);
   EXPECT_EQ(ecu.wait(), 0) << content("ecu.txt");
   const auto decided = [](const wire::Frame& frame) {
     return frame.id == wire::kCommandId || frame.id == wire::kPlanDigestId;

@@ -2,65 +2,23 @@
 /// A drive of ECU and world as two processes on vcan0, and what passes there.
 
 #include <gtest/gtest.h>
-#include <signal.h>
-#include <spawn.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "firmware/wire/codec.hpp"
 #include "sim_host/campaign/episode.hpp"
+#include "tests/support/content.hpp"
 #include "tests/support/drive_time.hpp"
 #include "tests/support/log_file.hpp"
+#include "tests/support/process.hpp"
 
 namespace s4tp::test {
 
 namespace fs = std::filesystem;
-
-inline const std::string kPrograms = S4TP_BINARY_DIR "/sim_host/";
-
-inline std::string content(const fs::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file).rdbuf();
-  return text.str();
-}
-
-/// A line of shell with all that it starts.
-class Program {
- public:
-  explicit Program(const std::string& line) {
-    posix_spawnattr_t attributes;
-    posix_spawnattr_init(&attributes);
-    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
-    const char* const argv[] = {"bash", "-c", line.c_str(), nullptr};
-    EXPECT_EQ(posix_spawn(&group_, "/bin/bash", nullptr, &attributes, const_cast<char**>(argv), environ), 0);
-    posix_spawnattr_destroy(&attributes);
-  }
-  ~Program() {
-    if (group_ > 0) end(SIGTERM);
-  }
-  Program(const Program&) = delete;
-  Program& operator=(const Program&) = delete;
-  int wait() {
-    int status = 0;
-    waitpid(group_, &status, 0);
-    group_ = -1;
-    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-  }
-  void end(int signal) {
-    kill(-group_, signal);
-    (void)wait();
-  }
-
- private:
-  pid_t group_ = -1;
-};
 
 struct Drive {
   int code = -1;
@@ -77,8 +35,8 @@ inline Drive drive(const std::string& name, const std::string& options = "", int
   result.log = fs::current_path() / (name + ".log");
   const fs::path said = fs::current_path() / (name + ".txt");
   result.code =
-      Program("exec timeout -s INT " + std::to_string(seconds) + " " + kPrograms +
-              "s4tp_tool run --bus vcan0 --scenario ./left_turn --seed 3 --out out --patience 20 --log " +
+      Process("exec timeout -s INT " + std::to_string(seconds) + " " + kPrograms.string() +
+              "/s4tp_tool run --bus vcan0 --scenario ./left_turn --seed 3 --out out --patience 20 --log " +
               result.log.string() + " " + options + " >" + said.string() + " 2>&1")
           .wait();
   result.said = content(said);
@@ -102,12 +60,12 @@ class Listener {
       size = fs::file_size("seen.log");
       usleep(500'000);
     } while (fs::file_size("seen.log") != size);
-    candump_.end(SIGTERM);
+    (void)candump_.end_all(SIGTERM);
     return frames_of_log("seen.log");
   }
 
  private:
-  Program candump_{"exec candump -L -r 16000000 vcan0 >seen.log 2>seen.txt"};
+  Process candump_{"exec candump -L -r 16000000 vcan0 >seen.log 2>seen.txt"};
 };
 
 inline bool equal(const wire::Frame& a, const wire::Frame& b) {
@@ -150,7 +108,7 @@ class DriveOnVcan : public testing::Test {
     fs::current_path(folder);
     (void)tests::shipped_folder_for("left_turn", folder, kDriving_s);
     ASSERT_EQ(
-        Program("ip link show vcan0 >/dev/null 2>&1 || ip link add vcan0 type vcan; ip link set vcan0 up")
+        Process("ip link show vcan0 >/dev/null 2>&1 || ip link add vcan0 type vcan; ip link set vcan0 up")
             .wait(),
         0);
   }

@@ -20,6 +20,7 @@ import unittest
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "toolchain"))
 import check_headers  # noqa: E402
+import check_includes  # noqa: E402
 
 BUILD = pathlib.Path(os.environ["S4TP_BUILD"])
 M7_BUILD = BUILD.parent / "m7"  # the preset's: ./s4tp test has built it by then
@@ -145,6 +146,17 @@ class Package(unittest.TestCase):
         self.assertGreater(count, 60)
         for file in prefix.rglob("*.cmake"):  # who links the library needs no Eigen
             self.assertNotIn("igen", file.read_text(encoding="utf-8"), file)
+
+    # Of the core what algo/api/headers.txt says, s4tp.h beside it; and whatever an installed header includes is there.
+    def test_only_the_list_is_installed(self):
+        include = self.install(BUILD) / "include/s4tp"
+        files = {file.relative_to(include).as_posix(): file for file in include.rglob("*") if file.is_file()}
+        public, others = check_includes.installed(ROOT)
+        self.assertEqual(sorted(path for path in files if path.startswith("algo/")), sorted(public + others))
+        self.assertIn("s4tp.h", files)
+        for path, file in files.items():
+            for header in re.findall(r'^\s*#\s*include\s*"([^"]+)"', file.read_text(encoding="utf-8"), re.MULTILINE):
+                self.assertIn(header, files, path)
 
     def test_nothing_installed_names_our_folder(self):
         for file in self.install(BUILD).rglob("*"):

@@ -55,7 +55,7 @@ inline Trajectory rolled(const scene::Scene& scene, const Candidate& candidate, 
   ReferenceLine line;
   build_reference(*scene.map, scene.ego_paths[candidate.path].path, candidate.start_s_m, start.speed_mps,
                   Parameters{}, line);
-  line.aside_m = scene.ego_paths[candidate.path].aside_m;
+  line.lateral_offset_m = scene.ego_paths[candidate.path].lateral_offset_m;
   Trajectory trajectory;
   roll_out(line, candidate, start, running, kNow, Parameters{}, trajectory);
   return trajectory;

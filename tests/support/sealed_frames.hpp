@@ -7,14 +7,23 @@
 #include "firmware/wire/codec.hpp"
 #include "firmware/wire/e2e.hpp"
 
+namespace s4tp::test {
+
+template <class Message>
+wire::Frame sealed(const Message& message, wire::E2eSender& sender) {
+  wire::Frame frame;
+  EXPECT_TRUE(wire::encode(message, frame));
+  sender.protect(frame);
+  return frame;
+}
+
+}  // namespace s4tp::test
+
 namespace s4tp::processes {
 
 template <class Message>
 hal::CanFrame sealed(const Message& message, wire::E2eSender& sender) {
-  wire::Frame frame;
-  EXPECT_TRUE(wire::encode(message, frame));
-  sender.protect(frame);
-  return to_hal(frame);
+  return to_hal(test::sealed(message, sender));
 }
 
 inline hal::CanFrame hello() {

@@ -4,80 +4,25 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <poll.h>
-#include <signal.h>
-#include <spawn.h>
 #include <stdlib.h>
-#include <sys/wait.h>
 #include <termios.h>
 #include <unistd.h>
 
 #include <atomic>
 #include <filesystem>
-#include <fstream>
 #include <functional>
-#include <sstream>
 #include <string>
 #include <thread>
 #include <utility>
-#include <vector>
 
 #include "sim_host/campaign/episode.hpp"
+#include "tests/support/content.hpp"
 #include "tests/support/drive_time.hpp"
+#include "tests/support/process.hpp"
 
 namespace s4tp::test {
 
 namespace fs = std::filesystem;
-
-inline const fs::path kPrograms = fs::path(S4TP_BINARY_DIR) / "sim_host";
-
-class Process {
- public:
-  Process(const std::string& program, std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), (kPrograms / program).string());
-    std::vector<char*> argv;
-    for (std::string& argument : arguments) argv.push_back(argument.data());
-    argv.push_back(nullptr);
-    EXPECT_EQ(posix_spawn(&process_, argv[0], nullptr, nullptr, argv.data(), environ), 0) << argv[0];
-  }
-  ~Process() {
-    if (process_ > 0) (void)end(SIGKILL);
-  }
-  Process(const Process&) = delete;
-  Process& operator=(const Process&) = delete;
-  /// \return its exit code
-  int wait() {
-    int status = 0;
-    waitpid(process_, &status, 0);
-    process_ = -1;
-    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-  }
-  int end(int signal) {
-    kill(process_, signal);
-    return wait();
-  }
-  /// Waits until it has said what it does when it is told to stop, 60 s at most.
-  void until_it_can_be_told() const {
-    const std::string file = "/proc/" + std::to_string(process_) + "/status";
-    for (int i = 0; i < 1200; ++i) {
-      std::ifstream status(file);
-      for (std::string line; std::getline(status, line);) {
-        if (line.rfind("SigCgt:", 0) == 0 &&
-            (std::stoull(line.substr(7), nullptr, 16) >> (SIGTERM - 1) & 1U) != 0U)
-          return;
-      }
-      usleep(50'000);
-    }
-  }
-
- private:
-  pid_t process_ = -1;
-};
-
-inline std::string content(const fs::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file).rdbuf();
-  return text.str();
-}
 
 /// Without the first line, which says more of the ECU where it is known.
 inline std::string frames_of(const fs::path& log) {

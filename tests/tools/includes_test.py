@@ -96,6 +96,31 @@ class Includes(unittest.TestCase):
     def test_ecu_knows_no_lockstep(self):
         self.assertEqual(len(findings("firmware/ecu/x.cpp", '#include "firmware/lockstep/lockstep_bus.hpp"\n')), 1)
 
+    # Firmware has of the core what users of the library have, and nothing else.
+    def test_firmware_including_an_internal_header_is_found(self):
+        for folder in ("ecu", "targets"):
+            self.assertEqual(findings(f"firmware/{folder}/x.cpp", '#include "algo/planner/planner.hpp"\n'), [])
+            self.assertEqual(len(findings(f"firmware/{folder}/x.cpp", '#include "algo/core/bounded.hpp"\n')), 1)
+            self.assertEqual(len(findings(f"firmware/{folder}/x.cpp", '#include "algo/sadrf/heat_map.hpp"\n')), 1)
+
+    # What is installed: what firmware includes, what that includes in turn, and nothing else.
+    def test_list_of_installed_headers_is_held_against_the_code(self):
+        self.assertEqual(check_includes.list_findings(check_includes.ROOT), [])
+        for listed, found in (("algo/core/a.hpp\n  algo/core/b.hpp\n", []),
+                              ("algo/core/a.hpp\n", ["b.hpp: is missing"]),
+                              ("algo/core/a.hpp\nalgo/core/b.hpp\n", ["b.hpp: no firmware"]),
+                              ("algo/core/a.hpp\n  algo/core/b.hpp\n  algo/core/c.hpp\n", ["c.hpp: no header"])):
+            with tempfile.TemporaryDirectory() as folder:
+                root = pathlib.Path(folder)
+                for path, text in (("algo/core/a.hpp", '#include "algo/core/b.hpp"\n'), ("algo/core/b.hpp", ""), ("algo/core/c.hpp", ""),
+                                   ("firmware/ecu/x.cpp", '#include "algo/core/a.hpp"\n'), (check_includes.HEADERS, "# One.\n" + listed)):
+                    (root / path).parent.mkdir(parents=True, exist_ok=True)
+                    (root / path).write_text(text, encoding="utf-8")
+                said = check_includes.list_findings(root)
+                self.assertEqual(len(said), len(found), said)
+                for line, part in zip(said, found):
+                    self.assertIn(part, line)
+
 
 if __name__ == "__main__":
     unittest.main()

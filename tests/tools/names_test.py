@@ -36,14 +36,18 @@ class Names(unittest.TestCase):
                 ("algo/satp/x.cpp", "case State::kTrusted:", "yield belief"),
                 ("algo/satp/x.cpp", "case State::kGivenUp:", "yield belief"),
                 ("algo/satp/x.cpp", "case State::kIdle:", "yield belief"),
-                ("algo/trajectory/x.cpp", "float keep_aside_m = 0.0F;", "lateral offset"),
+                ("algo/trajectory/x.cpp", "// We keep aside of it.", "lateral offset"),
+                ("algo/trajectory/x.hpp", "float aside_m = 0.0F;", "lateral offset"),
+                ("tests/unit/x_test.cpp", "constexpr float kAsideM = 0.35F;", "lateral offset"),
+                ("algo/planner/x.cpp", "for (int i = 0; i < n; ++i) ways += 1;", "path hypothesis"),
                 ("tests/unit/x_test.cpp", "TEST(StandingRoom, Exists) {", "lateral offset"),
                 ("algo/planner/x.cpp", "note_held_up(path);", "blocking reason"),
                 ("sim_host/view/x.html", "<dt>held up by</dt>", "blocking reason"),
                 ("sim_host/view/x.js", "who.holds_up", "blocking reason"),
                 ("docs/x.md", "The outlook beyond 3 s.", "lane cost-to-go"),
                 ("algo/trajectory/x.hpp", "struct GapAim {};", "merge target"),
-                ("algo/safety/x.cpp", "sight = look_along(path);", "path context"),
+                ("algo/safety/x.cpp", "context = look_along(path);", "path context"),
+                ("algo/safety/x.cpp", "context = sights_[0];", "path context"),
                 ("algo/safety/x.hpp", "const PathSight& seen;", "path context"),
                 ("algo/trajectory/x.cpp", "if (swings_wide(points)) continue;", "overshoots"),
                 ("README.md", "Risk as it is felt.", "ego-side risk"),
@@ -66,13 +70,16 @@ class Names(unittest.TestCase):
                 ("sim_host/view/x.cpp", 'case Because::kGivingWay: return "Way ahead";'),
                 ("hal/linux/x.cpp", "if (!resolve(reason)) idle();"),
                 ("firmware/ecu/x.hpp", "/// Planning never holds it up, whoever is trusted or was given up."),
+                ("sim_host/world/traffic/x.cpp", "plan.ways.push_back(route);  // of the traffic"),
+                ("algo/scene/x.hpp", "int known = 0;  ///< vehicles in sight, wherever ways cross"),
+                ("algo/satp/x.hpp", "void put_aside(const PredictionSet& prediction);"),
                 ("docs/x.md", "Each driver feels a place as its own; the path goes on, the vehicle stands aside."),
                 ("docs/x.md", "The Way home: Passage, Idle.")):
             self.assertEqual(findings(path, line + "\n"), [], line)
 
     # A new name that the glossary does not have would be a name nobody can look up.
     def test_words_to_use_are_in_the_glossary(self):
-        words = [word for _, word in (*check_names.ANYWHERE, *check_names.NAMES) if "the vehicle" not in word]
+        words = [word for _, word in (*check_names.ANYWHERE, *check_names.NAMES, *check_names.CORE_NAMES) if "the vehicle" not in word]
         for word in words:
             for one in word.split(":")[0].split(", "):
                 self.assertIn({"overshoots": "overshoot"}.get(one, one), check_docs.WORDS)

@@ -10,6 +10,7 @@
 #include "firmware/wire/codec.hpp"
 #include "sim_host/world/world.hpp"
 #include "tests/support/networks.hpp"
+#include "tests/support/sealed_frames.hpp"
 
 namespace s4tp::world {
 namespace {
@@ -41,9 +42,7 @@ struct Ecu {
     wire::Command command;
     command.acceleration_mps2 = static_cast<float>(wish.acceleration_mps2);
     command.steering_rad = static_cast<float>(wish.steering_rad);
-    wire::Frame frame;
-    EXPECT_TRUE(wire::encode(command, frame));
-    sender.protect(frame);
+    const wire::Frame frame = s4tp::test::sealed(command, sender);
     world.receive(frame);
     EXPECT_TRUE(wire::decode(frame, command));
     return {static_cast<double>(command.acceleration_mps2), static_cast<double>(command.steering_rad)};

@@ -2,6 +2,7 @@
 
 #include "firmware/wire/e2e.hpp"
 #include "sim_host/faults/judge.hpp"
+#include "tests/support/sealed_frames.hpp"
 
 namespace s4tp::faults {
 namespace {
@@ -33,14 +34,14 @@ class Bench {
       wire::EcuStatus message;
       message.mode = static_cast<std::uint8_t>(mode);
       message.faults = faults;
-      sent.push_back(sealed(message, status_sender_));
+      sent.push_back(test::sealed(message, status_sender_));
     }
     wire::Command command;
     command.acceleration_mps2 = acceleration_mps2;
     command.steering_rad = steering_rad;
     command.mode = static_cast<std::uint8_t>(mode);
     command.accepted = static_cast<std::uint16_t>(accepted_ & 0xFFF);
-    sent.push_back(sealed(command, command_sender_));
+    sent.push_back(test::sealed(command, command_sender_));
     return sent;
   }
 
@@ -49,7 +50,7 @@ class Bench {
     if (!motion) return;
     wire::Motion message;
     message.speed_mps = static_cast<float>(speed_mps);
-    take(sealed(message, motion_sender_));
+    take(test::sealed(message, motion_sender_));
   }
 
   void take(const Frame& frame) {
@@ -67,14 +68,6 @@ class Bench {
   }
 
  private:
-  template <class Message>
-  static Frame sealed(const Message& message, wire::E2eSender& sender) {
-    Frame frame;
-    EXPECT_TRUE(wire::encode(message, frame));
-    sender.protect(frame);
-    return frame;
-  }
-
   int accepted_ = 0;
   wire::E2eSender motion_sender_;
   wire::E2eSender status_sender_;

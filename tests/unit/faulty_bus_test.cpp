@@ -5,6 +5,7 @@
 #include "firmware/wire/codec.hpp"
 #include "firmware/wire/e2e.hpp"
 #include "firmware/wire/track_list.hpp"
+#include "tests/support/sealed_frames.hpp"
 #include "tests/support/wire_samples.hpp"
 
 namespace s4tp::faults {
@@ -20,26 +21,18 @@ class Sender {
     wire::Motion motion;
     motion.vehicle_time_ms = static_cast<std::uint16_t>(10 * tick);
     motion.speed_mps = 0.1F * static_cast<float>(tick);
-    frames.push_back(sealed(motion, motion_));
+    frames.push_back(test::sealed(motion, motion_));
     wire::Pose pose;
     pose.x_m = static_cast<float>(tick);
-    frames.push_back(sealed(pose, pose_));
+    frames.push_back(test::sealed(pose, pose_));
     wire::TrackList list;
     list.count = 2;
     list.generation = static_cast<std::uint8_t>(tick % 16);
-    frames.push_back(sealed(list, list_));
+    frames.push_back(test::sealed(list, list_));
     return frames;
   }
 
  private:
-  template <class Message>
-  static Frame sealed(const Message& message, wire::E2eSender& sender) {
-    Frame frame;
-    EXPECT_TRUE(wire::encode(message, frame));
-    sender.protect(frame);
-    return frame;
-  }
-
   wire::E2eSender motion_;
   wire::E2eSender pose_;
   wire::E2eSender list_;

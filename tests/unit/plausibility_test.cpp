@@ -48,20 +48,20 @@ TEST(Plausibility, PoseAgainstReckoning) {
   const auto ahead = [](float rate_mps, float jump_m) {
     return [=](float since_s, Measured& told) { told.rear_axle.x_m += jump_m + rate_mps * since_s; };
   };
-  const auto aside = [](float rate_mps, float jump_m) {
+  const auto left = [](float rate_mps, float jump_m) {
     return [=](float since_s, Measured& told) { told.rear_axle.y_m += jump_m + rate_mps * since_s; };
   };
   EXPECT_LE(ticks_until(Check::kPoseAlong, ahead(0.0F, 1.4F)), 6);
-  EXPECT_LE(ticks_until(Check::kPoseAcross, aside(0.0F, 1.4F)), 6);
+  EXPECT_LE(ticks_until(Check::kPoseAcross, left(0.0F, 1.4F)), 6);
   for (const int ticks : {ticks_until(Check::kPoseAlong, ahead(1.0F, 0.0F)),
-                          ticks_until(Check::kPoseAcross, aside(1.0F, 0.0F))}) {
+                          ticks_until(Check::kPoseAcross, left(1.0F, 0.0F))}) {
     EXPECT_GT(ticks, 0);
     EXPECT_LE(ticks, 250);
   }
   EXPECT_EQ(ticks_until(Check::kPoseAlong, ahead(0.25F, 0.0F)), -1);
-  EXPECT_EQ(ticks_until(Check::kPoseAcross, aside(0.25F, 0.0F)), -1);
+  EXPECT_EQ(ticks_until(Check::kPoseAcross, left(0.25F, 0.0F)), -1);
   EXPECT_EQ(ticks_until(Check::kPoseAlong, ahead(0.0F, 0.4F)), -1);
-  EXPECT_EQ(ticks_until(Check::kPoseAcross, aside(0.0F, 0.4F)), -1);
+  EXPECT_EQ(ticks_until(Check::kPoseAcross, left(0.0F, 0.4F)), -1);
 }
 
 // PLAUS-005: a heading that turns by 0.05 rad/s while the yaw rate is 0; 0.015 rad/s may be a gyroscope's.
@@ -169,12 +169,12 @@ TEST(Plausibility, OutsideEveryLane) {
   EXPECT_FLOAT_EQ(outside_lanes_m(map, {109.0F, 0.0F}), 0.0F);
   EXPECT_NEAR(outside_lanes_m(map, {114.0F, 3.0F}), 3.4F, 1e-4F);  // 4 and 3 make 5, less half the width
 
-  for (const float aside_m : {2.5F, 2.7F}) {
+  for (const float left_m : {2.5F, 2.7F}) {
     Drive drive;
     drive.truth.speed_mps = 0.0F;
-    drive.truth.rear_axle = {50.0F, aside_m, 0.0F};
+    drive.truth.rear_axle = {50.0F, left_m, 0.0F};
     drive.map = &map;
-    EXPECT_EQ(drive.until(Check::kOffMap, nullptr, 100) > 0, aside_m > 2.6F);
+    EXPECT_EQ(drive.until(Check::kOffMap, nullptr, 100) > 0, left_m > 2.6F);
     Drive parked;
     parked.truth = drive.truth;
     parked.map = &map;

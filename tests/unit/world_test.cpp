@@ -10,6 +10,7 @@
 #include "firmware/wire/lane_map.hpp"
 #include "sim_host/world/traffic/box.hpp"
 #include "tests/support/networks.hpp"
+#include "tests/support/sealed_frames.hpp"
 
 namespace s4tp::world {
 namespace {
@@ -62,10 +63,7 @@ Ending drive(World& world, const std::function<Wish(double)>& driver) {
     wire::Command command;
     command.acceleration_mps2 = static_cast<float>(wish.acceleration_mps2);
     command.steering_rad = static_cast<float>(wish.steering_rad);
-    wire::Frame frame;
-    EXPECT_TRUE(wire::encode(command, frame));
-    sender.protect(frame);
-    world.receive(frame);
+    world.receive(s4tp::test::sealed(command, sender));
   }
   return world.recording().ending;
 }

@@ -48,7 +48,7 @@ int Guard::look(const scene::Scene& scene, const TrajectoryPoint& start, float l
   for (int path = 0; path < scene.ego_paths.size(); ++path) {
     if (work_ > kMostWork) return work_;
     look_at_path(path);
-    find_threats(scene.ego_paths[path], reach, sights_[path]);
+    find_threats(scene.ego_paths[path], reach, contexts_[path]);
   }
   if (scene.known.left_out > 0) look_beyond(reach);
   looked_ = true;
@@ -65,7 +65,7 @@ void Guard::keep_nearest(InLaneList& list, const InLane& other, float own_s_m) {
   if (away_m(other) < away_m(list[furthest])) list[furthest] = other;
 }
 
-bool Guard::is_on_way_over(const scene::EgoPath& path, const Sight& sight, InLane& other) {
+bool Guard::is_on_way_over(const scene::EgoPath& path, const PathContext& context, InLane& other) {
   // From the strip to where our front or rear is.
   const float sine = sin(wrap_angle(scene_->ego.rear_axle.heading_rad - path.frenet.heading_rad));
   const float front_d_m = path.frenet.d_m + front_m_ * sine;
@@ -80,28 +80,28 @@ bool Guard::is_on_way_over(const scene::EgoPath& path, const Sight& sight, InLan
   other.speed_mps = max(0.0F, seen.along_mps);
   const float room_m = 0.5F * parameters_->vehicle.width_m + seen.half_width_m + kSwingM;
   return known && !seen.overlaps && !seen.crossing && seen.centre_s_m > path.frenet.s_m + centre_m_ &&
-         other.bumper_s_m < sight.stop_s_m + front_m_ + kSoonM && seen.centre_d_m > right_m - room_m &&
+         other.bumper_s_m < context.stop_s_m + front_m_ + kSoonM && seen.centre_d_m > right_m - room_m &&
          seen.centre_d_m < left_m + room_m;
 }
 
 void Guard::look_at_path(int path_index) {
   const scene::EgoPath& path = scene_->ego_paths[path_index];
-  Sight& sight = sights_[path_index];
-  new (&sight) Sight;  // assigned, it would be made on the stack first
-  sight.start_s_m =
+  PathContext& context = contexts_[path_index];
+  new (&context) PathContext;  // assigned, it would be made on the stack first
+  context.start_s_m =
       scene::project(*scene_->map, path.path, position(start_.rear_axle), path.frenet.s_m, 15.0F, work_).s_m;
-  sight.stop_s_m = sight.start_s_m + centre_m_ + parameters_->guard.takeover_s * start_.speed_mps +
-                   occupancy::stopping_way_m(start_.speed_mps, parameters_->guard.braking_mps2);
-  sight.end_s_m = trajectory::dead_end_s_m(*scene_, path);
-  sight.leader_stop_s_m = trajectory::kNoDeadEndM;
-  sight.beside_s_m = trajectory::kNoDeadEndM;
+  context.stop_s_m = context.start_s_m + centre_m_ + parameters_->guard.takeover_s * start_.speed_mps +
+                     occupancy::stopping_way_m(start_.speed_mps, parameters_->guard.braking_mps2);
+  context.end_s_m = trajectory::dead_end_s_m(*scene_, path);
+  context.leader_stop_s_m = trajectory::kNoDeadEndM;
+  context.beside_s_m = trajectory::kNoDeadEndM;
   const float half_lane_m = 0.5F * scene::path_point(*scene_->map, path.path, path.frenet.s_m).width_m;
-  sight.changes = path.manoeuvre != scene::Manoeuvre::kKeep;
+  context.changes = path.manoeuvre != scene::Manoeuvre::kKeep;
   work_ += kPathWork;
-  sight.half_over = abs(path.frenet.d_m) < half_lane_m;
+  context.half_over = abs(path.frenet.d_m) < half_lane_m;
   // In a lane we have not set out for, a list that is not fresh vouches for nobody.
-  const bool sets_out = sight.changes && abs(path.frenet.d_m) > 2.0F * half_lane_m - kInStripM;
-  if (sets_out && scene_->known.age_ms > scene::kFreshMs) expect_beside(sight);
+  const bool sets_out = context.changes && abs(path.frenet.d_m) > 2.0F * half_lane_m - kInStripM;
+  if (sets_out && scene_->known.age_ms > scene::kFreshMs) expect_beside(context);
   const float centre_s_m = path.frenet.s_m + centre_m_;
   for (int i = 0; i < scene_->agents.size(); ++i) {
     const scene::Agent& agent = scene_->agents[i];
@@ -111,7 +111,8 @@ void Guard::look_at_path(int path_index) {
         trajectory::see_on_path(*scene_, path, agent, *parameters_, joining, known);
     work_ += seen.work;
     InLane on_way_over{static_cast<std::uint8_t>(i)};
-    if (is_on_way_over(path, sight, on_way_over)) keep_nearest(sight.on_way_over, on_way_over, centre_s_m);
+    if (is_on_way_over(path, context, on_way_over))
+      keep_nearest(context.on_way_over, on_way_over, centre_s_m);
     if (!known || !(seen.overlaps || joining) || seen.crossing) continue;
     const float along_mps = max(0.0F, seen.along_mps);
     if (seen.centre_s_m > centre_s_m) {
@@ -124,32 +125,32 @@ void Guard::look_at_path(int path_index) {
           max(0.0F, last_mps - parameters_->law.braking_max_mps2 * (lead_s_ + kOverLineS));
       const float over_line_s_m =
           stop_s_m - occupancy::stopping_way_m(slowest_mps, parameters_->law.braking_max_mps2);
-      if (over_line_s_m < sight.beside_s_m) {
-        sight.beside_s_m = over_line_s_m;
-        sight.beside = static_cast<std::uint8_t>(i);
+      if (over_line_s_m < context.beside_s_m) {
+        context.beside_s_m = over_line_s_m;
+        context.beside = static_cast<std::uint8_t>(i);
       }
-      if (stop_s_m >= sight.leader_stop_s_m) continue;
-      sight.leader_stop_s_m = stop_s_m;
-      sight.leader = static_cast<std::uint8_t>(i);
-      sight.leader_mps = along_mps;
-    } else if (sight.changes && seen.along_mps >= 0.0F) {
+      if (stop_s_m >= context.leader_stop_s_m) continue;
+      context.leader_stop_s_m = stop_s_m;
+      context.leader = static_cast<std::uint8_t>(i);
+      context.leader_mps = along_mps;
+    } else if (context.changes && seen.along_mps >= 0.0F) {
       InLane behind;
       behind.agent = static_cast<std::uint8_t>(i);
       behind.bumper_s_m = seen.centre_s_m + seen.half_length_m + along_mps * lead_s_;
       behind.speed_mps = along_mps;
-      keep_nearest(sight.behind, behind, centre_s_m);
+      keep_nearest(context.behind, behind, centre_s_m);
     }
   }
-  find_groups(path, sight);
-  work_ += kGroupWork * sight.groups.size();
+  find_groups(path, context);
+  work_ += kGroupWork * context.groups.size();
 }
 
-void Guard::find_groups(const scene::EgoPath& path, Sight& sight) const {
+void Guard::find_groups(const scene::EgoPath& path, PathContext& context) const {
   for (int i = 0; i < path.zones.size(); ++i) {  // in the order of their entries
     const scene::ConflictZone& zone = path.zones[i];
     const bool yields = zone.priority != Priority::kFirstHasPriority;
-    if (!sight.groups.empty()) {
-      ZoneGroup& last = sight.groups[sight.groups.size() - 1];
+    if (!context.groups.empty()) {
+      ZoneGroup& last = context.groups[context.groups.size() - 1];
       if (zone.entry_s_m < last.exit_s_m + kWaitingRoomM) {
         last.exit_s_m = max(last.exit_s_m, zone.exit_s_m);
         last.end = static_cast<std::uint8_t>(i + 1);
@@ -164,9 +165,9 @@ void Guard::find_groups(const scene::EgoPath& path, Sight& sight) const {
     group.first = static_cast<std::uint8_t>(i);
     group.end = static_cast<std::uint8_t>(i + 1);
     group.yields = yields;
-    (void)sight.groups.push(group);  // there are no more groups than zones
+    (void)context.groups.push(group);  // there are no more groups than zones
   }
-  for (ZoneGroup& group : sight.groups) {
+  for (ZoneGroup& group : context.groups) {
     group.cap_mps = kNeverS;
     for (int k = 0; k < kCapSamples; ++k) {
       const float share = static_cast<float>(k) / static_cast<float>(kCapSamples - 1);
@@ -179,7 +180,7 @@ void Guard::find_groups(const scene::EgoPath& path, Sight& sight) const {
 }
 
 void Guard::find_threats(const scene::EgoPath& path, const occupancy::LaneReach (&reach)[kMaxTracks],
-                         Sight& sight) {
+                         PathContext& context) {
   const int count = scene_->agents.size();
   work_ += kThreatWork * count * path.zones.size();
   bool merging = false;
@@ -193,10 +194,10 @@ void Guard::find_threats(const scene::EgoPath& path, const occupancy::LaneReach 
     const auto expect = [&](int i, bool licensed) {
       const Threat threat{static_cast<std::uint8_t>(z), static_cast<std::uint8_t>(i), scene_->agents[i].lane,
                           licensed, when[i]};
-      if (!sight.threats.push(threat)) sight.too_many = true;
+      if (!context.threats.push(threat)) context.too_many = true;
     };
     // Two who set off at once have both seen the other stand: who can still stop has not used its licence.
-    const bool bound = sight.stop_s_m > path.zones[z].entry_s_m;
+    const bool bound = context.stop_s_m > path.zones[z].entry_s_m;
     for (int i = 0; i < count; ++i) {
       const scene::Agent& agent = scene_->agents[i];
       when[i] = zone_occupancy(*scene_, agent, path.zones[z].merging ? straight_on[i] : reach[i],
@@ -208,7 +209,7 @@ void Guard::find_threats(const scene::EgoPath& path, const occupancy::LaneReach 
         when[i].claim = Claim::kStands;
       }
       const bool stays_out = when[i].claim != Claim::kMayCome && when[i].claim != Claim::kNone;
-      if (stays_out) sight.staying_out[z] |= static_cast<std::uint16_t>(1U << i);
+      if (stays_out) context.staying_out[z] |= static_cast<std::uint16_t>(1U << i);
     }
     for (int i = 0; i < count; ++i) {
       if (when[i].claim != Claim::kMayCome || is_behind(when, i)) continue;

@@ -12,9 +12,9 @@ namespace {
 
 // CAND-018 0.35 m to the left at 8 m/s: a drive settles there within its 3 s, the plan it becomes goes on
 // there a second later, and who is steered comes there too.
-TEST(Candidates, SettleAside) {
+TEST(Candidates, SettleAtTheLateralOffset) {
   Roads roads(100.0F, 8.0F);
-  roads.scene.ego_paths[0].aside_m = 0.35F;
+  roads.scene.ego_paths[0].lateral_offset_m = 0.35F;
   Candidate drive = *find(generate(roads.scene, roads.start), 0, Intent::kAccelerate);
   Plan running;
   running.kind = PlanKind::kDrive;
