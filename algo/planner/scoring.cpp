@@ -67,7 +67,7 @@ float gap_cost(const scene::Scene& scene, const LaneCostToGo& cost_to_go, int pa
          min(cost_to_go.time_to_gap_s(lane, there_s_m, speed_mps), kLongestS);
 }
 
-/// The same at the end of a motion that is still `beside_m` from that lane: as far as it is not over, it is in ours.
+/// The same of a motion that ends `beside_m` from that lane's centre: as much of the change as is not made, it is in ours.
 float lane_cost_between(const scene::Scene& scene, const LaneCostToGo& cost_to_go, int path, float s_m,
                         float beside_m, float width_m, float speed_mps, const Parameters& parameters) {
   const float there = lane_cost(scene, cost_to_go, path, s_m, speed_mps, parameters);

@@ -14,7 +14,7 @@ constexpr int kJunctionParts = 4;       // lanes one way across a junction is cu
 constexpr float kHeadingWeight = 0.5F;  // m/rad
 constexpr float kStayM = 0.6F;          // hysteresis: changes over 0.3 m beyond the middle
 constexpr float kGoOnM = 0.3F;          // the same for a successor of the previous lane
-constexpr float kPerChangeM = 0.05F;  // where lanes part, ours is the one that needs fewer changes
+constexpr float kPerChangeM = 0.05F;    // where lanes part, ours is the one that needs fewer changes
 constexpr float kOffRouteM = 1.0F;
 constexpr float kNotOursM = 2.0F;
 

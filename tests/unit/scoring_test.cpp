@@ -31,15 +31,18 @@ struct Road {
   }
   /// Cost of the lane of 3 s at 5 m/s: along our lane, or over to the left one by a quintic of 15 m.
   [[nodiscard]] float lane_cost(bool changes) const {
+    return lane_cost(changes ? 1 : 0, changes ? 3.2F : 0.0F);
+  }
+  /// The same of a motion on `path` that comes `over_m` to the left.
+  [[nodiscard]] float lane_cost(int path, float over_m) const {
     Trajectory trajectory;
     for (int i = 0; i < kTrajectoryPoints; ++i) {
       const float way_m = 0.5F * static_cast<float>(i);
       TrajectoryPoint& point = trajectory.points[i];
       point = state_on(map, scene.ego_paths[0].path, 40.0F + way_m, 5.0F);
       const float u = way_m / 15.0F;
-      if (changes) point.rear_axle.y_m += 3.2F * u * u * u * (10.0F - 15.0F * u + 6.0F * u * u);
+      point.rear_axle.y_m += over_m * u * u * u * (10.0F - 15.0F * u + 6.0F * u * u);
     }
-    const int path = changes ? 1 : 0;
     int work = 0;
     return score_motion(scene, cost_to_go, path, 40.0F, trajectory, false, false, parameters, work).lane;
   }
@@ -50,6 +53,18 @@ struct Road {
 TEST(Scoring, ALaneChangeThatIsDueIsOverItsLineInTime) {
   EXPECT_LT(Road(54.0F).lane_cost(true), 0.1F * kMissed);
   EXPECT_GT(Road(48.0F).lane_cost(true), kMissed);
+}
+
+// Who aims for the lane beside and stays in its own pays for its own, and who is over there for that one. Half way over the line
+// between them, 1.6 m from the new lane's centre, (1.6 / 3.2 - 0.4) / 0.6 = 1/6 of the difference is left.
+TEST(Scoring, ALaneIsWorthWhatOfTheChangeIsMade) {
+  Road road(250.0F);
+  road.parameters.scoring.lane_offset = 0.0F;
+  const float own = road.lane_cost(0, 0.0F);
+  const float there = road.lane_cost(1, 3.2F);
+  EXPECT_GT(own, there + 5.0F);
+  EXPECT_NEAR(road.lane_cost(1, 0.0F), own, 1e-3F);
+  EXPECT_NEAR(road.lane_cost(1, 1.6F), there + (own - there) / 6.0F, 0.01F * own);
 }
 
 // At 55 m and 5 m/s our front is at 59 m, and stands 5 m further on. With 15 m left from there a change from rest
