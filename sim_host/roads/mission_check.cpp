@@ -11,9 +11,9 @@
 namespace s4tp::roads {
 namespace {
 
-using world::LaneId;
-using world::Network;
-using world::NetworkLane;
+using map::LaneId;
+using map::Network;
+using map::NetworkLane;
 
 constexpr double kPerChange_m = 20.0;
 constexpr double kTightestRadius_m = 5.5;
@@ -30,7 +30,7 @@ std::set<LaneId> spread(const Network& network, std::set<LaneId> lanes, int chan
   for (int i = 0; i < changes; ++i) {
     for (const LaneId lane : std::set<LaneId>(lanes)) {
       for (const LaneId beside : {lane_at(network, lane).left, lane_at(network, lane).right}) {
-        if (beside != world::kNoLane) {
+        if (beside != map::kNoLane) {
           lanes.insert(beside);
         }
       }
@@ -57,8 +57,8 @@ std::set<LaneId> followed(const Network& network, const std::set<LaneId>& lanes,
   return reached;
 }
 
-bool changes_fit(const world::Scenario& scenario) {
-  const world::Mission& mission = scenario.mission;
+bool changes_fit(const scenario::Scenario& scenario) {
+  const scenario::Mission& mission = scenario.mission;
   const Network& network = scenario.network;
   std::set<LaneId> lanes{mission.start_lane};
   for (std::size_t i = 0; i < mission.edges.size(); ++i) {
@@ -88,8 +88,8 @@ bool is_tight(const NetworkLane& lane) {
 
 }  // namespace
 
-std::string obstacle_of(const world::Scenario& scenario) {
-  const world::Mission& mission = scenario.mission;
+std::string obstacle_of(const scenario::Scenario& scenario) {
+  const scenario::Mission& mission = scenario.mission;
   const Network& network = scenario.network;
   for (const LaneId lane : {mission.start_lane, mission.goal_lane}) {
     if (lane_at(network, lane).centre.length_m() < kShortestArm_m - kRounding_m) {
@@ -105,7 +105,7 @@ std::string obstacle_of(const world::Scenario& scenario) {
   if (!changes_fit(scenario)) {
     return "no room for its lane changes";
   }
-  const world::RouteGuide guide(network, mission.edges, mission.goal_lane, mission.goal_s_m);
+  const map::RouteGuide guide(network, mission.edges, mission.goal_lane, mission.goal_s_m);
   for (std::size_t i = 0; i < network.lanes.size(); ++i) {
     if (guide.advice(static_cast<LaneId>(i)).on_route && is_tight(network.lanes[i])) {
       return "a corner tighter than the car";

@@ -18,7 +18,7 @@
 #include <thread>
 #include <utility>
 
-namespace s4tp::world {
+namespace s4tp::sumo {
 namespace {
 
 using namespace std::chrono_literals;
@@ -146,4 +146,4 @@ std::string SumoProcess::last_words() const {
   return words.empty() ? "nothing" : words;
 }
 
-}  // namespace s4tp::world
+}  // namespace s4tp::sumo

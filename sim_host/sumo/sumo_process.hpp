@@ -7,7 +7,7 @@
 #include <thread>
 #include <vector>
 
-namespace s4tp::world {
+namespace s4tp::sumo {
 
 /// Files that exist in memory only, so that nothing is left behind however we end.
 class MemoryFile {
@@ -51,4 +51,4 @@ class SumoProcess {
   std::jthread parent_;  ///< the kernel takes the thread that forked for the parent: here one that stays
 };
 
-}  // namespace s4tp::world
+}  // namespace s4tp::sumo

@@ -10,7 +10,7 @@
 #include "tests/fuzz/files.hpp"
 
 using namespace s4tp;
-using namespace s4tp::world;
+using namespace s4tp::map;
 using fuzz::expect;
 
 namespace {
@@ -48,10 +48,10 @@ void check(const Network& network) {
 void drive(const Network& network) {
   const RouteGuide guide(network, {network.lanes.front().edge}, kNoLane, 0.0);
   const Vec2 start = network.lanes.front().centre.points().front();
-  const Locator locator(network, guide);
-  const RoadIndex road(network);
+  const traffic::Locator locator(network, guide);
+  const traffic::RoadIndex road(network);
   expect(!locator.off_road(start), "a lane's start is on the road");
-  MapNode map(network, guide, start, 150.0);
+  nodes::MapNode map(network, guide, start, 150.0);
   for (const wire::Lane& lane : map.update(start).lanes)
     expect(!lane.present || (lane.point_count >= 2 && lane.point_count <= wire::kMaxLanePoints),
            "parts can be sent");

@@ -17,7 +17,7 @@
 #include "sim_host/world/world.hpp"
 #include "tests/support/sumo_scenarios.hpp"
 
-namespace s4tp::world {
+namespace s4tp::sumo {
 namespace {
 
 namespace fs = std::filesystem;
@@ -60,7 +60,7 @@ bool ends_soon(pid_t process) {
 
 // SUMO dies in the middle of an episode: the next step says so at once.
 TEST(SumoTraffic, SaysThatSumoHasDied) {
-  const Scenario scenario = shipped("cruise");
+  const scenario::Scenario scenario = shipped("cruise");
   SumoTraffic traffic(scenario, without_ego(5));
   advance(traffic, 1.0);
   kill(traffic.process(), SIGKILL);
@@ -72,7 +72,7 @@ TEST(SumoTraffic, SaysThatSumoHasDied) {
 // SUMO-003 A SUMO that cannot load its network, cannot have its port, or is not there, is an error in its
 // words.
 TEST(SumoTraffic, SaysWhySumoDoesNotComeUp) {
-  Scenario scenario = shipped("cruise");
+  scenario::Scenario scenario = shipped("cruise");
   scenario.network_file = "/nowhere.net.xml";
   const std::string no_network = what_of([&] { SumoTraffic traffic(scenario, without_ego(5)); });
   EXPECT_NE(no_network.find("nowhere.net.xml"), std::string::npos) << no_network;
@@ -176,4 +176,4 @@ TEST(SumoProcess, NoneIsLeftOfAnInterruptedCampaign) {
 }
 
 }  // namespace
-}  // namespace s4tp::world
+}  // namespace s4tp::sumo

@@ -11,7 +11,7 @@
 
 #include "tests/support/networks.hpp"
 
-namespace s4tp::world {
+namespace s4tp::map {
 namespace {
 
 using test::kBridged;
@@ -248,4 +248,4 @@ TEST(Network, LoadsWithoutJunctionLanes) {
 }
 
 }  // namespace
-}  // namespace s4tp::world
+}  // namespace s4tp::map

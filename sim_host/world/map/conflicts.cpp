@@ -9,7 +9,7 @@
 
 #include "sim_host/world/map/junction_links.hpp"
 
-namespace s4tp::world {
+namespace s4tp::map {
 namespace {
 
 constexpr double kStep_m = 0.25;
@@ -217,4 +217,4 @@ std::vector<NetworkConflict> find_conflicts(const std::vector<NetworkLane>& lane
   return conflicts;
 }
 
-}  // namespace s4tp::world
+}  // namespace s4tp::map

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace s4tp::world {
+namespace s4tp::map {
 namespace {
 
 constexpr double kChange_m = 20.0;
@@ -112,4 +112,4 @@ std::vector<std::string> find_route(const Network& network, const std::string& f
   return edges;
 }
 
-}  // namespace s4tp::world
+}  // namespace s4tp::map

@@ -3,7 +3,7 @@
 
 #include "sim_host/world/map/junction_links.hpp"
 
-namespace s4tp::world {
+namespace s4tp::map {
 namespace {
 
 constexpr double kTouching_m = 0.1;
@@ -83,4 +83,4 @@ std::optional<NetworkLane> bridge_between(const NetworkLane& from, const Network
   return bridge;
 }
 
-}  // namespace s4tp::world
+}  // namespace s4tp::map

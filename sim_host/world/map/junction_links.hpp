@@ -8,7 +8,7 @@
 
 #include "sim_host/world/map/network.hpp"
 
-namespace s4tp::world {
+namespace s4tp::map {
 
 /// One way through a junction.
 struct Link {
@@ -38,4 +38,4 @@ struct Junction {
 /// put on the arc between its lanes where that stays within 2 m of it.
 void round_turn(NetworkLane& turn, const NetworkLane& from, const NetworkLane& to);
 
-}  // namespace s4tp::world
+}  // namespace s4tp::map

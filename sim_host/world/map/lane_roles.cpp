@@ -5,7 +5,7 @@
 #include <deque>
 #include <numbers>
 
-namespace s4tp::world {
+namespace s4tp::map {
 namespace {
 
 constexpr double kStraight_rad = 45.0 / 180.0 * std::numbers::pi;
@@ -134,4 +134,4 @@ bool yields_at_end(const Network& network, const RouteGuide& guide, LaneId lane)
   return next != kNoLane ? must(next) : std::any_of(all.begin(), all.end(), must);
 }
 
-}  // namespace s4tp::world
+}  // namespace s4tp::map

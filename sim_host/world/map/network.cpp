@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace s4tp::world {
+namespace s4tp::map {
 
 LaneId Network::find(const std::string& lane_name) const {
   const auto found = std::find_if(lanes.begin(), lanes.end(),
@@ -30,4 +30,4 @@ std::vector<LaneId> Network::lanes_of(const std::string& edge) const {
   return found;
 }
 
-}  // namespace s4tp::world
+}  // namespace s4tp::map

@@ -8,7 +8,7 @@
 
 #include "sim_host/world/map/polyline.hpp"
 
-namespace s4tp::world {
+namespace s4tp::map {
 
 using LaneId = int;  ///< index into Network::lanes
 inline constexpr LaneId kNoLane = -1;
@@ -95,4 +95,4 @@ class RouteGuide {
   std::vector<Advice> advice_;  ///< of each of them
 };
 
-}  // namespace s4tp::world
+}  // namespace s4tp::map

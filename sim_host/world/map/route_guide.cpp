@@ -6,7 +6,7 @@
 
 #include "sim_host/world/map/network.hpp"
 
-namespace s4tp::world {
+namespace s4tp::map {
 namespace {
 
 /// A way from a lane of one edge of the route to a lane of the next.
@@ -173,4 +173,4 @@ const RouteGuide::Advice& RouteGuide::advice(LaneId lane) const {
                                                  : advice_[static_cast<std::size_t>(found - lanes_.begin())];
 }
 
-}  // namespace s4tp::world
+}  // namespace s4tp::map

@@ -7,7 +7,7 @@
 #include "sim_host/world/map/sumo_lane.hpp"
 #include "sim_host/world/map/xml_values.hpp"
 
-namespace s4tp::world {
+namespace s4tp::map {
 namespace {
 
 // NET-004. Shapes are followed step by step, so a number in a small file must not say how many steps that are.
@@ -129,4 +129,4 @@ void check_through(const NetworkLane& inside, double length_m) {
   }
 }
 
-}  // namespace s4tp::world
+}  // namespace s4tp::map

@@ -9,7 +9,7 @@
 
 #include "sim_host/world/map/junction_links.hpp"
 
-namespace s4tp::world {
+namespace s4tp::map {
 
 /// What junctions name: lanes and edges.
 struct NetworkNames {
@@ -26,4 +26,4 @@ struct NetworkNames {
 /// \throws when a way through a junction is longer than 1000 m (NET-004)
 void check_through(const NetworkLane& inside, double length_m);
 
-}  // namespace s4tp::world
+}  // namespace s4tp::map

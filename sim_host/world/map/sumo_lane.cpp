@@ -7,7 +7,7 @@
 
 #include "sim_host/world/map/xml_values.hpp"
 
-namespace s4tp::world {
+namespace s4tp::map {
 namespace {
 
 constexpr double kDefaultWidth_m = 3.2;      // SUMO's own
@@ -89,4 +89,4 @@ std::optional<NetworkLane> read_lane(const pugi::xml_node& node, const std::stri
   return lane;
 }
 
-}  // namespace s4tp::world
+}  // namespace s4tp::map

@@ -8,7 +8,7 @@
 
 #include "sim_host/world/map/network.hpp"
 
-namespace s4tp::world {
+namespace s4tp::map {
 
 [[noreturn]] void fail_at(const std::string& where, const std::string& what);
 [[nodiscard]] double lane_number(const pugi::xml_node& node, const char* name, double missing,
@@ -21,4 +21,4 @@ namespace s4tp::world {
 [[nodiscard]] std::optional<NetworkLane> read_lane(const pugi::xml_node& node, const std::string& edge,
                                                    bool in_junction, const std::string& where);
 
-}  // namespace s4tp::world
+}  // namespace s4tp::map

@@ -13,7 +13,7 @@
 #include "sim_host/world/map/sumo_lane.hpp"
 #include "sim_host/world/map/xml_values.hpp"
 
-namespace s4tp::world {
+namespace s4tp::map {
 namespace {
 
 // NET-004. Shapes are followed step by step, so a number in a small file must not say how many steps that are.
@@ -274,4 +274,4 @@ Network load_network(const std::filesystem::path& file) {
   }
 }
 
-}  // namespace s4tp::world
+}  // namespace s4tp::map

@@ -19,7 +19,7 @@
 #include "sim_host/world/traffic/traffic_junction.hpp"
 #include "sim_host/world/traffic/traffic_view.hpp"
 
-namespace s4tp::world {
+namespace s4tp::traffic {
 
 /// One car of the traffic; its box centre is at `s_m` along the lane, `offset_m` to the left of it.
 struct TrafficCar {
@@ -28,17 +28,17 @@ struct TrafficCar {
   int id = 0;  ///< 1 + the index of its departure: no draw, and nobody's delay, changes it
   std::size_t way = 0;
   Driver driver;
-  LaneId lane = kNoLane;
+  map::LaneId lane = map::kNoLane;
   double s_m = 0.0;
   double speed_mps = 0.0;
   double acceleration_mps2 = 0.0;
   double length_m = 5.0;
   double width_m = 1.8;
 
-  LaneId leaving = kNoLane;    ///< lane being left during a change
-  double change_from_m = 0.0;  ///< offset at the start of the change
-  double change_done = 1.0;    ///< 0 .. 1
-  double next_change_s = 0.0;  ///< no wish before
+  map::LaneId leaving = map::kNoLane;  ///< lane being left during a change
+  double change_from_m = 0.0;          ///< offset at the start of the change
+  double change_done = 1.0;            ///< 0 .. 1
+  double next_change_s = 0.0;          ///< no wish before
 
   bool committed = false;
   double waited_s = 0.0;
@@ -60,16 +60,16 @@ class Traffic : public TrafficEngine {
  public:
   /// WORLD-021 The same network, groups and seed give the same traffic to the bit. WORLD-022 Whoever enters
   /// late shifts nobody else's id, order or draws: who does not meet it drives on to the bit.
-  Traffic(const Network& network, const std::vector<FlowGroup>& groups, std::uint64_t seed);
+  Traffic(const map::Network& network, const std::vector<scenario::FlowGroup>& groups, std::uint64_t seed);
   /// \param episode  chooses among the scenario's route files
-  Traffic(const Scenario& scenario, std::uint64_t episode, std::uint64_t seed);
+  Traffic(const scenario::Scenario& scenario, std::uint64_t episode, std::uint64_t seed);
 
   void step(const EgoSeen* ego) override;
   [[nodiscard]] std::unique_ptr<TrafficEngine> clone() const override;
   [[nodiscard]] double time_s() const override { return static_cast<double>(ticks_) * 0.01; }
   [[nodiscard]] std::vector<CarState> cars() const override;
   [[nodiscard]] std::vector<CarFlags> flags() const override;
-  void clear(LaneId lane, double from_m, double to_m) override;
+  void clear(map::LaneId lane, double from_m, double to_m) override;
   [[nodiscard]] int finished() const override { return finished_; }
 
   [[nodiscard]] const std::vector<TrafficCar>& details() const { return cars_; }
@@ -90,7 +90,7 @@ class Traffic : public TrafficEngine {
   [[nodiscard]] double acceleration(TrafficCar& car, const Actor& self, const TrafficView& view);
   void consider_lane_change(TrafficCar& car, const Actor& self, const TrafficView& view);
   void insert_waiting(const Actor* ego);
-  [[nodiscard]] const NetworkLane& lane(LaneId id) const { return road_->lane(id); }
+  [[nodiscard]] const map::NetworkLane& lane(map::LaneId id) const { return road_->lane(id); }
 
   std::shared_ptr<const RoadIndex> road_;  ///< what never changes is shared with the copies
   std::shared_ptr<const FlowPlan> plan_;
@@ -129,4 +129,4 @@ class Traffic : public TrafficEngine {
   Driver ego_driver_;  ///< what others take the ego's driver to be
 };
 
-}  // namespace s4tp::world
+}  // namespace s4tp::traffic

@@ -6,7 +6,7 @@
 
 #include "sim_host/world/traffic/traffic.hpp"
 
-namespace s4tp::world {
+namespace s4tp::traffic {
 namespace {
 
 // Of sigma times acceleration: costs 2 to 3 % of speed, as SUMO's does.
@@ -57,8 +57,8 @@ double Traffic::follow(TrafficCar& car, const Actor& self, const TrafficView& vi
 
 double Traffic::for_lane_end(const TrafficCar& car, const Actor& self, double wanted_mps) const {
   const WayPart& last = self.way.back();
-  const bool leads_on =
-      lane(last.lane).edge == plan_->ways[car.way].last_edge || self.guide->advice(last.lane).next != kNoLane;
+  const bool leads_on = lane(last.lane).edge == plan_->ways[car.way].last_edge ||
+                        self.guide->advice(last.lane).next != map::kNoLane;
   if (leads_on) {
     return kFree;
   }
@@ -126,4 +126,4 @@ double Traffic::acceleration(TrafficCar& car, const Actor& self, const TrafficVi
   return std::clamp(result, -car.driver.emergency_mps2, car.driver.acceleration_mps2);
 }
 
-}  // namespace s4tp::world
+}  // namespace s4tp::traffic

@@ -7,7 +7,7 @@
 
 #include "sim_host/world/traffic/traffic.hpp"
 
-namespace s4tp::world {
+namespace s4tp::traffic {
 namespace {
 
 constexpr double kMinimumBehind_m = 2.5;  // to somebody before whom a car appears
@@ -71,7 +71,7 @@ void Traffic::insert_waiting(const Actor* ego) {
     car.id = static_cast<int>(index) + 1;
     car.way = departure.way;
     car.driver = departure.driver;
-    car.lane = static_cast<LaneId>(id);
+    car.lane = static_cast<map::LaneId>(id);
     car.length_m = departure.length_m;
     car.width_m = departure.width_m;
     car.s_m = departure.s_m < 0.0 ? 0.5 * car.length_m + 0.1 : departure.s_m;
@@ -89,4 +89,4 @@ void Traffic::insert_waiting(const Actor* ego) {
   }
 }
 
-}  // namespace s4tp::world
+}  // namespace s4tp::traffic
