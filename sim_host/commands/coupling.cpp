@@ -65,7 +65,7 @@ int measure(const Options& options) {
       int unfinished = 0;
       for (int i = 0; i < options.episodes; ++i) {
         const std::uint64_t seed = options.common.seed + static_cast<std::uint64_t>(i);
-        const sumo::SumoDrive drive = sumo::sumo_drive(scenario, seed, driver);
+        const sumo::Drive drive = sumo::sumo_drive(scenario, seed, driver);
         touched += drive.touched ? 1 : 0;
         unfinished += drive.arrived ? 0 : 1;
         if (!drive.touched) {

@@ -16,7 +16,7 @@ using judge::JourneyPoint;
 using judge::Law;
 using judge::ZoneGroup;
 using judge::ZoneOnWay;
-using map::NetworkLane;
+using map::Lane;
 using map::Rule;
 using traffic::CarState;
 using traffic::Snapshot;
@@ -51,11 +51,11 @@ std::vector<std::pair<map::LaneId, double>> places_of(const Evidence& evidence, 
   if (car.lane == map::kNoLane) {
     return places;
   }
-  const NetworkLane& lane = evidence.road().lane(car.lane);
+  const Lane& lane = evidence.road().lane(car.lane);
   places.emplace_back(car.lane, lane.centre.project(car.centre).s_m);
   for (const map::LaneId beside : {lane.left, lane.right}) {
     if (beside != map::kNoLane) {
-      const NetworkLane& other = evidence.road().lane(beside);
+      const Lane& other = evidence.road().lane(beside);
       const map::PolylineProjection at = other.centre.project(car.centre);
       if (std::abs(at.d_m) < 0.5 * (other.width_m + car.width_m) - kReachesIn_m) {
         places.emplace_back(beside, at.s_m);

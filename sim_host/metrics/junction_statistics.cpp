@@ -11,8 +11,8 @@ namespace {
 
 using judge::Journey;
 using map::kNoLane;
+using map::Lane;
 using map::LaneId;
-using map::NetworkLane;
 using map::Rule;
 
 constexpr double kMoving_mps = 3.0;
@@ -29,7 +29,7 @@ void post_encroachment(const map::Network& network, const std::vector<Journey>& 
     double out_s = 0.0;
     bool first_lane = false;
   };
-  for (const map::NetworkConflict& zone : network.conflicts) {
+  for (const map::Conflict& zone : network.conflicts) {
     std::vector<Stay> stays;
     for (const Journey& track : tracks) {
       for (const bool first : {true, false}) {
@@ -64,7 +64,7 @@ std::vector<YieldZone> yield_zones(const map::Network& network, LaneId first_lan
   std::vector<YieldZone> zones;
   LaneId lane = first_lane;
   for (int part = 0; part < 3 && lane != kNoLane && lane_of(network, lane).in_junction; ++part) {
-    for (const map::NetworkConflict& c : network.conflicts) {
+    for (const map::Conflict& c : network.conflicts) {
       if (c.first == lane && c.rule == Rule::kFirstYields) {
         zones.push_back({lane, c.first_entry_m, c.second, c.second_entry_m});
       } else if (c.second == lane && c.rule == Rule::kFirstHasPriority) {
@@ -79,7 +79,7 @@ std::vector<YieldZone> yield_zones(const map::Network& network, LaneId first_lan
 
 /// By the angle between the lanes before and behind the junction.
 Manoeuvre turn_of(const map::Network& network, LaneId inside) {
-  const NetworkLane& before = lane_of(network, lane_of(network, inside).predecessors.front());
+  const Lane& before = lane_of(network, lane_of(network, inside).predecessors.front());
   LaneId after = inside;
   for (int part = 0; part < 3 && lane_of(network, after).in_junction; ++part) {
     if (lane_of(network, after).successors.empty()) {
@@ -158,7 +158,7 @@ std::optional<std::vector<double>> others_at_line_s(const std::vector<YieldZone>
 
 void junction_gaps(const map::Network& network, const std::vector<Journey>& tracks, TrafficSamples& samples) {
   for (std::size_t id = 0; id < network.lanes.size(); ++id) {
-    const NetworkLane& inside = network.lanes[id];
+    const Lane& inside = network.lanes[id];
     if (!inside.in_junction || inside.predecessors.empty() ||
         lane_of(network, inside.predecessors.front()).in_junction) {
       continue;
@@ -192,7 +192,7 @@ void still_waiting(const map::Network& network, const std::vector<Journey>& trac
                    TrafficSamples& samples) {
   for (const Journey& track : tracks) {
     const judge::JourneyPoint& last = track.points.back();
-    const NetworkLane& lane = lane_of(network, last.lane);
+    const Lane& lane = lane_of(network, last.lane);
     const bool at_line = !lane.successors.empty() && lane_of(network, lane.successors.front()).in_junction &&
                          last.s_m > lane.centre.length_m() - kFirstInLine_m - 0.5 * track.length_m;
     const auto moved = std::find_if(track.points.rbegin(), track.points.rend(),

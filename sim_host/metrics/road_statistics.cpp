@@ -10,8 +10,8 @@ namespace s4tp::metrics {
 namespace {
 
 using map::kNoLane;
+using map::Lane;
 using map::LaneId;
-using map::NetworkLane;
 
 constexpr double kDetectorLane_m = 20.0;
 constexpr double kFollowing_s = 3.0;
@@ -91,7 +91,7 @@ GapChoice merge_choice(const map::Network& network, std::span<const traffic::Sna
 void add_headways(const map::Network& network, const std::vector<judge::Journey>& tracks,
                   TrafficSamples& samples) {
   for (std::size_t id = 0; id < network.lanes.size(); ++id) {
-    const NetworkLane& lane = network.lanes[id];
+    const Lane& lane = network.lanes[id];
     if (lane.in_junction || lane.centre.length_m() < kDetectorLane_m) {
       continue;
     }
@@ -134,7 +134,7 @@ void add_lane_changes(const map::Network& network, std::span<const traffic::Snap
       if (before == nullptr || before->lane == kNoLane || car.lane == kNoLane || before->lane == car.lane) {
         continue;
       }
-      const NetworkLane& from = lane_of(network, before->lane);
+      const Lane& from = lane_of(network, before->lane);
       if (car.lane != from.left && car.lane != from.right) {
         continue;
       }

@@ -82,7 +82,7 @@ void AsSeen::keep_lanes(const wire::Map& map) {
                                    std::lround(last.y)};
     if (!known_.insert(ends).second) continue;
     try {
-      map::NetworkLane drawn;
+      map::Lane drawn;
       drawn.centre = map::Polyline(points);
       drawn.width_m = lane.width_m;
       drawn.in_junction = lane.in_junction;

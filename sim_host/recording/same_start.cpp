@@ -22,20 +22,20 @@ namespace s4tp::recording {
 namespace {
 
 namespace fs = std::filesystem;
+using map::Lane;
 using map::LaneId;
 using map::Network;
-using map::NetworkLane;
 
 constexpr double kTick_s = 0.01;
 
 /// A position along a lane's shape as SUMO counts it.
-double sumo_position_m(const NetworkLane& lane, double s_m) {
+double sumo_position_m(const Lane& lane, double s_m) {
   const double shape_m = lane.centre.length_m();
   const double on_lane_m = std::clamp(s_m, 0.0, shape_m);
   return lane.sumo_length_m > 0.0 ? on_lane_m * lane.sumo_length_m / shape_m : on_lane_m;
 }
 
-double turn_rad(const NetworkLane& lane) {
+double turn_rad(const Lane& lane) {
   const double turn = lane.centre.at(lane.centre.length_m()).heading_rad - lane.centre.at(0.0).heading_rad;
   return std::abs(std::remainder(turn, 2.0 * std::numbers::pi));
 }
@@ -49,7 +49,7 @@ std::string straight_on(const Network& network, LaneId lane) {
     lane = *std::min_element(ways.begin(), ways.end(), [&](LaneId a, LaneId b) {
       return turn_rad(lane_of(network, a)) < turn_rad(lane_of(network, b));
     });
-    const NetworkLane& next = lane_of(network, lane);
+    const Lane& next = lane_of(network, lane);
     if (next.in_junction) continue;
     if (!passed.insert(next.edge).second) break;
     edges += ' ' + next.edge;
@@ -135,7 +135,7 @@ StartMade write_same_start(const fs::path& file, const DriveNote& note, double s
 
   std::string routes = "<routes>\n";
   for (const auto& [car, at] : placed) {
-    const NetworkLane& lane = lane_of(network, at.lane);
+    const Lane& lane = lane_of(network, at.lane);
     const std::string id = '"' + std::to_string(car.id) + '"';
     const double front_m = sumo_position_m(lane, at.s_m + 0.5 * car.length_m);
     routes += " <vType id=" + id + " length=\"" + std::to_string(car.length_m) + "\" width=\"" +
@@ -147,8 +147,8 @@ StartMade write_same_start(const fs::path& file, const DriveNote& note, double s
   routes += "</routes>\n";
 
   const scenario::Mission& mission = roads.mission;
-  const NetworkLane& start = lane_of(network, self.lane);
-  const NetworkLane& goal = lane_of(network, mission.goal_lane);
+  const Lane& start = lane_of(network, self.lane);
+  const Lane& goal = lane_of(network, mission.goal_lane);
   fs::create_directories(folder);
   fs::copy_file(roads.network_file, folder / "network.net.xml");
   write(folder / "traffic.rou.xml", routes);

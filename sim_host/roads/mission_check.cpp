@@ -11,9 +11,9 @@
 namespace s4tp::roads {
 namespace {
 
+using map::Lane;
 using map::LaneId;
 using map::Network;
-using map::NetworkLane;
 
 constexpr double kPerChange_m = 20.0;
 constexpr double kTightestRadius_m = 5.5;
@@ -21,7 +21,7 @@ constexpr double kCar_m = 5.0;
 constexpr double kRounding_m = 0.5;  ///< by which netconvert may cut an arm shorter than drawn
 constexpr double kFreeShare = 0.5;
 
-const NetworkLane& lane_at(const Network& network, LaneId lane) {
+const Lane& lane_at(const Network& network, LaneId lane) {
   return network.lanes[static_cast<std::size_t>(lane)];
 }
 
@@ -75,7 +75,7 @@ bool changes_fit(const scenario::Scenario& scenario) {
 }
 
 /// Over any length of a car a lane may turn as much as an arc of the tightest radius does.
-bool is_tight(const NetworkLane& lane) {
+bool is_tight(const Lane& lane) {
   for (double s_m = -kCar_m; s_m < lane.centre.length_m(); s_m += 0.5) {
     const double turned_rad = std::remainder(
         lane.centre.at(s_m + kCar_m).heading_rad - lane.centre.at(s_m).heading_rad, 2.0 * M_PI);
@@ -96,9 +96,7 @@ std::string obstacle_of(const scenario::Scenario& scenario) {
       return "an arm shorter than 25 m";
     }
   }
-  const auto is_short = [](const NetworkLane& lane) {
-    return !lane.in_junction && lane.centre.length_m() < kCar_m;
-  };
+  const auto is_short = [](const Lane& lane) { return !lane.in_junction && lane.centre.length_m() < kCar_m; };
   if (std::any_of(network.lanes.begin(), network.lanes.end(), is_short)) {
     return "an edge shorter than a car";
   }

@@ -9,8 +9,8 @@
 namespace s4tp::roads {
 namespace {
 
+using map::Lane;
 using map::LaneId;
-using map::NetworkLane;
 using scenario::format;
 
 constexpr double kFirstStart_m = 5.0;
@@ -81,7 +81,7 @@ std::string mission_toml(const RoadMission& mission, const map::Network& network
   if (id == map::kNoLane) {
     throw std::runtime_error("no lane to start in");
   }
-  const NetworkLane& lane = network.lanes[static_cast<std::size_t>(id)];
+  const Lane& lane = network.lanes[static_cast<std::size_t>(id)];
   const double room_m =
       std::clamp(lane.centre.length_m() - kShortestArm_m, 0.0, kLatestStart_m - kFirstStart_m);
   const double start_m = kFirstStart_m + mission.start_share * room_m;

@@ -11,7 +11,7 @@ namespace {
 constexpr double kStands_mps = 0.1;
 constexpr double kClearHeadway_s = 1.5;
 
-void advance_to_entry(SumoTraffic& traffic, const scenario::Scenario& scenario) {
+void advance_to_entry(Traffic& traffic, const scenario::Scenario& scenario) {
   const scenario::Mission& mission = scenario.mission;
   const long ticks = std::lround(mission.entry_time_s / traffic::kTick_s);
   for (long i = 0; i < ticks; ++i) {
@@ -33,18 +33,18 @@ bool touches(const traffic::CarState& ego, const std::vector<traffic::CarState>&
 
 }  // namespace
 
-SumoDrive sumo_drive(const scenario::Scenario& scenario, std::uint64_t seed, const std::string& driver) {
+Drive sumo_drive(const scenario::Scenario& scenario, std::uint64_t seed, const std::string& driver) {
   traffic::EngineOptions options;
   options.engine = scenario::Engine::kSumo;
   options.seed = options.episode = seed;
   options.ego = traffic::DrivenBy::kEngine;
   EgoCoupling as;
   as.driver = driver;
-  SumoTraffic traffic(scenario, options, as);
+  Traffic traffic(scenario, options, as);
   advance_to_entry(traffic, scenario);
   const map::Polyline& goal =
       scenario.network.lanes[static_cast<std::size_t>(scenario.mission.goal_lane)].centre;
-  SumoDrive drive;
+  Drive drive;
   const long ticks = std::lround(scenario.mission.time_limit_s / traffic::kTick_s);
   for (long i = 0; i < ticks && !drive.arrived; ++i) {
     traffic.step(nullptr);
@@ -58,12 +58,12 @@ SumoDrive sumo_drive(const scenario::Scenario& scenario, std::uint64_t seed, con
   return drive;
 }
 
-Replay replay(const scenario::Scenario& scenario, std::uint64_t seed, const SumoDrive& drive,
+Replay replay(const scenario::Scenario& scenario, std::uint64_t seed, const Drive& drive,
               const EgoCoupling& coupling) {
   traffic::EngineOptions options;
   options.engine = scenario::Engine::kSumo;
   options.seed = options.episode = seed;
-  SumoTraffic traffic(scenario, options, coupling);
+  Traffic traffic(scenario, options, coupling);
   advance_to_entry(traffic, scenario);
   Replay result;
   for (std::size_t i = 0; i + 1 < drive.ego.size() && !result.touched; ++i) {

@@ -26,15 +26,14 @@ class MemoryFile {
 
 /// SUMO-001 The child ends with this object, and with our process: also when we are killed. Threads may come
 /// and go meanwhile.
-class SumoProcess {
+class Process {
  public:
   /// Starts PROGRAM (found along PATH) with `input` as its standard input.
   /// \throws std::runtime_error saying that it is missing, and where to get it
-  SumoProcess(const std::string& program, const std::vector<std::string>& arguments,
-              const std::string& input);
-  ~SumoProcess();
-  SumoProcess(const SumoProcess&) = delete;
-  SumoProcess& operator=(const SumoProcess&) = delete;
+  Process(const std::string& program, const std::vector<std::string>& arguments, const std::string& input);
+  ~Process();
+  Process(const Process&) = delete;
+  Process& operator=(const Process&) = delete;
 
   [[nodiscard]] bool lives();
   /// Gives it a moment to end by itself.

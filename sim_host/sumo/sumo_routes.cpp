@@ -98,8 +98,7 @@ void check_route(const scenario::Scenario& scenario, const std::vector<std::stri
 }  // namespace
 
 void check_names(const scenario::Scenario& scenario) {
-  for (const map::NetworkLane& lane :
-       scenario.network.lanes) {  // its network files list them at each junction
+  for (const map::Lane& lane : scenario.network.lanes) {  // its network files list them at each junction
     if (std::any_of(lane.edge.begin(), lane.edge.end(), is_blank)) refuse(scenario, lane.edge);
   }
   check_route(scenario, scenario.mission.edges);

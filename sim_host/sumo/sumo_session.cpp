@@ -117,8 +117,8 @@ std::string definitions(const scenario::Scenario& scenario, std::uint64_t seed, 
 
 }  // namespace
 
-SumoSession start_sumo(const scenario::Scenario& scenario, const traffic::EngineOptions& options,
-                       const std::string& driver) {
+Session start_sumo(const scenario::Scenario& scenario, const traffic::EngineOptions& options,
+                   const std::string& driver) {
   const std::vector<std::string> asked = arguments(scenario, options);
   const std::string input = definitions(scenario, options.seed, driver);
   std::string words;
@@ -126,8 +126,8 @@ SumoSession start_sumo(const scenario::Scenario& scenario, const traffic::Engine
     const ReservedPort port;
     std::vector<std::string> all = asked;
     all.insert(all.end(), {"--remote-port", std::to_string(port.number()), "--num-clients", "1"});
-    SumoSession session;
-    session.process = std::make_unique<SumoProcess>("sumo", all, input);
+    Session session;
+    session.process = std::make_unique<Process>("sumo", all, input);
     const auto end = steady_clock::now() + kPatience;
     int connection = -1;
     while (connection < 0 && session.process->lives() && steady_clock::now() < end) {

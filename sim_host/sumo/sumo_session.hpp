@@ -12,14 +12,14 @@
 namespace s4tp::sumo {
 
 /// A SUMO that has loaded network and routes and waits for its first step.
-struct SumoSession {
-  std::unique_ptr<SumoProcess> process;
+struct Session {
+  std::unique_ptr<Process> process;
   std::unique_ptr<traci::Client> client;
 };
 
 /// SUMO-003 \throws std::runtime_error with SUMO's own words when it does not come up
 /// \param driver  further attributes of the ego's vehicle type, as XML
-[[nodiscard]] SumoSession start_sumo(const scenario::Scenario& scenario,
-                                     const traffic::EngineOptions& options, const std::string& driver);
+[[nodiscard]] Session start_sumo(const scenario::Scenario& scenario, const traffic::EngineOptions& options,
+                                 const std::string& driver);
 
 }  // namespace s4tp::sumo

@@ -65,8 +65,8 @@ const std::vector<std::string>& ids(const traci::Variables& variables, int varia
 
 }  // namespace
 
-SumoTraffic::SumoTraffic(const scenario::Scenario& scenario, const traffic::EngineOptions& options,
-                         const EgoCoupling& coupling)
+Traffic::Traffic(const scenario::Scenario& scenario, const traffic::EngineOptions& options,
+                 const EgoCoupling& coupling)
     : scenario_(scenario),
       options_(options),
       coupling_(coupling),
@@ -86,19 +86,19 @@ SumoTraffic::SumoTraffic(const scenario::Scenario& scenario, const traffic::Engi
   }
 }
 
-SumoTraffic::~SumoTraffic() {
+Traffic::~Traffic() {
   sumo_.client->close();
   sumo_.process->wait_for_end();
 }
 
-void SumoTraffic::fail(const traci::Error& error) {
+void Traffic::fail(const traci::Error& error) {
   sumo_.process->wait_for_end();
   throw std::runtime_error("SUMO's traffic at " + std::to_string(time_s()) + " s: " + error.what() +
                            (sumo_.process->lives() ? "" : "; it has ended") +
                            "; SUMO's last words: " + sumo_.process->last_words());
 }
 
-void SumoTraffic::step(const traffic::EgoSeen* ego) {
+void Traffic::step(const traffic::EgoSeen* ego) {
   if (ticks_ % kTicksPerStep == 0) {
     try {
       sumo_step(ego);
@@ -109,9 +109,8 @@ void SumoTraffic::step(const traffic::EgoSeen* ego) {
   ++ticks_;
 }
 
-void SumoTraffic::add_ego() {
-  const map::NetworkLane& goal_lane =
-      scenario_.network.lanes[static_cast<std::size_t>(scenario_.mission.goal_lane)];
+void Traffic::add_ego() {
+  const map::Lane& goal_lane = scenario_.network.lanes[static_cast<std::size_t>(scenario_.mission.goal_lane)];
   Writer value;  // route, type, depart, lane, position, speed; arrival lane, position, speed; the rest unused
   value.compound(14).typed_text(kEgoName).typed_text(kEgoName).typed_text("now");
   value.typed_text("first").typed_text("base").typed_text("0");
@@ -131,7 +130,7 @@ void SumoTraffic::add_ego() {
 
 /// The ego stands at the mission's start when the step that ends at entry is over, so that everybody sees it
 /// from entry on, and nobody before.
-void SumoTraffic::enter_ego() {
+void Traffic::enter_ego() {
   const scenario::Mission& mission = scenario_.mission;
   const std::int64_t entry = std::llround(mission.entry_time_s / traffic::kTick_s);
   if (ticks_ + kTicksPerStep == entry) {
@@ -151,7 +150,7 @@ void SumoTraffic::enter_ego() {
 
 /// In a junction many ways overlap, and moveToXY takes the nearest: others then take a car that turns for one
 /// on another way, and give way to it, or not, as to that one. So it is looked for on its route first.
-void SumoTraffic::put_ego(const CarState& place) {
+void Traffic::put_ego(const CarState& place) {
   const auto known = cars_.find(kEgoName);
   const bool lost = known != cars_.end() && known->second.lanes.empty();
   const map::Vec2 bumper = ahead_of(place, 0.5 * place.length_m);
@@ -162,7 +161,7 @@ void SumoTraffic::put_ego(const CarState& place) {
   sumo_.client->set(Domain::kVehicle, traci::kMoveToXy, kEgoName, value);
 }
 
-void SumoTraffic::sumo_step(const traffic::EgoSeen* ego) {
+void Traffic::sumo_step(const traffic::EgoSeen* ego) {
   for (auto entry = cars_.begin(); entry != cars_.end();) {
     Car& car = entry->second;
     car.before = car.after;
@@ -208,7 +207,7 @@ void SumoTraffic::sumo_step(const traffic::EgoSeen* ego) {
   }
 }
 
-void SumoTraffic::observe(Car& car, const traci::Variables& variables) {
+void Traffic::observe(Car& car, const traci::Variables& variables) {
   const auto real = [&](int variable) { return std::get<double>(variables.at(variable)); };
   CarState& state = car.after;
   state.length_m = real(traci::kLength);
@@ -225,7 +224,7 @@ void SumoTraffic::observe(Car& car, const traci::Variables& variables) {
 }
 
 /// SUMO says where the front bumper is; a car's lane is that of its box centre, here as everywhere.
-void SumoTraffic::follow_lanes(Car& car, const std::string& bumper_lane) const {
+void Traffic::follow_lanes(Car& car, const std::string& bumper_lane) const {
   const auto known = lane_of_.find(bumper_lane);
   if (known == lane_of_.end()) {
     car.lanes.clear();
@@ -244,7 +243,7 @@ void SumoTraffic::follow_lanes(Car& car, const std::string& bumper_lane) const {
   car.after.lane = car.lanes.front();
 }
 
-CarState SumoTraffic::between(const Car& car) const {
+CarState Traffic::between(const Car& car) const {
   const double part = static_cast<double>((ticks_ + kTicksPerStep - 1) % kTicksPerStep + 1) / kTicksPerStep;
   CarState state = part < 0.5 ? car.before : car.after;
   const auto mix = [part](double from, double to) { return from + part * (to - from); };
@@ -257,7 +256,7 @@ CarState SumoTraffic::between(const Car& car) const {
   return state;
 }
 
-std::vector<CarState> SumoTraffic::cars() const {
+std::vector<CarState> Traffic::cars() const {
   std::vector<CarState> states;
   for (const auto& [name, car] : cars_) {
     if (name == kEgoName) {
@@ -273,7 +272,7 @@ std::vector<CarState> SumoTraffic::cars() const {
   return states;
 }
 
-std::vector<traffic::CarFlags> SumoTraffic::flags() const {
+std::vector<traffic::CarFlags> Traffic::flags() const {
   std::vector<traffic::CarFlags> all;
   for (const auto& [name, car] : cars_) {
     if (name != kEgoName) {
@@ -285,17 +284,17 @@ std::vector<traffic::CarFlags> SumoTraffic::flags() const {
   return all;
 }
 
-std::optional<CarState> SumoTraffic::ego_seen() const {
+std::optional<CarState> Traffic::ego_seen() const {
   const auto ego = cars_.find(kEgoName);
   return ego == cars_.end() || !ego->second.known_before ? std::nullopt : std::optional(between(ego->second));
 }
 
-std::optional<CarState> SumoTraffic::driven_ego() const {
+std::optional<CarState> Traffic::driven_ego() const {
   return options_.ego == DrivenBy::kEngine ? ego_seen() : std::nullopt;
 }
 
-void SumoTraffic::clear(map::LaneId lane, double from_m, double to_m) {
-  const map::NetworkLane& cleared = scenario_.network.lanes[static_cast<std::size_t>(lane)];
+void Traffic::clear(map::LaneId lane, double from_m, double to_m) {
+  const map::Lane& cleared = scenario_.network.lanes[static_cast<std::size_t>(lane)];
   std::erase_if(cars_, [&](const auto& entry) {
     const auto& [name, car] = entry;
     const CarState now = car.known_before ? between(car) : car.after;

@@ -32,11 +32,11 @@ struct EgoCoupling {
   std::string driver = {};  ///< further attributes of its vehicle type, as XML
 };
 
-class SumoTraffic final : public traffic::TrafficEngine {
+class Traffic final : public traffic::TrafficEngine {
  public:
-  SumoTraffic(const scenario::Scenario& scenario, const traffic::EngineOptions& options,
-              const EgoCoupling& coupling = {});
-  ~SumoTraffic() override;
+  Traffic(const scenario::Scenario& scenario, const traffic::EngineOptions& options,
+          const EgoCoupling& coupling = {});
+  ~Traffic() override;
 
   void step(const traffic::EgoSeen* ego) override;
   [[nodiscard]] double time_s() const override { return static_cast<double>(ticks_) * 0.01; }
@@ -72,7 +72,7 @@ class SumoTraffic final : public traffic::TrafficEngine {
   traffic::EngineOptions options_;
   EgoCoupling coupling_;
   std::unordered_map<std::string, map::LaneId> lane_of_;
-  SumoSession sumo_;
+  Session sumo_;
   std::map<std::string, Car> cars_;  ///< by SUMO's id
   bool ego_there_ = false;
   int next_id_ = 1;

@@ -22,7 +22,7 @@ constexpr double kStanding_mps = 0.3;
 constexpr double kHorizon_s = static_cast<double>(kHorizonSteps) * static_cast<double>(kStepS);
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
-const map::NetworkLane& lane_of(const world::Branch& now, map::LaneId lane) {
+const map::Lane& lane_of(const world::Branch& now, map::LaneId lane) {
   return now.road().scenario.network.lanes[static_cast<std::size_t>(lane)];
 }
 
@@ -62,7 +62,7 @@ EgoState ego_state_of(const nodes::Vehicle& vehicle, map::Vec2 origin) {
 void BranchDriver::begin(const world::Branch& now) {
   lane_ = now.place().lane;
   if (lane_ == map::kNoLane) return;
-  const map::NetworkLane& here = lane_of(now, lane_);
+  const map::Lane& here = lane_of(now, lane_);
   const bool changes = plan_.intention == Intention::kLeft || plan_.intention == Intention::kRight;
   const map::LaneId beside = plan_.intention == Intention::kLeft ? here.left : here.right;
   if (changes && beside != map::kNoLane) lane_ = beside;
@@ -107,7 +107,7 @@ double BranchDriver::wanted_mps(const world::Branch& now, const std::vector<Part
         std::min(wanted, std::sqrt(speed_mps * speed_mps + 2.0 * kSlowing_mps2 * std::max(0.0, ahead_m)));
   };
   for (const Part& part : way) {
-    const map::NetworkLane& lane = lane_of(now, part.lane);
+    const map::Lane& lane = lane_of(now, part.lane);
     slow_for(lane.speed_limit_mps * plan_.limit_share, part.start_m);
     for (double s = std::max(0.0, -part.start_m); s < lane.centre.length_m() && part.start_m + s < 40.0;
          s += 3.0) {
@@ -115,7 +115,7 @@ double BranchDriver::wanted_mps(const world::Branch& now, const std::vector<Part
       slow_for(std::sqrt(kSideways_mps2 / std::max(curvature, 1e-3)), part.start_m + s);
     }
   }
-  const map::NetworkLane& last = lane_of(now, way.back().lane);
+  const map::Lane& last = lane_of(now, way.back().lane);
   const bool dead_end = last.successors.empty() && last.edge != now.road().scenario.mission.edges.back();
   if (dead_end) slow_for(0.0, way.back().start_m + last.centre.length_m() - 5.0);
   return wanted;
@@ -147,7 +147,7 @@ double BranchDriver::behind_leader_mps2(const world::Branch& now, const std::vec
 BranchDriver::Zone BranchDriver::next_zone(const world::Branch& now, const std::vector<Part>& way) {
   Zone nearest;
   for (const Part& part : way) {
-    for (const map::NetworkConflict& conflict : now.road().scenario.network.conflicts) {
+    for (const map::Conflict& conflict : now.road().scenario.network.conflicts) {
       const bool first = conflict.first == part.lane;
       if (!first && conflict.second != part.lane) continue;
       const double entry_m = part.start_m + (first ? conflict.first_entry_m : conflict.second_entry_m);

@@ -18,7 +18,7 @@ struct Zone {
   double car_exit_m = 0.0;
 };
 
-bool lead_into_one(const map::NetworkLane& a, const map::NetworkLane& b) {
+bool lead_into_one(const map::Lane& a, const map::Lane& b) {
   return std::any_of(a.successors.begin(), a.successors.end(), [&](map::LaneId next) {
     return std::find(b.successors.begin(), b.successors.end(), next) != b.successors.end();
   });
@@ -65,7 +65,7 @@ Meeting Meetings::with(int id) const {
   for (const judge::Stretch& ours : ego.stretches) {
     for (const judge::Stretch& theirs : car->stretches) {
       meeting.shares = meeting.shares || ours.lane == theirs.lane;
-      for (const map::NetworkConflict& conflict : network_.conflicts) {
+      for (const map::Conflict& conflict : network_.conflicts) {
         const bool ego_first = conflict.first == ours.lane && conflict.second == theirs.lane;
         if (!ego_first && (conflict.second != ours.lane || conflict.first != theirs.lane)) continue;
         Zone zone;

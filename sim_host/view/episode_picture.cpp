@@ -43,10 +43,10 @@ const CycleTrace* tensest(const EpisodeResult& result, double entry_ms) {
 }
 
 void draw_road(Svg& svg, const map::Network& network) {
-  for (const map::NetworkLane& lane : network.lanes) {
+  for (const map::Lane& lane : network.lanes) {
     svg.line(lane.centre.points(), {.colour = "#cfcfca", .width_m = lane.width_m + 0.3});
   }
-  for (const map::NetworkLane& lane : network.lanes) {
+  for (const map::Lane& lane : network.lanes) {
     svg.line(lane.centre.points(), {.colour = "#e4e4df", .width_m = lane.width_m - 0.15});
   }
 }

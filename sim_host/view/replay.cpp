@@ -64,7 +64,7 @@ ordered_json road(const map::Network& network, const traffic::Recording& recordi
     high = {std::max(high.x, snapshot.ego.centre.x), std::max(high.y, snapshot.ego.centre.y)};
   }
   ordered_json lanes = ordered_json::array();
-  for (const map::NetworkLane& lane : network.lanes) {
+  for (const map::Lane& lane : network.lanes) {
     const auto& points = lane.centre.points();
     const auto [left, right] =
         std::minmax_element(points.begin(), points.end(), [](Vec2 a, Vec2 b) { return a.x < b.x; });

@@ -43,7 +43,7 @@ constexpr int kSecond = 100;  ///< ticks
 /// A drive of 80 s: the road of cruise at a walk.
 scenario::Scenario at_a_walk() {
   scenario::Scenario scenario = tests::shipped("cruise");
-  for (map::NetworkLane& lane : scenario.network.lanes) lane.speed_limit_mps = 2.0;
+  for (map::Lane& lane : scenario.network.lanes) lane.speed_limit_mps = 2.0;
   scenario.mission.start_speed_mps = 2.0;
   return scenario;
 }

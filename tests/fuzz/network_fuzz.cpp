@@ -19,7 +19,7 @@ void check(const Network& network) {
   const auto count = static_cast<LaneId>(network.lanes.size());
   const auto there = [count](LaneId lane) { return lane >= 0 && lane < count; };
   for (LaneId id = 0; id < count; ++id) {
-    const NetworkLane& lane = network.lanes[static_cast<std::size_t>(id)];
+    const Lane& lane = network.lanes[static_cast<std::size_t>(id)];
     expect(lane.centre.points().size() >= 2 && std::isfinite(lane.centre.length_m()) &&
                lane.centre.length_m() > 0.0,
            "a lane is a line of some length");
@@ -36,7 +36,7 @@ void check(const Network& network) {
     const PolylineProjection back = lane.centre.project(lane.centre.at(0.5 * lane.centre.length_m()).point);
     expect(std::isfinite(back.s_m) && std::isfinite(back.d_m), "a lane can be projected onto");
   }
-  for (const NetworkConflict& conflict : network.conflicts) {
+  for (const Conflict& conflict : network.conflicts) {
     expect(there(conflict.first) && there(conflict.second) && conflict.first != conflict.second,
            "two lanes conflict");
     expect(

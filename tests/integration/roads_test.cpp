@@ -26,8 +26,8 @@ namespace s4tp::roads {
 namespace {
 
 namespace fs = std::filesystem;
+using map::Lane;
 using map::Network;
-using map::NetworkLane;
 using scenario::Scenario;
 
 const fs::path kMix = fs::path(S4TP_SOURCE_DIR) / "sim_host/scenarios/social.toml";
@@ -38,7 +38,7 @@ std::string text_of(const fs::path& file) {
   return text.str();
 }
 
-const NetworkLane& lane_at(const Scenario& road, map::LaneId lane) {
+const Lane& lane_at(const Scenario& road, map::LaneId lane) {
   return road.network.lanes.at(static_cast<std::size_t>(lane));
 }
 
@@ -57,8 +57,8 @@ struct Seen {
 using Coverage = std::map<std::string, std::map<std::string, Seen>>;
 
 double turned_deg(const Scenario& road) {
-  const NetworkLane& start = lane_at(road, road.mission.start_lane);
-  const NetworkLane& goal = lane_at(road, road.mission.goal_lane);
+  const Lane& start = lane_at(road, road.mission.start_lane);
+  const Lane& goal = lane_at(road, road.mission.goal_lane);
   const double turn_rad =
       goal.centre.at(0.0).heading_rad - start.centre.at(start.centre.length_m()).heading_rad;
   return std::remainder(turn_rad, 2.0 * std::numbers::pi) * 180.0 / std::numbers::pi;
@@ -66,8 +66,8 @@ double turned_deg(const Scenario& road) {
 
 void add_to(Coverage& coverage, const std::string& family, const Scenario& road) {
   const auto see = [&](const char* what, double value) { coverage[what][family].add(value); };
-  const NetworkLane& start = lane_at(road, road.mission.start_lane);
-  const NetworkLane& goal = lane_at(road, road.mission.goal_lane);
+  const Lane& start = lane_at(road, road.mission.start_lane);
+  const Lane& goal = lane_at(road, road.mission.goal_lane);
   see("start lane, m", start.centre.length_m());
   see("goal lane, m", goal.centre.length_m());
   see("lanes beside the start", static_cast<double>(road.network.lanes_of(start.edge).size()));
@@ -197,7 +197,7 @@ TEST(Roads, RampsThatEndInAJunctionMergeIntoAnOccupiedLane) {
     const map::LaneId from_main = test::lane(network, "main_0").successors.at(0);
     EXPECT_EQ(network.lanes[static_cast<std::size_t>(from_ramp)].successors,
               network.lanes[static_cast<std::size_t>(from_main)].successors);
-    const auto yields = [&](const map::NetworkConflict& conflict) {
+    const auto yields = [&](const map::Conflict& conflict) {
       return (conflict.first == from_ramp && conflict.second == from_main &&
               conflict.rule == map::Rule::kFirstYields) ||
              (conflict.first == from_main && conflict.second == from_ramp &&

@@ -105,7 +105,7 @@ TEST(TrafficEngine, OnlySumoDrivesTheEgo) {
 // One of SUMO's own drives, replayed through the coupling: on an unchanged course nobody touches the ego.
 TEST(SumoCoupling, ReplaysADriveUntouched) {
   const scenario::Scenario scenario = shipped("left_turn");
-  const SumoDrive drive = sumo_drive(scenario, 3);
+  const Drive drive = sumo_drive(scenario, 3);
   ASSERT_TRUE(drive.arrived && !drive.touched);
   EXPECT_FALSE(replay(scenario, 3, drive, {}).touched);
 }

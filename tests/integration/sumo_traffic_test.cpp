@@ -47,9 +47,9 @@ std::vector<LaneId> way_through(const Scenario& scenario) {
 // WORLD-040 One seed, the same cars to the bit; another seed, others.
 TEST(SumoTraffic, IsDeterministicInItsSeed) {
   const Scenario scenario = shipped("left_turn");
-  SumoTraffic one(scenario, without_ego(11));
-  SumoTraffic again(scenario, without_ego(11));
-  SumoTraffic other(scenario, without_ego(12));
+  Traffic one(scenario, without_ego(11));
+  Traffic again(scenario, without_ego(11));
+  Traffic other(scenario, without_ego(12));
   bool differs = false;
   for (int i = 0; i < 2500; ++i) {
     one.step(nullptr);
@@ -65,7 +65,7 @@ TEST(SumoTraffic, IsDeterministicInItsSeed) {
 // SUMO-002 On an empty straight road drivers who want 10 m/s at most drive as our plan drew them: never
 // faster.
 TEST(SumoTraffic, DrivesThePlansDrivers) {
-  SumoTraffic traffic(shipped("overtake"), without_ego(4));
+  Traffic traffic(shipped("overtake"), without_ego(4));
   std::size_t most = 0;
   while (traffic.time_s() < 20.0) {
     traffic.step(nullptr);
@@ -78,13 +78,13 @@ TEST(SumoTraffic, DrivesThePlansDrivers) {
 // SUMO says the lane of the front bumper, we that of the box centre: it lies within that lane.
 TEST(SumoTraffic, SaysTheLaneOfTheCentre) {
   const Scenario scenario = shipped("left_turn");
-  SumoTraffic traffic(scenario, without_ego(3));
+  Traffic traffic(scenario, without_ego(3));
   int in_junction = 0;
   while (traffic.time_s() < 40.0 - 1e-6) {
     advance(traffic, traffic.time_s() + 0.1);
     for (const traffic::CarState& car : traffic.cars()) {
       ASSERT_NE(car.lane, map::kNoLane);
-      const map::NetworkLane& lane = scenario.network.lanes[static_cast<std::size_t>(car.lane)];
+      const map::Lane& lane = scenario.network.lanes[static_cast<std::size_t>(car.lane)];
       const double s_m = lane.centre.project(car.centre).s_m;
       EXPECT_GE(s_m, -0.01) << lane.name << " at " << traffic.time_s() << " s";
       EXPECT_LE(s_m, lane.centre.length_m() + 0.5) << lane.name << " at " << traffic.time_s() << " s";
@@ -96,7 +96,7 @@ TEST(SumoTraffic, SaysTheLaneOfTheCentre) {
 
 // Between two steps cars move evenly: no 10 ms step is longer than 20 m/s would make it.
 TEST(SumoTraffic, MovesSmoothlyBetweenSteps) {
-  SumoTraffic traffic(shipped("merge"), without_ego(3));
+  Traffic traffic(shipped("merge"), without_ego(3));
   std::map<int, map::Vec2> before;
   for (int i = 0; i < 2000; ++i) {
     traffic.step(nullptr);
@@ -115,7 +115,7 @@ TEST(SumoTraffic, StopsBehindAStandingEgo) {
   const Scenario scenario = shipped("overtake");
   traffic::EngineOptions options = without_ego(4);
   options.ego = traffic::DrivenBy::kUs;
-  SumoTraffic traffic(scenario, options, {.early = false});
+  Traffic traffic(scenario, options, {.early = false});
   const traffic::EgoSeen ego = standing_at(scenario, scenario.mission.start_lane, 120.0);
   bool stood = false;
   while (traffic.time_s() < 40.0) {
@@ -132,7 +132,7 @@ TEST(SumoTraffic, PlacesTheEgoAtTheStepsEnd) {
   const Scenario scenario = shipped("cruise");
   traffic::EngineOptions options = without_ego(4);
   options.ego = traffic::DrivenBy::kUs;
-  SumoTraffic traffic(scenario, options, {.early = false});
+  Traffic traffic(scenario, options, {.early = false});
   traffic::EgoSeen ego = standing_at(scenario, scenario.mission.start_lane, 20.0);
   ego.car.speed_mps = 13.0;
   for (int i = 0; i < 30; ++i) {
@@ -154,7 +154,7 @@ TEST(SumoTraffic, KeepsTheEgoOnItsRoute) {
   for (const bool on_route : {true, false}) {
     traffic::EngineOptions options = without_ego(4);
     options.ego = traffic::DrivenBy::kUs;
-    SumoTraffic traffic(scenario, options, {.early = false, .on_route = on_route});
+    Traffic traffic(scenario, options, {.early = false, .on_route = on_route});
     int elsewhere = 0;
     for (const LaneId id : way) {
       const map::Polyline& centre = scenario.network.lanes[static_cast<std::size_t>(id)].centre;
@@ -181,7 +181,7 @@ TEST(SumoTraffic, StopsBehindAnEgoOffItsRoute) {
   const LaneId oncoming = scenario.network.find("north_in_0");
   traffic::EngineOptions options = without_ego(4);
   options.ego = traffic::DrivenBy::kUs;
-  SumoTraffic traffic(scenario, options, {.early = false});
+  Traffic traffic(scenario, options, {.early = false});
   const traffic::EgoSeen ego = standing_at(scenario, oncoming, 60.0);
   bool stood = false;
   while (traffic.time_s() < 60.0) {
@@ -199,7 +199,7 @@ TEST(SumoTraffic, StopsBehindAnEgoOffItsRoute) {
 // Emptying a stretch takes those whose box reaches into it, for SUMO too, and nobody else.
 TEST(SumoTraffic, ClearsAStretch) {
   const Scenario scenario = shipped("cruise");
-  SumoTraffic traffic(scenario, without_ego(5));
+  Traffic traffic(scenario, without_ego(5));
   advance(traffic, 20.0);
   const std::size_t before = traffic.cars().size();
   const int finished = traffic.finished();
@@ -228,7 +228,7 @@ TEST(SumoTraffic, TakesRouteFilesByEpisode) {
     scenario.route_files.push_back(file);
   }
   for (const std::uint64_t episode : {0U, 3U}) {
-    SumoTraffic traffic(scenario, without_ego(episode));
+    Traffic traffic(scenario, without_ego(episode));
     advance(traffic, 2.0);
     ASSERT_EQ(traffic.cars().size(), 1U);
     EXPECT_DOUBLE_EQ(traffic.cars().front().length_m, episode == 0 ? 8.0 : 9.0);

@@ -24,7 +24,7 @@ namespace s4tp::test {
 inline map::Network judged_road(map::Rule rule) {
   const auto lane = [](const char* edge, int index, std::vector<map::Vec2> points,
                        std::vector<map::LaneId> successors) {
-    map::NetworkLane result;
+    map::Lane result;
     result.name = std::string(edge) + "_" + std::to_string(index);
     result.edge = edge;
     result.index = index;

@@ -45,7 +45,7 @@ inline scenario::Scenario shipped(const std::string& name) {
   return scenario::load_scenario(std::filesystem::path(S4TP_SOURCE_DIR) / "sim_host/scenarios" / name);
 }
 
-inline const map::NetworkLane& lane(const map::Network& network, const std::string& name) {
+inline const map::Lane& lane(const map::Network& network, const std::string& name) {
   return network.lanes.at(static_cast<std::size_t>(network.find(name)));
 }
 

@@ -67,7 +67,7 @@ Seen drive(const char* planner, const char* name, std::uint64_t first_seed, int 
     for (const traffic::Snapshot& snapshot : recording.snapshots) {
       for (const traffic::CarState& car : snapshot.others) {
         if (car.lane == map::kNoLane || snapshot.time_s < 0.0) continue;
-        const map::NetworkLane& lane = scenario.network.lanes[static_cast<std::size_t>(car.lane)];
+        const map::Lane& lane = scenario.network.lanes[static_cast<std::size_t>(car.lane)];
         seen.hardest_braking_mps2 = std::max(seen.hardest_braking_mps2, -car.acceleration_mps2);
         seen.fastest_gain_mps2 = std::max(seen.fastest_gain_mps2, car.acceleration_mps2);
         if (lane.in_junction) continue;  // entered as fast as the road before it allowed
@@ -93,7 +93,7 @@ TEST(Adversary, GoesToTheLawsEdgeAndNotBeyond) {
 // WORLD-023 A copy goes on as the original does, to the bit, for 5 s.
 TEST(Adversary, ACopyIsTheSame) {
   const scenario::Scenario scenario = test::shipped("cruise");
-  AdversaryTraffic traffic(scenario, 0, 7);
+  Traffic traffic(scenario, 0, 7);
   traffic::EgoSeen ego;
   ego.actor.lane = ego.car.lane = scenario.mission.start_lane;
   ego.actor.s_m = 40.0;

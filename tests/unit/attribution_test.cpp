@@ -58,7 +58,7 @@ Law gentle() {
 
 Network slow_road(Rule rule) {
   Network network = test::judged_road(rule);
-  for (map::NetworkLane& lane : network.lanes) lane.speed_limit_mps = 8.0;
+  for (map::Lane& lane : network.lanes) lane.speed_limit_mps = 8.0;
   return network;
 }
 

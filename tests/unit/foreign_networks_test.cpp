@@ -56,7 +56,7 @@ std::optional<Rule> rule_between(const Network& network, const Turn& first, cons
   std::optional<Rule> rule;
   for (const LaneId mine : inside(network, first)) {
     for (const LaneId other : inside(network, second)) {
-      for (const NetworkConflict& each : network.conflicts) {
+      for (const Conflict& each : network.conflicts) {
         const bool turned = each.first == other && each.second == mine;
         if (!turned && !(each.first == mine && each.second == other)) {
           continue;
@@ -109,7 +109,7 @@ TEST(ForeignNetworks, AllWayStopAndUnregulatedAreFirstCome) {
   for (const char* name : {"all_way_stop", "unregulated"}) {
     const Network network = foreign(name).network;
     ASSERT_FALSE(network.conflicts.empty()) << name;
-    for (const NetworkConflict& each : network.conflicts) {
+    for (const Conflict& each : network.conflicts) {
       EXPECT_EQ(each.rule, Rule::kFirstCome) << name;
     }
     EXPECT_EQ(rule_between(network, {"s_in", "n_out"}, {"e_in", "w_out"}), Rule::kFirstCome) << name;
@@ -130,7 +130,7 @@ TEST(ForeignNetworks, RightBeforeLeft) {
 TEST(ForeignNetworks, AZipperIsFirstCome) {
   const scenario::Scenario scenario = foreign("zipper");
   ASSERT_FALSE(scenario.network.conflicts.empty());
-  for (const NetworkConflict& each : scenario.network.conflicts) {
+  for (const Conflict& each : scenario.network.conflicts) {
     EXPECT_EQ(each.rule, Rule::kFirstCome);
   }
 }
@@ -162,9 +162,9 @@ TEST(ForeignNetworks, ZonesAreWhereBoxesTouch) {
   const Network network = foreign("all_way_stop").network;
   const LaneId mine = inside(network, {"s_in", "n_out"}).at(0);
   const LaneId other = inside(network, {"e_in", "w_out"}).at(0);
-  const auto found = std::find_if(
-      network.conflicts.begin(), network.conflicts.end(),
-      [&](const NetworkConflict& c) { return std::minmax(c.first, c.second) == std::minmax(mine, other); });
+  const auto found = std::find_if(network.conflicts.begin(), network.conflicts.end(), [&](const Conflict& c) {
+    return std::minmax(c.first, c.second) == std::minmax(mine, other);
+  });
   ASSERT_NE(found, network.conflicts.end());
   const bool first = found->first == mine;
   EXPECT_NEAR(first ? found->first_entry_m : found->second_entry_m, 5.2, 0.3);
@@ -246,7 +246,7 @@ TEST_P(ForeignMaps, AreShownRight) {
       EXPECT_LE(conflict.second_entry_m, conflict.second_exit_m);
     }
   }
-  for (const NetworkLane& each : scenario.network.lanes) {  // lanes join: no gaps where ways go on
+  for (const Lane& each : scenario.network.lanes) {  // lanes join: no gaps where ways go on
     for (const LaneId next : each.successors) {
       const Vec2 a = each.centre.points().back();
       const Vec2 b = scenario.network.lanes[static_cast<std::size_t>(next)].centre.points().front();

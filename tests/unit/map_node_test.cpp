@@ -215,9 +215,9 @@ TEST(MapNode, LanesThatLeadIntoEachOtherAreNoWayWithoutEnd) {
   const Network network = network_of(text);
   const map::LaneId crossed = network.find(":c_5_0");
   ASSERT_EQ(lane(network, ":c_5_0").predecessors.front(), network.find(":c_0a_0"));
-  ASSERT_TRUE(std::any_of(
-      network.conflicts.begin(), network.conflicts.end(),
-      [&](const map::NetworkConflict& each) { return each.first == crossed || each.second == crossed; }));
+  ASSERT_TRUE(std::any_of(network.conflicts.begin(), network.conflicts.end(), [&](const map::Conflict& each) {
+    return each.first == crossed || each.second == crossed;
+  }));
   const map::RouteGuide guide(network, {"west_in", "east_out"}, map::kNoLane, 40.0);
   MapNode node(network, guide, {});
   EXPECT_GE(lane_count(node.update({-30.0, 0.0})), 9);

@@ -46,7 +46,7 @@ TEST(SocialValue, HasItsFixedPoints) {
 map::Network two_lanes(bool both_go_on) {
   map::Network network;
   for (int i = 0; i < 2; ++i) {
-    map::NetworkLane lane;
+    map::Lane lane;
     lane.edge = "road";
     lane.index = i;
     lane.centre = map::Polyline({{0.0, 3.2 * i}, {300.0, 3.2 * i}});
@@ -54,7 +54,7 @@ map::Network two_lanes(bool both_go_on) {
   }
   network.lanes[0].left = 1;
   network.lanes[1].right = 0;
-  map::NetworkLane after;
+  map::Lane after;
   after.edge = "after";
   after.centre = map::Polyline({{300.0, 3.2}, {500.0, 3.2}});
   after.predecessors = {1};

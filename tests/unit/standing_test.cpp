@@ -16,7 +16,7 @@ namespace {
 map::Network with_zones(double third_m) {
   map::Network network;
   network.lanes.resize(4);
-  for (map::NetworkLane& lane : network.lanes) lane.centre = map::Polyline({{0.0, 0.0}, {100.0, 0.0}});
+  for (map::Lane& lane : network.lanes) lane.centre = map::Polyline({{0.0, 0.0}, {100.0, 0.0}});
   network.conflicts = {{0, 1, map::Rule::kFirstYields, 10.0, 16.0, 0.0, 5.0},
                        {0, 2, map::Rule::kFirstHasPriority, 14.0, 20.0, 0.0, 5.0},
                        {0, 3, map::Rule::kFirstCome, third_m, 30.0, 0.0, 5.0}};

@@ -13,7 +13,7 @@ namespace {
 /// One lane of 300 m.
 map::Network road() {
   map::Network network;
-  map::NetworkLane lane;
+  map::Lane lane;
   lane.name = "road_0";
   lane.edge = "road";
   lane.centre = map::Polyline({{0.0, 0.0}, {300.0, 0.0}});

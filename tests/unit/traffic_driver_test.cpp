@@ -69,7 +69,7 @@ TEST(TrafficDriver, IsDrawnFromItsFlow) {
 /// One lane of 300 m.
 Network straight_road() {
   Network network;
-  map::NetworkLane lane;
+  map::Lane lane;
   lane.name = "road_0";
   lane.edge = "road";
   lane.centre = map::Polyline({{0.0, 0.0}, {300.0, 0.0}});
@@ -181,7 +181,7 @@ TEST(TrafficDriver, IsDistractedByHash) {
 /// Two roads of 300 m that have nothing to do with each other.
 Network two_roads() {
   Network network = straight_road();
-  map::NetworkLane other = network.lanes.front();
+  map::Lane other = network.lanes.front();
   other.name = "other_0";
   other.edge = "other";
   other.centre = map::Polyline({{0.0, 500.0}, {300.0, 500.0}});

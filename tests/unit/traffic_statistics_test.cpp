@@ -13,9 +13,9 @@
 namespace s4tp::metrics {
 namespace {
 
+using map::Lane;
 using map::LaneId;
 using map::Network;
-using map::NetworkLane;
 using traffic::CarState;
 using traffic::Snapshot;
 
@@ -39,8 +39,8 @@ std::vector<Snapshot> record(double until_s, const std::vector<Motion>& cars) {
   return snapshots;
 }
 
-NetworkLane lane(map::Vec2 from, map::Vec2 to, bool in_junction) {
-  NetworkLane made;
+Lane lane(map::Vec2 from, map::Vec2 to, bool in_junction) {
+  Lane made;
   made.centre = map::Polyline({from, to});
   made.in_junction = in_junction;
   return made;

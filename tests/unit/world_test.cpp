@@ -22,7 +22,7 @@ Scenario two_lanes() {
   Scenario scenario;
   scenario.name = "two lanes";
   for (int i = 0; i < 2; ++i) {
-    map::NetworkLane lane;
+    map::Lane lane;
     lane.name = "road_" + std::to_string(i);
     lane.edge = "road";
     lane.index = i;

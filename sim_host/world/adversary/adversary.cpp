@@ -55,8 +55,8 @@ judge::Law promised_law() {
   return law;
 }
 
-AdversaryTraffic::AdversaryTraffic(const scenario::Scenario& scenario, std::uint64_t episode,
-                                   std::uint64_t seed, const judge::Law& law)
+Traffic::Traffic(const scenario::Scenario& scenario, std::uint64_t episode, std::uint64_t seed,
+                 const judge::Law& law)
     : traffic::Traffic(scenario, episode, seed), law_(law) {
   const auto plan = std::make_shared<traffic::FlowPlan>(*plan_);
   for (traffic::Departure& departure : plan->departures) {
@@ -70,11 +70,11 @@ AdversaryTraffic::AdversaryTraffic(const scenario::Scenario& scenario, std::uint
   plan_ = plan;
 }
 
-std::unique_ptr<traffic::TrafficEngine> AdversaryTraffic::clone() const {
-  return std::make_unique<AdversaryTraffic>(*this);
+std::unique_ptr<traffic::TrafficEngine> Traffic::clone() const {
+  return std::make_unique<Traffic>(*this);
 }
 
-void AdversaryTraffic::decide(const Actor* ego) {
+void Traffic::decide(const Actor* ego) {
   const traffic::TrafficView others(*road_, actors(nullptr));
   if (ego == nullptr || ego->lane == map::kNoLane) {
     ego_.reset();
@@ -83,10 +83,10 @@ void AdversaryTraffic::decide(const Actor* ego) {
   }
   std::erase_if(minds_, [&](const auto& mind) {
     return std::none_of(cars_.begin(), cars_.end(),
-                        [&](const traffic::TrafficCar& car) { return car.id == mind.first; });
+                        [&](const traffic::Car& car) { return car.id == mind.first; });
   });
   for (std::size_t i = 0; i < cars_.size(); ++i) {
-    traffic::TrafficCar& car = cars_[i];
+    traffic::Car& car = cars_[i];
     const Actor& self = others.actors()[i];
     const auto [found, fresh] = minds_.try_emplace(car.id);
     Mind& mind = found->second;
@@ -111,7 +111,7 @@ void AdversaryTraffic::decide(const Actor* ego) {
   insert_waiting(ego);
 }
 
-void AdversaryTraffic::watch(const Actor& ego, const traffic::TrafficView& others) {
+void Traffic::watch(const Actor& ego, const traffic::TrafficView& others) {
   const bool was_inside = ego_ && ego_->inside >= 0;
   Watched now;
   now.actor = ego;
@@ -135,7 +135,7 @@ void AdversaryTraffic::watch(const Actor& ego, const traffic::TrafficView& other
   ego_shown_s_ = near ? ego_shown_s_ + kDecision_s : 0.0;
 }
 
-void AdversaryTraffic::bind(const judge::ZoneGroup& group, const traffic::TrafficView& others) {
+void Traffic::bind(const judge::ZoneGroup& group, const traffic::TrafficView& others) {
   for (const Actor& other : others.actors()) {
     Mind& mind = minds_[other.id];
     mind.owes_zone = true;
@@ -147,8 +147,7 @@ void AdversaryTraffic::bind(const judge::ZoneGroup& group, const traffic::Traffi
   }
 }
 
-bool AdversaryTraffic::ego_is_licensed(const judge::ZoneOnWay& zone, const Actor& other,
-                                       const Mind& mind) const {
+bool Traffic::ego_is_licensed(const judge::ZoneOnWay& zone, const Actor& other, const Mind& mind) const {
   const std::optional<Ground> ground = ground_of_other(zone, other);
   if (!ground) return true;
   const double limit = limit_mps(zone.lane);
@@ -167,16 +166,15 @@ bool AdversaryTraffic::ego_is_licensed(const judge::ZoneOnWay& zone, const Actor
   return judge::licence_of(law_, entry) != judge::Licence::kNone;
 }
 
-std::vector<Obstacle> AdversaryTraffic::obstacles_of(const traffic::TrafficCar& car, const Actor& self,
-                                                     Mind& mind) const {
+std::vector<Obstacle> Traffic::obstacles_of(const traffic::Car& car, const Actor& self, Mind& mind) const {
   std::vector<Obstacle> all;
   ego_ahead(car, self, mind, all);
   zones_ahead(car, self, mind, all);
   return all;
 }
 
-void AdversaryTraffic::ego_ahead(const traffic::TrafficCar& car, const Actor& self, Mind& mind,
-                                 std::vector<Obstacle>& all) const {
+void Traffic::ego_ahead(const traffic::Car& car, const Actor& self, Mind& mind,
+                        std::vector<Obstacle>& all) const {
   const traffic::TrafficView two(*road_, {ego_->actor, self});
   const traffic::Leader leader = two.leader(self.way, car.id, car.length_m);
   if (leader.actor == nullptr || (leader.merging && (ego_->inside < 0 || !mind.owes_zone))) {
@@ -201,8 +199,8 @@ void AdversaryTraffic::ego_ahead(const traffic::TrafficCar& car, const Actor& se
   if (obstacle.at_distance || mind.owes_ahead) all.push_back(obstacle);
 }
 
-void AdversaryTraffic::zones_ahead(const traffic::TrafficCar& car, const Actor& self, const Mind& mind,
-                                   std::vector<Obstacle>& all) const {
+void Traffic::zones_ahead(const traffic::Car& car, const Actor& self, const Mind& mind,
+                          std::vector<Obstacle>& all) const {
   for (const judge::ZoneGroup& group :
        judge::zone_groups(*road_, stretches_of(*road_, self.way), car.length_m)) {
     for (const judge::ZoneOnWay& zone : group.zones) {
@@ -225,8 +223,8 @@ void AdversaryTraffic::zones_ahead(const traffic::TrafficCar& car, const Actor& 
   }
 }
 
-bool AdversaryTraffic::may_enter(const Actor& self, const Mind& mind, double to_group_m,
-                                 const judge::ZoneOnWay& zone, double ego_entry_m, double ego_exit_m) const {
+bool Traffic::may_enter(const Actor& self, const Mind& mind, double to_group_m, const judge::ZoneOnWay& zone,
+                        double ego_entry_m, double ego_exit_m) const {
   if (zone.meeting.rule == map::Rule::kFirstCome) return ego_entry_m > 0.0;
   const Actor& ego = ego_->actor;
   const double limit = limit_mps(zone.lane);
@@ -254,7 +252,7 @@ bool AdversaryTraffic::may_enter(const Actor& self, const Mind& mind, double to_
   return judge::licence_of(law_, entry) != judge::Licence::kNone;
 }
 
-bool AdversaryTraffic::may_change(const traffic::TrafficCar& car, const traffic::WayPart& beside) const {
+bool Traffic::may_change(const traffic::Car& car, const traffic::WayPart& beside) const {
   if (!ego_) return true;
   Actor self;
   self.id = car.id;

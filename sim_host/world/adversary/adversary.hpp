@@ -32,10 +32,10 @@ namespace s4tp::adversary {
 /// The judge's law, with what the ECU counts on as the most that others gain and drive (docs/safety.md).
 [[nodiscard]] judge::Law promised_law();
 
-class AdversaryTraffic final : public traffic::Traffic {
+class Traffic final : public traffic::Traffic {
  public:
-  AdversaryTraffic(const scenario::Scenario& scenario, std::uint64_t episode, std::uint64_t seed,
-                   const judge::Law& law = promised_law());
+  Traffic(const scenario::Scenario& scenario, std::uint64_t episode, std::uint64_t seed,
+          const judge::Law& law = promised_law());
   [[nodiscard]] std::unique_ptr<traffic::TrafficEngine> clone() const override;
 
  private:
@@ -56,19 +56,18 @@ class AdversaryTraffic final : public traffic::Traffic {
   };
 
   void decide(const traffic::Actor* ego) override;
-  [[nodiscard]] bool may_change(const traffic::TrafficCar& car,
-                                const traffic::WayPart& beside) const override;
+  [[nodiscard]] bool may_change(const traffic::Car& car, const traffic::WayPart& beside) const override;
 
   void watch(const traffic::Actor& ego, const traffic::TrafficView& others);
   /// Who is bound by the ego's going into a group, from now on.
   void bind(const judge::ZoneGroup& group, const traffic::TrafficView& others);
   [[nodiscard]] bool ego_is_licensed(const judge::ZoneOnWay& zone, const traffic::Actor& other,
                                      const Mind& mind) const;
-  [[nodiscard]] std::vector<Obstacle> obstacles_of(const traffic::TrafficCar& car, const traffic::Actor& self,
+  [[nodiscard]] std::vector<Obstacle> obstacles_of(const traffic::Car& car, const traffic::Actor& self,
                                                    Mind& mind) const;
-  void ego_ahead(const traffic::TrafficCar& car, const traffic::Actor& self, Mind& mind,
+  void ego_ahead(const traffic::Car& car, const traffic::Actor& self, Mind& mind,
                  std::vector<Obstacle>& all) const;
-  void zones_ahead(const traffic::TrafficCar& car, const traffic::Actor& self, const Mind& mind,
+  void zones_ahead(const traffic::Car& car, const traffic::Actor& self, const Mind& mind,
                    std::vector<Obstacle>& all) const;
   [[nodiscard]] bool may_enter(const traffic::Actor& self, const Mind& mind, double to_group_m,
                                const judge::ZoneOnWay& zone, double ego_entry_m, double ego_exit_m) const;

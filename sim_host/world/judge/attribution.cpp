@@ -129,7 +129,7 @@ bool over_the_line(const map::Network& network, const traffic::CarState& car) {
   if (car.lane == map::kNoLane) {
     return true;
   }
-  const map::NetworkLane& lane = network.lanes[static_cast<std::size_t>(car.lane)];
+  const map::Lane& lane = network.lanes[static_cast<std::size_t>(car.lane)];
   const double bend_1pm = std::abs(lane.centre.at(lane.centre.project(car.centre).s_m).curvature_1pm);
   const double swept_m = 0.125 * bend_1pm * car.length_m * car.length_m;
   const auto points = traffic::corners(traffic::box_of(car));
@@ -140,7 +140,7 @@ bool over_the_line(const map::Network& network, const traffic::CarState& car) {
 
 bool changed_lane_lately(const Law& law, const map::Network& network, const Journey& journey) {
   for (std::size_t i = 1; i < journey.points.size(); ++i) {
-    const map::NetworkLane& from = network.lanes[static_cast<std::size_t>(journey.points[i - 1].lane)];
+    const map::Lane& from = network.lanes[static_cast<std::size_t>(journey.points[i - 1].lane)];
     const map::LaneId to = journey.points[i].lane;
     if (journey.points[i].time_s >= journey.points.back().time_s - law.settle_s &&
         (to == from.left || to == from.right)) {

@@ -11,7 +11,7 @@
 namespace s4tp::judge {
 namespace {
 
-bool within(const map::NetworkLane& lane, map::Vec2 point) {
+bool within(const map::Lane& lane, map::Vec2 point) {
   return std::abs(lane.centre.project(point).d_m) <= 0.5 * lane.width_m;
 }
 

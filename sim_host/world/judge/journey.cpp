@@ -135,7 +135,7 @@ void extend(const map::Network& network, const map::RouteGuide* guide, Journey& 
   Stretch* last = &journey.stretches.back();
   const double end_m = journey.points.back().odometer_m + kAhead_m;
   while (true) {
-    const map::NetworkLane& lane = map::lane_of(network, last->lane);
+    const map::Lane& lane = map::lane_of(network, last->lane);
     last->until_m = end_m;
     const double next_start_m = last->start_m + lane.centre.length_m();
     map::LaneId next = lane.successors.size() == 1 ? lane.successors.front() : map::kNoLane;

@@ -21,7 +21,7 @@
 /// | LAW-003 | L2    | if the other stands and has seen one's nose at the line for `shown_s`; where  |
 /// |         |       | both have stood for `deadlock_s` any one may                                  |
 ///
-/// A zone is ground that two lanes share (NetworkConflict); a group is all zones between two places where a
+/// A zone is ground that two lanes share (map::Conflict); a group is all zones between two places where a
 /// car can stand without being on any (standing.hpp). At first-come zones nothing is owed before somebody is
 /// inside. Source: method.md 4.9; RSS: Shalev-Shwartz, Shammah, Shashua 2017.
 

@@ -5,7 +5,7 @@
 namespace s4tp::judge {
 namespace {
 
-constexpr double kUsualLength_m = 5.0;  // NetworkConflict's boxes
+constexpr double kUsualLength_m = 5.0;  // map::Conflict's boxes
 constexpr double kPlace_m = 0.5;        // between two zones: so much room and a car may stand there
 
 }  // namespace

@@ -8,7 +8,7 @@
 namespace s4tp::map {
 
 /// \pre id is one of the network's
-[[nodiscard]] inline const NetworkLane& lane_of(const Network& network, LaneId id) {
+[[nodiscard]] inline const Lane& lane_of(const Network& network, LaneId id) {
   return network.lanes[static_cast<std::size_t>(id)];
 }
 

@@ -71,7 +71,7 @@ class Builder {
   }
 
  private:
-  const NetworkLane& lane(LaneId id) const { return network_.lanes[static_cast<std::size_t>(id)]; }
+  const Lane& lane(LaneId id) const { return network_.lanes[static_cast<std::size_t>(id)]; }
   double length(LaneId id) const { return lane(id).centre.length_m(); }
   RouteGuide::Advice& advice_of(LaneId id) { return advice_[static_cast<std::size_t>(id)]; }
   Plan& plan(LaneId id) { return plan_[static_cast<std::size_t>(id)]; }

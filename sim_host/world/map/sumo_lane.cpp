@@ -66,9 +66,9 @@ bool change_open(const pugi::xml_node& lane, const char* side) {
   return allowed.empty() || names_cars(allowed);
 }
 
-std::optional<NetworkLane> read_lane(const pugi::xml_node& node, const std::string& edge, bool in_junction,
-                                     const std::string& where) {
-  NetworkLane lane;
+std::optional<Lane> read_lane(const pugi::xml_node& node, const std::string& edge, bool in_junction,
+                              const std::string& where) {
+  Lane lane;
   lane.name = node.attribute("id").value();
   lane.edge = edge;
   lane.in_junction = in_junction;

@@ -102,7 +102,7 @@ void MapNode::split_into_parts() {
 }
 
 void MapNode::fill_record(Part& part, bool ours, bool last) const {
-  const map::NetworkLane& lane = network_.lanes[index(part.lane)];
+  const map::Lane& lane = network_.lanes[index(part.lane)];
   const map::RouteGuide::Advice& advice = guide_.advice(part.lane);
   const auto left_over = [&](double from_start_m) {
     return static_cast<float>(std::clamp(from_start_m - part.from_m, 0.0, kMaxRoute_m));
@@ -134,7 +134,7 @@ void MapNode::split_conflicts() {
   const auto local = [](const Part& part, double s_m) {
     return static_cast<float>((std::clamp(s_m, part.from_m, part.to_m) - part.from_m) * part.scale);
   };
-  for (const map::NetworkConflict& each : network_.conflicts) {
+  for (const map::Conflict& each : network_.conflicts) {
     const auto [first_begin, first_end] = parts_of_lane_[index(each.first)];
     const auto [second_begin, second_end] = parts_of_lane_[index(each.second)];
     for (int i = first_begin; i < first_end; ++i) {
@@ -214,7 +214,7 @@ void MapNode::choose_conflicts() {
 
 wire::Lane MapNode::linked(int part_number) const {
   const Part& part = parts_[index(part_number)];
-  const map::NetworkLane& lane = network_.lanes[index(part.lane)];
+  const map::Lane& lane = network_.lanes[index(part.lane)];
   wire::Lane record = part.record;
   if (part_number + 1 < parts_of_lane_[index(part.lane)].second) {
     record.successors[0] = slot_of(part_number + 1);

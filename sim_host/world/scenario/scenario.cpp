@@ -41,7 +41,7 @@ double read_or(TomlTable& table, const std::string& key, double missing, double 
 }
 
 /// A position as SUMO counts it, along the lane's shape.
-double along_shape(const TomlTable& table, const std::string& key, const map::NetworkLane& lane, double s_m) {
+double along_shape(const TomlTable& table, const std::string& key, const map::Lane& lane, double s_m) {
   const double shape_m = lane.centre.length_m();
   if (s_m == kEnd) {
     return shape_m;
@@ -84,8 +84,8 @@ Mission read_mission(TomlTable table, const map::Network& network) {
   mission.start_lane = read_lane(table, "start_lane", network);
   mission.goal_lane = read_lane(table, "goal_lane", network);
   mission.start_s_m = table.number("start_pos_m", 5.0, 0.0, 1e6);
-  const map::NetworkLane& start = network.lanes[static_cast<std::size_t>(mission.start_lane)];
-  const map::NetworkLane& goal = network.lanes[static_cast<std::size_t>(mission.goal_lane)];
+  const map::Lane& start = network.lanes[static_cast<std::size_t>(mission.start_lane)];
+  const map::Lane& goal = network.lanes[static_cast<std::size_t>(mission.goal_lane)];
   mission.goal_s_m = read_or(table, "goal_pos_m", kAsTheLane, 1e6, kEnd);
   mission.entry_time_s = table.number("entry_time_s", mission.entry_time_s, 0.0, 600.0);
   mission.time_limit_s = table.number("time_limit_s", mission.time_limit_s, 1.0, 3600.0);

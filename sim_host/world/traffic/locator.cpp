@@ -43,7 +43,7 @@ std::vector<Vec2> convex_hull(std::vector<Vec2> points) {
 }
 
 /// ":centre_4" belongs to junction ":centre".
-std::string junction_of(const map::NetworkLane& lane) {
+std::string junction_of(const map::Lane& lane) {
   return lane.edge.substr(0, lane.edge.rfind('_'));
 }
 
@@ -51,7 +51,7 @@ std::string junction_of(const map::NetworkLane& lane) {
 
 Locator::Locator(const map::Network& network, const map::RouteGuide& guide)
     : network_(network), guide_(guide) {
-  for (const map::NetworkLane& lane : network.lanes) {
+  for (const map::Lane& lane : network.lanes) {
     Bounds bounds{lane.centre.points().front(), lane.centre.points().front()};
     for (const Vec2 point : lane.centre.points()) {
       bounds.low = {std::min(bounds.low.x, point.x), std::min(bounds.low.y, point.y)};
@@ -64,7 +64,7 @@ Locator::Locator(const map::Network& network, const map::RouteGuide& guide)
 
 void Locator::add_junction_hulls() {
   std::map<std::string, std::vector<Vec2>> hulls;
-  for (const map::NetworkLane& lane : network_.lanes) {
+  for (const map::Lane& lane : network_.lanes) {
     if (!lane.in_junction) {
       continue;
     }
@@ -95,7 +95,7 @@ LanePlace Locator::locate(Vec2 centre, double heading_rad, map::LaneId before) c
   double best_cost = std::numeric_limits<double>::infinity();
   double nearest_m = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < network_.lanes.size(); ++i) {
-    const map::NetworkLane& lane = network_.lanes[i];
+    const map::Lane& lane = network_.lanes[i];
     const map::LaneId id = static_cast<map::LaneId>(i);
     if (!near(i, centre, 3.0 * lane.width_m)) {
       continue;
@@ -127,7 +127,7 @@ LanePlace Locator::locate(Vec2 centre, double heading_rad, map::LaneId before) c
 
 bool Locator::off_road(Vec2 centre) const {
   for (std::size_t i = 0; i < network_.lanes.size(); ++i) {
-    const map::NetworkLane& lane = network_.lanes[i];
+    const map::Lane& lane = network_.lanes[i];
     if (!near(i, centre, lane.width_m)) {
       continue;
     }
@@ -158,12 +158,12 @@ Actor Locator::actor(const CarState& ego, const LanePlace& place) const {
   if (place.lane == map::kNoLane) {
     return actor;
   }
-  const map::NetworkLane& lane = network_.lanes[static_cast<std::size_t>(place.lane)];
+  const map::Lane& lane = network_.lanes[static_cast<std::size_t>(place.lane)];
   for (const map::LaneId beside : {lane.left, lane.right}) {
     if (beside == map::kNoLane) {
       continue;
     }
-    const map::NetworkLane& other = network_.lanes[static_cast<std::size_t>(beside)];
+    const map::Lane& other = network_.lanes[static_cast<std::size_t>(beside)];
     const map::PolylineProjection at = other.centre.project(ego.centre);
     if (std::abs(at.d_m) < 0.5 * (other.width_m + ego.width_m) - kReachesIn_m) {
       actor.also.push_back({beside, -at.s_m});

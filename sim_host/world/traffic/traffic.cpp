@@ -13,7 +13,7 @@ constexpr double kSideGone = 0.75;  // of a change, when the old lane is free ag
 
 }  // namespace
 
-double TrafficCar::offset_m() const {
+double Car::offset_m() const {
   const double p = change_done;
   return change_from_m * (1.0 - p * p * p * (10.0 - 15.0 * p + 6.0 * p * p));
 }
@@ -45,10 +45,10 @@ void Traffic::step(const EgoSeen* ego) {
     decide(ego == nullptr ? nullptr : &ego->actor);
   }
   ++ticks_;
-  for (TrafficCar& car : cars_) {
+  for (Car& car : cars_) {
     move(car);
   }
-  std::erase_if(cars_, [](const TrafficCar& car) { return car.lane == map::kNoLane; });
+  std::erase_if(cars_, [](const Car& car) { return car.lane == map::kNoLane; });
 }
 
 void Traffic::decide(const Actor* ego) {
@@ -73,7 +73,7 @@ std::vector<Actor> Traffic::actors(const Actor* ego) const {
     all.back().queues = ego_queues_;
     all.back().waits_for = ego_waits_for_;
   }
-  for (const TrafficCar& car : cars_) {
+  for (const Car& car : cars_) {
     all.push_back(actor_of(car));
   }
   return all;
@@ -94,7 +94,7 @@ void Traffic::watch_ego(const Actor& ego, const TrafficView& view) {
   ego_waits_for_ = choice.waits_for;
 }
 
-Actor Traffic::actor_of(const TrafficCar& car) const {
+Actor Traffic::actor_of(const Car& car) const {
   Actor actor;
   actor.id = car.id;
   actor.lane = car.lane;
@@ -113,7 +113,7 @@ Actor Traffic::actor_of(const TrafficCar& car) const {
   return actor;
 }
 
-void Traffic::move(TrafficCar& car) {
+void Traffic::move(Car& car) {
   car.speed_mps = std::max(0.0, car.speed_mps + car.acceleration_mps2 * kTick_s);
   car.s_m += car.speed_mps * kTick_s;
   if (car.change_done < 1.0) {
@@ -141,7 +141,7 @@ void Traffic::move(TrafficCar& car) {
 }
 
 void Traffic::clear(map::LaneId lane, double from_m, double to_m) {
-  std::erase_if(cars_, [&](const TrafficCar& car) {
+  std::erase_if(cars_, [&](const Car& car) {
     return (car.lane == lane || car.leaving == lane) && car.s_m + 0.5 * car.length_m > from_m &&
            car.s_m - 0.5 * car.length_m < to_m;
   });
@@ -150,7 +150,7 @@ void Traffic::clear(map::LaneId lane, double from_m, double to_m) {
 std::vector<CarFlags> Traffic::flags() const {
   std::vector<CarFlags> all;
   all.reserve(cars_.size());
-  for (const TrafficCar& car : cars_) {
+  for (const Car& car : cars_) {
     all.push_back({car.id, car.change_done < 1.0, car.speed_mps < 0.1});
   }
   return all;
@@ -159,7 +159,7 @@ std::vector<CarFlags> Traffic::flags() const {
 std::vector<CarState> Traffic::cars() const {
   std::vector<CarState> states;
   states.reserve(cars_.size());
-  for (const TrafficCar& car : cars_) {
+  for (const Car& car : cars_) {
     const map::PolylinePose pose = lane(car.lane).centre.at(car.s_m);
     const double p = car.change_done;
     const double rate = p < 1.0 ? std::min(1.0 / 3.0, car.speed_mps / 15.0) : 0.0;

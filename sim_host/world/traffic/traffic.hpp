@@ -22,7 +22,7 @@
 namespace s4tp::traffic {
 
 /// One car of the traffic; its box centre is at `s_m` along the lane, `offset_m` to the left of it.
-struct TrafficCar {
+struct Car {
   static constexpr int kLooking = -2;  ///< attentive just now: whoever is there is no surprise
 
   int id = 0;  ///< 1 + the index of its departure: no draw, and nobody's delay, changes it
@@ -72,7 +72,7 @@ class Traffic : public TrafficEngine {
   void clear(map::LaneId lane, double from_m, double to_m) override;
   [[nodiscard]] int finished() const override { return finished_; }
 
-  [[nodiscard]] const std::vector<TrafficCar>& details() const { return cars_; }
+  [[nodiscard]] const std::vector<Car>& details() const { return cars_; }
 
  protected:
   static constexpr int kDecisionTicks = 10;
@@ -82,42 +82,39 @@ class Traffic : public TrafficEngine {
   /// What everybody does in the next 0.1 s. \param ego  null: not there
   virtual void decide(const Actor* ego);
   /// Whether a driver who wants to change into a lane does. \param beside  the lane, from the car's place on
-  [[nodiscard]] virtual bool may_change(const TrafficCar& /*car*/, const WayPart& /*beside*/) const {
-    return true;
-  }
+  [[nodiscard]] virtual bool may_change(const Car& /*car*/, const WayPart& /*beside*/) const { return true; }
   [[nodiscard]] std::vector<Actor> actors(const Actor* ego) const;
   /// As the driver would like it, everybody in `view` considered.
-  [[nodiscard]] double acceleration(TrafficCar& car, const Actor& self, const TrafficView& view);
-  void consider_lane_change(TrafficCar& car, const Actor& self, const TrafficView& view);
+  [[nodiscard]] double acceleration(Car& car, const Actor& self, const TrafficView& view);
+  void consider_lane_change(Car& car, const Actor& self, const TrafficView& view);
   void insert_waiting(const Actor* ego);
-  [[nodiscard]] const map::NetworkLane& lane(map::LaneId id) const { return road_->lane(id); }
+  [[nodiscard]] const map::Lane& lane(map::LaneId id) const { return road_->lane(id); }
 
   std::shared_ptr<const RoadIndex> road_;  ///< what never changes is shared with the copies
   std::shared_ptr<const FlowPlan> plan_;
   std::uint64_t seed_;
-  std::vector<TrafficCar> cars_;  ///< by id
+  std::vector<Car> cars_;  ///< by id
 
  private:
-  [[nodiscard]] Actor actor_of(const TrafficCar& car) const;
-  [[nodiscard]] double wanted_speed_mps(const TrafficCar& car, const std::vector<WayPart>& way) const;
-  [[nodiscard]] double follow(TrafficCar& car, const Actor& self, const TrafficView& view,
-                              const Leader& leader, double wanted_mps);
+  [[nodiscard]] Actor actor_of(const Car& car) const;
+  [[nodiscard]] double wanted_speed_mps(const Car& car, const std::vector<WayPart>& way) const;
+  [[nodiscard]] double follow(Car& car, const Actor& self, const TrafficView& view, const Leader& leader,
+                              double wanted_mps);
   // What each of these asks for at most [m/s^2]; infinity: nothing. The car remembers what it decided.
-  [[nodiscard]] double for_lane_end(const TrafficCar& car, const Actor& self, double wanted_mps) const;
-  [[nodiscard]] double for_junction(TrafficCar& car, const JunctionChoice& choice, double wanted_mps) const;
-  [[nodiscard]] double for_hazard(TrafficCar& car, const JunctionChoice& choice, double wanted_mps) const;
-  [[nodiscard]] double towards_merging(const TrafficCar& car, const Actor& self, const TrafficView& view,
+  [[nodiscard]] double for_lane_end(const Car& car, const Actor& self, double wanted_mps) const;
+  [[nodiscard]] double for_junction(Car& car, const JunctionChoice& choice, double wanted_mps) const;
+  [[nodiscard]] double for_hazard(Car& car, const JunctionChoice& choice, double wanted_mps) const;
+  [[nodiscard]] double towards_merging(const Car& car, const Actor& self, const TrafficView& view,
                                        const Leader& leader, double wanted_mps, double result) const;
-  [[nodiscard]] double lane_change_gain(const TrafficCar& car, const TrafficView& view,
-                                        const WayPart& beside) const;
-  [[nodiscard]] bool safe_beside(const TrafficCar& car, const WayPart& beside, const TrafficView& view,
+  [[nodiscard]] double lane_change_gain(const Car& car, const TrafficView& view, const WayPart& beside) const;
+  [[nodiscard]] bool safe_beside(const Car& car, const WayPart& beside, const TrafficView& view,
                                  bool urgent) const;
   void watch_ego(const Actor& ego, const TrafficView& view);
   [[nodiscard]] const Driver& driver_of(int id) const;
-  [[nodiscard]] bool somebody_comes(const TrafficView& view, const TrafficCar& car) const;
-  [[nodiscard]] std::optional<double> entry_speed_mps(const TrafficView& view, const TrafficCar& car,
+  [[nodiscard]] bool somebody_comes(const TrafficView& view, const Car& car) const;
+  [[nodiscard]] std::optional<double> entry_speed_mps(const TrafficView& view, const Car& car,
                                                       const Departure& departure) const;
-  void move(TrafficCar& car);
+  void move(Car& car);
 
   std::vector<std::deque<std::size_t>> waiting_;  ///< departures, by lane
   std::size_t next_departure_ = 0;

@@ -88,7 +88,7 @@ LaneId lane_for(const map::Network& network, const scenario::TrafficRoute& route
 }
 
 /// Of the box centre; < 0: the lane's start.
-double start_of(const map::NetworkLane& lane, const DepartWish& wish, double car_m, Random& random) {
+double start_of(const map::Lane& lane, const DepartWish& wish, double car_m, Random& random) {
   const double length_m = lane.centre.length_m();
   double front_m = wish.position_m < 0.0 ? length_m + wish.position_m : wish.position_m;
   if (wish.position == DepartWish::Position::kBase) {
@@ -148,7 +148,7 @@ FlowPlan draw_demand(const map::Network& network, const scenario::Demand& demand
       const scenario::DriverModel& model = one_of(flow.drivers, random);
       const LaneId lane = lane_for(network, demand.routes[way], plan.ways[way].guide, flow.depart, random);
       Departure departure = departure_of(std::max(0.0, time_s), way, lane, model, random);
-      const map::NetworkLane& on = network.lanes[static_cast<std::size_t>(lane)];
+      const map::Lane& on = network.lanes[static_cast<std::size_t>(lane)];
       departure.s_m = start_of(on, flow.depart, model.length_m, random);
       if (flow.depart.speed == DepartWish::Speed::kNumber) {
         departure.speed_mps = flow.depart.speed_mps;

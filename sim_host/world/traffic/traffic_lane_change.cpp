@@ -32,12 +32,11 @@ double towards(const Driver& driver, double speed_mps, double wanted_mps, const 
 }  // namespace
 
 const Driver& Traffic::driver_of(int id) const {
-  const auto car = std::find_if(cars_.begin(), cars_.end(), [&](const TrafficCar& c) { return c.id == id; });
+  const auto car = std::find_if(cars_.begin(), cars_.end(), [&](const Car& c) { return c.id == id; });
   return car != cars_.end() ? car->driver : ego_driver_;
 }
 
-bool Traffic::safe_beside(const TrafficCar& car, const WayPart& beside, const TrafficView& view,
-                          bool urgent) const {
+bool Traffic::safe_beside(const Car& car, const WayPart& beside, const TrafficView& view, bool urgent) const {
   const double safe = urgent ? car.driver.asked_braking_mps2 + kUrgent_mps2 : car.driver.asked_braking_mps2;
   const map::RouteGuide& guide = plan_->ways[car.way].guide;
   const std::vector<WayPart> way = view.way_from(beside.lane, -beside.start_m, &guide);
@@ -59,8 +58,7 @@ bool Traffic::safe_beside(const TrafficCar& car, const WayPart& beside, const Tr
 }
 
 /// MOBIL's incentive: own gain, and by politeness that of the new follower and of the old one.
-double Traffic::lane_change_gain(const TrafficCar& car, const TrafficView& view,
-                                 const WayPart& beside) const {
+double Traffic::lane_change_gain(const Car& car, const TrafficView& view, const WayPart& beside) const {
   const map::RouteGuide& guide = plan_->ways[car.way].guide;
   const std::vector<WayPart> way_now = view.way_from(car.lane, car.s_m, &guide);
   const std::vector<WayPart> way_then = view.way_from(beside.lane, -beside.start_m, &guide);
@@ -95,8 +93,8 @@ double Traffic::lane_change_gain(const TrafficCar& car, const TrafficView& view,
   return own + car.driver.politeness * others;
 }
 
-void Traffic::consider_lane_change(TrafficCar& car, const Actor& self, const TrafficView& view) {
-  const map::NetworkLane& here = lane(car.lane);
+void Traffic::consider_lane_change(Car& car, const Actor& self, const TrafficView& view) {
+  const map::Lane& here = lane(car.lane);
   if (car.change_done < 1.0 || time_s() < car.next_change_s || here.in_junction ||
       here.centre.length_m() - car.s_m < kRoom_m + kRoomPerSpeed_s * car.speed_mps) {
     return;
@@ -136,15 +134,15 @@ void Traffic::consider_lane_change(TrafficCar& car, const Actor& self, const Tra
   car.s_m = there.s_m;
   car.change_from_m = there.d_m;
   car.change_done = 0.0;
-  car.known_leader = TrafficCar::kLooking;  // it has looked
+  car.known_leader = Car::kLooking;  // it has looked
   car.next_change_s = time_s() + kPause_s;
 }
 
 /// Beside a lane that ends: the next one behind somebody on it lets that one in, or closes up. \param result  what
 /// it would do otherwise
-double Traffic::towards_merging(const TrafficCar& car, const Actor& self, const TrafficView& view,
+double Traffic::towards_merging(const Car& car, const Actor& self, const TrafficView& view,
                                 const Leader& leader, double wanted_mps, double result) const {
-  const map::NetworkLane& here = lane(car.lane);
+  const map::Lane& here = lane(car.lane);
   if ((car.driver.courtesy <= 0.0 && car.driver.rivalry <= 0.0) || here.successors.empty()) {
     return result;
   }

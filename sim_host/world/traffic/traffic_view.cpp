@@ -13,7 +13,7 @@ constexpr int kLanesBack = 3;
 constexpr double kAsFar_m = 1000.0;    // beyond it nobody asks whether two lanes have parted
 constexpr double kSideBySide_m = 2.3;  // two car widths and half a metre: no longer in each other's way
 
-bool meet(const map::NetworkLane& a, const map::NetworkLane& b) {
+bool meet(const map::Lane& a, const map::Lane& b) {
   return std::any_of(a.successors.begin(), a.successors.end(), [&](map::LaneId next) {
     return std::find(b.successors.begin(), b.successors.end(), next) != b.successors.end();
   });
@@ -40,7 +40,7 @@ map::Rule turned(map::Rule rule) {
 
 RoadIndex::RoadIndex(const map::Network& network)
     : network_(network), meetings_(network.lanes.size()), siblings_(network.lanes.size()) {
-  for (const map::NetworkConflict& c : network.conflicts) {
+  for (const map::Conflict& c : network.conflicts) {
     const bool merging = meet(lane(c.first), lane(c.second));
     meetings_[static_cast<std::size_t>(c.first)].push_back(
         {c.second, c.rule, c.first_entry_m, c.first_exit_m, c.second_entry_m, c.second_exit_m, merging});
@@ -48,7 +48,7 @@ RoadIndex::RoadIndex(const map::Network& network)
                                                              c.second_exit_m, c.first_entry_m, c.first_exit_m,
                                                              merging});
   }
-  for (const map::NetworkLane& from : network.lanes) {
+  for (const map::Lane& from : network.lanes) {
     for (const map::LaneId one : from.successors) {
       for (const map::LaneId other : from.successors) {
         if (one != other) {

@@ -57,7 +57,7 @@ class RoadIndex {
  public:
   explicit RoadIndex(const map::Network& network);
   [[nodiscard]] const map::Network& network() const { return network_; }
-  [[nodiscard]] const map::NetworkLane& lane(map::LaneId id) const {
+  [[nodiscard]] const map::Lane& lane(map::LaneId id) const {
     return network_.lanes[static_cast<std::size_t>(id)];
   }
   [[nodiscard]] const std::vector<Meeting>& meetings(map::LaneId id) const {
