@@ -74,14 +74,14 @@ ArithmeticProbes probe_arithmetic() {
           hash_functions()};
 }
 
-Status judge(const ArithmeticProbes& probes) {
+Status status_of(const ArithmeticProbes& probes) {
   const bool exact = probes.denormal_bits == kHalfOfSmallestNormal && probes.rounding_bits == kRounding &&
                      probes.fused_bits == 0U && probes.functions_hash == kFunctionsHash;
   return exact ? Status::kOk : Status::kArithmetic;
 }
 
 Status arithmetic_self_test() {
-  return judge(probe_arithmetic());
+  return status_of(probe_arithmetic());
 }
 
 }  // namespace s4tp

@@ -18,7 +18,7 @@ struct ArithmeticProbes {
 [[nodiscard]] ArithmeticProbes probe_arithmetic();
 
 /// \return kOk when every answer is the right one, else kArithmetic
-[[nodiscard]] Status judge(const ArithmeticProbes& probes);
+[[nodiscard]] Status status_of(const ArithmeticProbes& probes);
 
 /// CORE-012 Probes denormals, rounding and fused multiply-add, then hashes our own functions on fixed inputs.
 /// \return kOk, or kArithmetic

@@ -21,7 +21,7 @@ StageCounter stage_counter;
 
 bool self_test() {
   const ArithmeticProbes probes = probe_arithmetic();
-  const bool passed = judge(probes) == Status::kOk;
+  const bool passed = status_of(probes) == Status::kOk;
   Text line;
   line << "arithmetic self-test " << (passed ? "passed" : "FAILED") << ", functions hash ";
   line.hex(probes.functions_hash, 8) << "\n";

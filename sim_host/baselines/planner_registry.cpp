@@ -29,7 +29,7 @@ const PlannerEntry& find_planner(const std::string& name) {
     if (entry.name == name) return entry;
   }
   throw std::invalid_argument("no planner '" + name +
-                              "'; there are: " + world::listed(planners(), &PlannerEntry::name));
+                              "'; there are: " + scenario::listed(planners(), &PlannerEntry::name));
 }
 
 RegisterPlanner::RegisterPlanner(const PlannerEntry& entry) {

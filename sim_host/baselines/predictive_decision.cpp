@@ -39,8 +39,8 @@ constexpr float kTtcS = 3.0F;
 constexpr int kTtcStride = 5;
 
 /// What the present and the next step say of a car's motion.
-world::CarState car_at(const Pose& now, const Pose& next, float length_m, float width_m) {
-  world::CarState car;
+traffic::CarState car_at(const Pose& now, const Pose& next, float length_m, float width_m) {
+  traffic::CarState car;
   car.centre = {now.x_m, now.y_m};
   car.heading_rad = now.heading_rad;
   car.speed_mps = distance(position(now), position(next)) / kStepS;
@@ -129,8 +129,9 @@ PdCost pd_features(const scene::Scene& scene, int path_index, const trajectory::
         }
         if (i % kTtcStride != kTtcStride - 1) continue;
         const Pose before = trajectory::ego_box(trajectory.points[i].rear_axle, parameters).centre;
-        const world::CarState us = car_at(before, own.centre, own.length_m, own.width_m);
-        const world::CarState them = car_at(mode.steps[i - 1], mode.steps[i], track.length_m, track.width_m);
+        const traffic::CarState us = car_at(before, own.centre, own.length_m, own.width_m);
+        const traffic::CarState them =
+            car_at(mode.steps[i - 1], mode.steps[i], track.length_m, track.width_m);
         least_s = std::min(least_s, static_cast<float>(metrics::time_to_collision_s(us, them, kTtcS)));
       }
       ttc += future.probability * (1.0F - least_s / kTtcS);

@@ -17,7 +17,7 @@ namespace s4tp::campaign {
 namespace {
 
 /// Of the scenario's tables, and those beside and above it that it may name, its network and its routes.
-std::string digest_of(const world::Scenario& scenario) {
+std::string digest_of(const scenario::Scenario& scenario) {
   std::set<std::filesystem::path> tables;
   for (const std::filesystem::path& folder : {scenario.folder, scenario.folder / ".."}) {
     for (const auto& entry : std::filesystem::directory_iterator(folder.empty() ? "." : folder)) {
@@ -32,7 +32,7 @@ std::string digest_of(const world::Scenario& scenario) {
 }
 
 bool is_sumo(const std::string& traffic) {
-  return world::engine_of(traffic) == world::Engine::kSumo;
+  return scenario::engine_of(traffic) == scenario::Engine::kSumo;
 }
 
 using ByFlavourAndArgument =
@@ -46,8 +46,8 @@ ByFlavourAndArgument load_scenarios(const CampaignPlan& plan, const std::filesys
     for (const std::string& argument : plan.scenarios) {
       auto one = std::make_shared<CampaignScenario>();
       one->argument = argument;
-      one->scenario = world::load_scenario(world::scenario_path(scenario_root, argument), flavour);
-      if (with_sumo) world::check_names(one->scenario);
+      one->scenario = scenario::load_scenario(scenario::scenario_path(scenario_root, argument), flavour);
+      if (with_sumo) sumo::check_names(one->scenario);
       one->digest = digest_of(one->scenario);
       const auto [known, fresh] = argument_of.emplace(one->scenario.name, argument);
       if (!fresh && known->second != argument) {
@@ -119,8 +119,8 @@ std::vector<EpisodeRow> run_campaign(const Campaign& campaign, const std::vector
     episode.seed = job.seed;
     episode.planner = cell.cell.planner;
     episode.guarded = cell.cell.guarded;
-    episode.engine = world::engine_of(cell.cell.traffic);
-    episode.perception = world::perception_preset(cell.cell.perception);
+    episode.engine = scenario::engine_of(cell.cell.traffic);
+    episode.perception = scenario::perception_preset(cell.cell.perception);
     episode.parameters = campaign.plan.parameters;
     episode.trace = options.trace;
     try {

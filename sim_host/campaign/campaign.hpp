@@ -32,7 +32,7 @@ struct CampaignPlan {
 struct CampaignScenario {
   std::string argument;  ///< as it was named in the plan
   std::string digest;    ///< of its files' bytes
-  world::Scenario scenario;
+  scenario::Scenario scenario;
 };
 
 struct CampaignCell {

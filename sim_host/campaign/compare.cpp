@@ -31,7 +31,7 @@ const char* verdict(const metrics::Paired& paired) {
 Outcomes outcomes_of(const CellResult& cell) {
   Outcomes outcomes{cell.cell, {}};
   for (const metrics::EpisodeMetrics& episode : cell.episodes) {
-    outcomes.failed[episode.seed] = episode.ending != world::Ending::kGoal;
+    outcomes.failed[episode.seed] = episode.ending != traffic::Ending::kGoal;
   }
   return outcomes;
 }

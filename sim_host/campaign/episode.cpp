@@ -19,7 +19,7 @@ double cpu_now_s() {
 
 }  // namespace
 
-EpisodeResult run_episode(const world::Scenario& scenario, const EpisodeOptions& options) {
+EpisodeResult run_episode(const scenario::Scenario& scenario, const EpisodeOptions& options) {
   const double cpu_start_s = cpu_now_s();
   EpisodeResult result;
   result.trace = std::make_unique<Trace>();

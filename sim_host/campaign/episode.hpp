@@ -36,8 +36,8 @@ struct EpisodeOptions {
   std::uint64_t seed = 0;
   std::string planner = "s4tp";
   bool guarded = true;  ///< make_ecu()
-  world::PerceptionOptions perception;
-  world::Engine engine = world::Engine::kBuiltin;
+  scenario::PerceptionOptions perception;
+  scenario::Engine engine = scenario::Engine::kBuiltin;
   Parameters parameters;
   const hal::FlashBank* weights = nullptr;   ///< ecu::Ports::weights
   std::optional<std::filesystem::path> log;  ///< candump log of every frame on the bus
@@ -52,14 +52,14 @@ struct EpisodeOptions {
 };
 
 struct EpisodeResult {
-  world::Recording recording;
-  world::Vec2 origin;            ///< of the odometry frame, network coordinates
+  traffic::Recording recording;
+  map::Vec2 origin;              ///< of the odometry frame, network coordinates
   std::unique_ptr<Trace> trace;  ///< when asked for
   double cpu_s = 0.0;
   satp::WeightStatus weights = satp::WeightStatus::kAbsent;  ///< EcuCore::weights()
 };
 
 /// \throws std::runtime_error when the log cannot be written
-[[nodiscard]] EpisodeResult run_episode(const world::Scenario& scenario, const EpisodeOptions& options);
+[[nodiscard]] EpisodeResult run_episode(const scenario::Scenario& scenario, const EpisodeOptions& options);
 
 }  // namespace s4tp::campaign

@@ -153,7 +153,7 @@ std::string difference(const ordered_json& there, const ordered_json& here, cons
 ordered_json to_json(const EpisodeRow& row) {
   ordered_json line;
   visit_fields(row, [&](const char* key, const auto& value) {
-    if constexpr (std::is_same_v<decltype(value), const world::Ending&>) {
+    if constexpr (std::is_same_v<decltype(value), const traffic::Ending&>) {
       line[key] = metrics::ending_name(value);
     } else {
       line[key] = value;
@@ -165,7 +165,7 @@ ordered_json to_json(const EpisodeRow& row) {
 EpisodeRow row_of(const ordered_json& line) {
   EpisodeRow row;
   visit_fields(row, [&](const char* key, auto& value) {
-    if constexpr (std::is_same_v<decltype(value), world::Ending&>) {
+    if constexpr (std::is_same_v<decltype(value), traffic::Ending&>) {
       value = metrics::ending_of(line.at(key).get<std::string>());
     } else {
       read_value(line.at(key), key, value);

@@ -31,7 +31,7 @@ Cell all_cell(Cell cell) {
 }
 
 bool failed(const EpisodeMetrics& episode) {
-  return episode.ending != world::Ending::kGoal;
+  return episode.ending != traffic::Ending::kGoal;
 }
 
 double restricted_s(const EpisodeMetrics& episode) {

@@ -49,9 +49,9 @@ bool names_preset(const std::string& group, const std::string& field) {
 }  // namespace
 
 Parameters load_parameters(const std::filesystem::path& file) {
-  world::require_utf8(file);
+  scenario::require_utf8(file);
   Parameters parameters;
-  const toml::value root = world::parse_toml(file);
+  const toml::value root = scenario::parse_toml(file);
   for (const auto& [group, fields] : root.as_table()) {
     if (!fields.is_table()) refuse(file, "'" + group + "' is not a group; accepted: [group] field = value");
     if (group == "risk") choose_preset(file, fields.as_table(), parameters);

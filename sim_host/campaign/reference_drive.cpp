@@ -22,7 +22,7 @@ bool is_perception(const wire::Frame& frame) {
 
 DriveContent content_of(const EpisodeResult& result) {
   DriveContent content;
-  for (const world::Snapshot& snapshot : result.recording.snapshots) {
+  for (const traffic::Snapshot& snapshot : result.recording.snapshots) {
     if (snapshot.time_s < 0.0) continue;
     content.stopped = content.stopped || snapshot.ego.speed_mps < kStandingMps;
     content.restarted = content.restarted || (content.stopped && snapshot.ego.speed_mps > kDrivingMps);
@@ -40,7 +40,7 @@ DriveContent content_of(const EpisodeResult& result) {
   return content;
 }
 
-std::uint64_t record_reference_drive(const world::Scenario& left_turn, const std::filesystem::path& file) {
+std::uint64_t record_reference_drive(const scenario::Scenario& left_turn, const std::filesystem::path& file) {
   constexpr std::uint64_t kSeeds = 50;
   for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
     EpisodeOptions options;
@@ -52,7 +52,7 @@ std::uint64_t record_reference_drive(const world::Scenario& left_turn, const std
     };
     options.deadline_misses_s = {kDeadlineMissS};
     const EpisodeResult result = run_episode(left_turn, options);
-    if (result.recording.ending == world::Ending::kGoal && content_of(result).complete()) return seed;
+    if (result.recording.ending == traffic::Ending::kGoal && content_of(result).complete()) return seed;
   }
   throw std::runtime_error(
       "no left turn of seeds 0 to 49 has a stop, a restart, a lane change and a degraded mode");

@@ -26,6 +26,6 @@ struct DriveContent {
 
 /// Drives left turns from seed 0 on until one contains everything, and leaves its log in `file`.
 /// \return the seed \throws std::runtime_error when none of the first 50 does
-std::uint64_t record_reference_drive(const world::Scenario& left_turn, const std::filesystem::path& file);
+std::uint64_t record_reference_drive(const scenario::Scenario& left_turn, const std::filesystem::path& file);
 
 }  // namespace s4tp::campaign

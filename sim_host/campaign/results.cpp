@@ -20,7 +20,7 @@ ordered_json pair_of(const metrics::Interval& interval) {
 ordered_json failures_of(const CellResult& result) {
   ordered_json failures = ordered_json::array();
   for (const metrics::EpisodeMetrics& episode : result.episodes) {
-    if (episode.ending == world::Ending::kGoal) continue;
+    if (episode.ending == traffic::Ending::kGoal) continue;
     failures.push_back({{"seed", episode.seed},
                         {"cause", episode.cause},
                         {"time_s", episode.duration_s},
@@ -119,7 +119,7 @@ void write_json(const std::filesystem::path& file, const ordered_json& document)
   if (!stream.flush()) throw std::runtime_error(file.string() + ": cannot write the results");
 }
 
-void print_episode(std::ostream& out, const EpisodeRow& row, const world::Recording& recording) {
+void print_episode(std::ostream& out, const EpisodeRow& row, const traffic::Recording& recording) {
   const metrics::EpisodeMetrics& m = row.metrics;
   std::ostringstream figures;  // as many digits as are read
   figures << std::fixed << std::setprecision(2) << m.duration_s << " s, smallest gap " << m.min_gap_m
@@ -127,8 +127,8 @@ void print_episode(std::ostream& out, const EpisodeRow& row, const world::Record
           << m.mean_abs_jerk_mps3 << " m/s^3\n";
   out << words(row.cell) << ", seed " << m.seed << ": " << metrics::ending_name(m.ending) << " after "
       << figures.str();
-  for (const world::Collision& collision : recording.collisions) {
-    out << "  at " << collision.time_s << " s: " << world::cause_words(collision.fault, collision.cause)
+  for (const traffic::Collision& collision : recording.collisions) {
+    out << "  at " << collision.time_s << " s: " << traffic::cause_words(collision.fault, collision.cause)
         << ", vehicle " << collision.other << '\n';
   }
 }

@@ -43,6 +43,6 @@ struct CellResult {
 void write_json(const std::filesystem::path& file, const nlohmann::ordered_json& document);
 
 /// One episode in words, with its collisions.
-void print_episode(std::ostream& out, const EpisodeRow& row, const world::Recording& recording);
+void print_episode(std::ostream& out, const EpisodeRow& row, const traffic::Recording& recording);
 
 }  // namespace s4tp::campaign

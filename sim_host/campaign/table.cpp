@@ -8,7 +8,7 @@
 namespace s4tp::campaign {
 namespace {
 
-using world::format;
+using scenario::format;
 
 using Cells = std::vector<const CellResult*>;
 
@@ -128,7 +128,7 @@ std::size_t print_failures(std::ostream& out, const std::vector<CellResult>& cel
   std::size_t count = 0;
   for (const CellResult& cell : cells) {
     for (const metrics::EpisodeMetrics& episode : cell.episodes) {
-      if (episode.ending == world::Ending::kGoal || ++count > limit) continue;
+      if (episode.ending == traffic::Ending::kGoal || ++count > limit) continue;
       const char* const whose = episode.collisions_at_fault > 0 ? " (ours)" : "";
       out << format("%7.2f s  %-26s  ", episode.duration_s, (episode.cause + whose).c_str())
           << command(cell.cell, episode.seed) << '\n';

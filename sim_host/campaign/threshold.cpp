@@ -31,15 +31,15 @@ struct Drive {
 
 using Drives = std::map<int, Drive>;
 
-Drives watch(const world::Scenario& scenario, const CalibrationOptions& options, std::uint64_t seed) {
-  const std::unique_ptr<world::TrafficEngine> engine =
-      world::make_engine(scenario, {world::Engine::kBuiltin, seed});
+Drives watch(const scenario::Scenario& scenario, const CalibrationOptions& options, std::uint64_t seed) {
+  const std::unique_ptr<traffic::TrafficEngine> engine =
+      world::make_engine(scenario, {scenario::Engine::kBuiltin, seed});
   Drives drives;
   const auto count = static_cast<std::size_t>(std::lround(options.duration_s / static_cast<double>(kStepS)));
-  const world::Vec2 origin = scenario.network.lanes.front().centre.points().front();
+  const map::Vec2 origin = scenario.network.lanes.front().centre.points().front();
   for (std::size_t i = 0; i < count; ++i) {
     for (int tick = 0; tick < kTicksPerSnapshot; ++tick) engine->step(nullptr);
-    for (const world::CarState& car : engine->cars()) {
+    for (const traffic::CarState& car : engine->cars()) {
       Drive& drive = drives[car.id];
       if (drive.states.empty()) drive.first = i;
       if (drive.first + drive.states.size() != i) continue;  // was gone in between
@@ -169,7 +169,8 @@ Calibration empty_calibration() {
   return calibration;
 }
 
-void calibrate(const world::Scenario& scenario, const CalibrationOptions& options, Calibration& calibration) {
+void calibrate(const scenario::Scenario& scenario, const CalibrationOptions& options,
+               Calibration& calibration) {
   for (int i = 0; i < options.episodes; ++i) {
     add_drives(watch(scenario, options, options.first_seed + static_cast<std::uint64_t>(i)), calibration);
     if (options.on_episode) options.on_episode(i + 1);

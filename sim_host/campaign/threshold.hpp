@@ -40,6 +40,7 @@ struct Calibration {
 /// Adds the drives of one scenario's built-in traffic. Every second each driver is put in our place: its own
 /// next 3 s are the trajectory, what the others really did are the predictions, and R_obs is taken at every
 /// step of it as the planner would. Drivers who touch anybody at any time are left out.
-void calibrate(const world::Scenario& scenario, const CalibrationOptions& options, Calibration& calibration);
+void calibrate(const scenario::Scenario& scenario, const CalibrationOptions& options,
+               Calibration& calibration);
 
 }  // namespace s4tp::campaign

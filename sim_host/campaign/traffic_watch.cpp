@@ -18,9 +18,9 @@ constexpr int kTicksPerSnapshot = 10;
 constexpr double kSnapshot_s = 0.1;
 constexpr double kOnlyOnce_per_min = 0.1;  // the second one would come 10 minutes later
 
-world::FlowGroup neutral_driver(const world::Scenario& scenario) {
+scenario::FlowGroup neutral_driver(const scenario::Scenario& scenario) {
   const auto& lanes = scenario.network.lanes;
-  world::FlowGroup group;
+  scenario::FlowGroup group;
   group.routes = {{scenario.mission.edges, lanes[static_cast<std::size_t>(scenario.mission.start_lane)].index,
                    lanes[static_cast<std::size_t>(scenario.mission.goal_lane)].index}};
   group.vehicles_per_minute = {kOnlyOnce_per_min, kOnlyOnce_per_min};
@@ -28,16 +28,16 @@ world::FlowGroup neutral_driver(const world::Scenario& scenario) {
   return group;
 }
 
-metrics::TrafficSamples watch_one(const world::Scenario& scenario, const WatchOptions& options,
+metrics::TrafficSamples watch_one(const scenario::Scenario& scenario, const WatchOptions& options,
                                   std::uint64_t seed) {
-  const std::unique_ptr<world::TrafficEngine> engine = world::make_engine(scenario, {options.engine, seed});
-  std::vector<world::Snapshot> snapshots;
+  const std::unique_ptr<traffic::TrafficEngine> engine = world::make_engine(scenario, {options.engine, seed});
+  std::vector<traffic::Snapshot> snapshots;
   const auto count = static_cast<int>(std::lround(options.duration_s / kSnapshot_s));
   for (int i = 1; i <= count; ++i) {
     for (int tick = 0; tick < kTicksPerSnapshot; ++tick) {
       engine->step(nullptr);
     }
-    world::Snapshot snapshot;
+    traffic::Snapshot snapshot;
     snapshot.time_s = i * kSnapshot_s;
     snapshot.others = engine->cars();
     snapshots.push_back(std::move(snapshot));
@@ -47,8 +47,8 @@ metrics::TrafficSamples watch_one(const world::Scenario& scenario, const WatchOp
 
 }  // namespace
 
-metrics::TrafficRun watch_traffic(const world::Scenario& scenario, const WatchOptions& options) {
-  world::Scenario watched = scenario;
+metrics::TrafficRun watch_traffic(const scenario::Scenario& scenario, const WatchOptions& options) {
+  scenario::Scenario watched = scenario;
   if (options.neutral_driver && watched.route_files.empty()) {
     watched.flows.push_back(neutral_driver(scenario));
   }
@@ -81,7 +81,7 @@ metrics::TrafficRun watch_traffic(const world::Scenario& scenario, const WatchOp
   metrics::TrafficRun run;
   run.scenario = scenario.name;
   run.flavour = scenario.flavour.empty() ? "smarts" : scenario.flavour;
-  run.engine = world::engine_names().at(static_cast<std::size_t>(options.engine));
+  run.engine = scenario::engine_names().at(static_cast<std::size_t>(options.engine));
   run.episodes = options.episodes;
   for (const metrics::TrafficSamples& some : samples) run.samples.add(some);  // in order of seeds
   return run;

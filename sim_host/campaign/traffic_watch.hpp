@@ -11,7 +11,7 @@
 namespace s4tp::campaign {
 
 struct WatchOptions {
-  world::Engine engine = world::Engine::kBuiltin;
+  scenario::Engine engine = scenario::Engine::kBuiltin;
   int episodes = 20;
   std::uint64_t first_seed = 0;  ///< the others follow
   double duration_s = 120.0;     ///< of each, from an empty road
@@ -22,6 +22,7 @@ struct WatchOptions {
 };
 
 /// \throws what an engine throws
-[[nodiscard]] metrics::TrafficRun watch_traffic(const world::Scenario& scenario, const WatchOptions& options);
+[[nodiscard]] metrics::TrafficRun watch_traffic(const scenario::Scenario& scenario,
+                                                const WatchOptions& options);
 
 }  // namespace s4tp::campaign

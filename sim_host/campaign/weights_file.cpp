@@ -8,7 +8,7 @@
 namespace s4tp::campaign {
 
 std::unique_ptr<hal::sim::MemoryFlashBank> bank_with(const std::filesystem::path& file) {
-  const std::string bytes = world::whole_file(file, hal::sim::MemoryFlashBank::kSize);
+  const std::string bytes = scenario::whole_file(file, hal::sim::MemoryFlashBank::kSize);
   auto bank = std::make_unique<hal::sim::MemoryFlashBank>();
   if (!bank->write(0, bytes.data(), static_cast<std::uint32_t>(bytes.size()))) {
     throw std::runtime_error(file.string() + ": does not fit a flash bank");

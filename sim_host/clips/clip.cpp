@@ -59,14 +59,14 @@ double number(const json& record, const char* name, double low, double high, dou
   return found == record.end() ? missing : number(*found, name, low, high);
 }
 
-world::Vec2 place_of(const json& x, const json& y) {
+map::Vec2 place_of(const json& x, const json& y) {
   return {number(x, "x", -kFar_m, kFar_m), number(y, "y", -kFar_m, kFar_m)};
 }
 
-world::Polyline line_of(const json& points) {
-  std::vector<world::Vec2> line;
+map::Polyline line_of(const json& points) {
+  std::vector<map::Vec2> line;
   for (const json& point : points) line.push_back(place_of(point.at(0), point.at(1)));
-  return world::Polyline(line);
+  return map::Polyline(line);
 }
 
 void require(bool holds, const char* what) {
@@ -74,23 +74,23 @@ void require(bool holds, const char* what) {
 }
 
 ClipLane lane_of(const json& record) {
-  const world::Polyline left = line_of(record.at("left"));
-  const world::Polyline right = line_of(record.at("right"));
+  const map::Polyline left = line_of(record.at("left"));
+  const map::Polyline right = line_of(record.at("right"));
   require(left.length_m() <= kLongestLane_m, "a lane is longer than 10 km");
   ClipLane lane;
-  std::vector<world::Vec2> centre;
+  std::vector<map::Vec2> centre;
   const int count = std::max(2, static_cast<int>(std::ceil(left.length_m() / kSampled_m)) + 1);
   double width_m = 0.0;
   for (int i = 0; i < count; ++i) {
     const double share = static_cast<double>(i) / (count - 1);
-    const world::Vec2 a = left.at(share * left.length_m()).point;
-    const world::Vec2 b = right.at(share * right.length_m()).point;
+    const map::Vec2 a = left.at(share * left.length_m()).point;
+    const map::Vec2 b = right.at(share * right.length_m()).point;
     const double here_m = std::hypot(a.x - b.x, a.y - b.y);
     require(here_m <= kWidestLane_m, "a lane is wider than 100 m");
     centre.push_back({0.5 * (a.x + b.x), 0.5 * (a.y + b.y)});
     width_m += here_m / count;
   }
-  lane.centre = world::Polyline(centre);
+  lane.centre = map::Polyline(centre);
   require(lane.centre.length_m() >= kShortestLane_m && lane.centre.length_m() <= kLongestLane_m,
           "a lane is shorter than 0.1 m or longer than 10 km");
   lane.width_m = width_m;

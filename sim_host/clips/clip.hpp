@@ -12,7 +12,7 @@ namespace s4tp::clips {
 
 /// A recorded vehicle at one instant; the clip's own frame.
 struct ClipState {
-  world::Vec2 centre;
+  map::Vec2 centre;
   double heading_rad = 0.0;
   double speed_mps = 0.0;
 };
@@ -29,7 +29,7 @@ struct ClipVehicle {
 
 /// A lane of the road: between its bounds, driven along its points.
 struct ClipLane {
-  world::Polyline centre;
+  map::Polyline centre;
   double width_m = 3.5;
   double speed_limit_mps = 13.89;  ///< of a lane without one
   std::vector<int> successors;     ///< indices

@@ -24,11 +24,11 @@ float single(double value) {
 }
 
 /// The lanes around a place, as the map node would send them, conflicts apart: clips have none.
-void fill_map(const Clip& clip, world::Vec2 origin, LaneMap& map) {
+void fill_map(const Clip& clip, map::Vec2 origin, LaneMap& map) {
   std::vector<std::pair<double, int>> near;
   for (std::size_t i = 0; i < clip.lanes.size(); ++i) {
     double nearest_m = std::numeric_limits<double>::infinity();
-    for (const world::Vec2 point : clip.lanes[i].centre.points()) {
+    for (const map::Vec2 point : clip.lanes[i].centre.points()) {
       nearest_m = std::min(nearest_m, std::hypot(point.x - origin.x, point.y - origin.y));
     }
     if (nearest_m < kReach_m) near.emplace_back(nearest_m, static_cast<int>(i));
@@ -43,8 +43,8 @@ void fill_map(const Clip& clip, world::Vec2 origin, LaneMap& map) {
   for (std::size_t slot = 0; slot < near.size(); ++slot) {
     const ClipLane& from = clip.lanes[static_cast<std::size_t>(near[slot].second)];
     Lane& lane = map.lanes[slot];
-    const world::Polyline line = from.centre.simplified(kMaxLanePoints, 0.05);
-    for (const world::Vec2 point : line.points()) {
+    const map::Polyline line = from.centre.simplified(kMaxLanePoints, 0.05);
+    for (const map::Vec2 point : line.points()) {
       lane.points[lane.point_count++] = {single(point.x - origin.x), single(point.y - origin.y)};
     }
     lane.present = true;
@@ -60,16 +60,16 @@ void fill_map(const Clip& clip, world::Vec2 origin, LaneMap& map) {
   }
 }
 
-Track track_of(const ClipVehicle& vehicle, int step, world::Vec2 origin, std::uint8_t id) {
+Track track_of(const ClipVehicle& vehicle, int step, map::Vec2 origin, std::uint8_t id) {
   const ClipState& state = vehicle.states.at(step);
   const auto before = vehicle.states.find(step - kSmoothedSteps);
   Track track;
   track.id = id;
   track.centre = {single(state.centre.x - origin.x), single(state.centre.y - origin.y),
-                  single(world::wrap_angle(state.heading_rad))};
+                  single(map::wrap_angle(state.heading_rad))};
   track.speed_mps = single(std::clamp(state.speed_mps, 0.0, 60.0));
   if (before != vehicle.states.end()) {
-    const double turned = world::wrap_angle(state.heading_rad - before->second.heading_rad);
+    const double turned = map::wrap_angle(state.heading_rad - before->second.heading_rad);
     track.acceleration_mps2 =
         single(std::clamp((state.speed_mps - before->second.speed_mps) / kSmoothed_s, -12.0, 12.0));
     track.yaw_rate_radps = single(std::clamp(turned / kSmoothed_s, -1.2, 1.2));
@@ -117,9 +117,9 @@ std::vector<std::size_t> around(const Clip& clip, std::size_t vehicle, int step)
 
 }  // namespace
 
-world::Vec2 see(const Clip& clip, std::size_t vehicle, int step, const Parameters& parameters, LaneMap& map,
-                scene::Scene& scene) {
-  const world::Vec2 origin = clip.vehicles[vehicle].states.at(step).centre;
+map::Vec2 see(const Clip& clip, std::size_t vehicle, int step, const Parameters& parameters, LaneMap& map,
+              scene::Scene& scene) {
+  const map::Vec2 origin = clip.vehicles[vehicle].states.at(step).centre;
   fill_map(clip, origin, map);
   std::vector<std::size_t> others = around(clip, vehicle, step);
   // All watched: the vehicle itself and four more; the last one found stands in our place.

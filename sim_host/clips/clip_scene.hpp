@@ -14,7 +14,7 @@ inline constexpr std::uint8_t kAskedTrack = 1;
 
 /// \pre the vehicle was seen from step - kPastSteps to step; nothing later is looked at
 /// \param map  the scene points into it \return origin of the scene's frame in the clip's; headings are the same
-world::Vec2 see(const Clip& clip, std::size_t vehicle, int step, const Parameters& parameters, LaneMap& map,
-                scene::Scene& scene);
+map::Vec2 see(const Clip& clip, std::size_t vehicle, int step, const Parameters& parameters, LaneMap& map,
+              scene::Scene& scene);
 
 }  // namespace s4tp::clips

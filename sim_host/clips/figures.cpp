@@ -18,7 +18,7 @@ constexpr double kManoeuvre_rad = 15.0 / 180.0 * std::numbers::pi;
 constexpr double kSpread_m = 0.2;
 constexpr double kSpread_mps = 0.6;
 
-double apart_m(world::Vec2 a, world::Vec2 b) {
+double apart_m(map::Vec2 a, map::Vec2 b) {
   return std::hypot(a.x - b.x, a.y - b.y);
 }
 
@@ -84,7 +84,7 @@ void ClipFigures::add(const Clip& clip) {
     const std::vector<ClipFuture> futures = forecaster_.forecast(clip, window.vehicle, window.step);
     const std::uint64_t number = vehicle_number(family, vehicle.id);
     families_[family].all.add(number, futures, truth);
-    const bool turns = std::abs(world::wrap_angle(end.heading_rad - now.heading_rad)) > kManoeuvre_rad;
+    const bool turns = std::abs(map::wrap_angle(end.heading_rad - now.heading_rad)) > kManoeuvre_rad;
     if (turns || std::abs(end.speed_mps - now.speed_mps) > kManoeuvre_mps) {
       families_[family].manoeuvre.add(number, futures, truth);
     }

@@ -23,7 +23,7 @@ class Firmware final : public Forecaster {
   std::vector<ClipFuture> forecast(const Clip& clip, std::size_t vehicle, int step) const override {
     LaneMap map;
     scene::Scene scene;
-    const world::Vec2 origin = see(clip, vehicle, step, parameters_, map, scene);
+    const map::Vec2 origin = see(clip, vehicle, step, parameters_, map, scene);
     const auto predictor = std::make_unique<satp::SatpPredictor>();  // too large for the stack
     const auto scratch = std::make_unique<satp::EncoderScratch>();
     predictor->encode(weights_, scene, parameters_, scene.time_ms, nullptr, nullptr, *scratch);

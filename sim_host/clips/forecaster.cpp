@@ -26,12 +26,12 @@ class Steady final : public Forecaster {
     const ClipState& now = states.at(step);
     const ClipState& then = states.at(step - kPastSteps);
     const double a = accelerates_ ? (now.speed_mps - then.speed_mps) / kPast_s : 0.0;
-    const double turn = turns_ ? world::wrap_angle(now.heading_rad - then.heading_rad) / kPast_s : 0.0;
+    const double turn = turns_ ? map::wrap_angle(now.heading_rad - then.heading_rad) / kPast_s : 0.0;
     ClipFuture future;
-    world::Vec2 place = now.centre;
+    map::Vec2 place = now.centre;
     double speed = now.speed_mps;
     double heading = now.heading_rad;
-    for (world::Vec2& at : future.places) {
+    for (map::Vec2& at : future.places) {
       const double next = std::max(0.0, speed + a * kStep_s);
       const double way_m = 0.5 * (speed + next) * kStep_s;
       place.x += way_m * std::cos(heading + 0.5 * turn * kStep_s);
@@ -57,9 +57,9 @@ class AlongLane final : public Forecaster {
     double offset_m = std::numeric_limits<double>::infinity();
     double s = 0.0;
     for (std::size_t i = 0; i < clip.lanes.size(); ++i) {
-      const world::Polyline& centre = clip.lanes[i].centre;
-      const world::PolylineProjection at = centre.project(now.centre);
-      const double turned = world::wrap_angle(centre.at(at.s_m).heading_rad - now.heading_rad);
+      const map::Polyline& centre = clip.lanes[i].centre;
+      const map::PolylineProjection at = centre.project(now.centre);
+      const double turned = map::wrap_angle(centre.at(at.s_m).heading_rad - now.heading_rad);
       const bool on_it = at.s_m >= 0.0 && at.s_m <= centre.length_m() &&
                          std::abs(at.d_m) <= 0.5 * clip.lanes[i].width_m && std::abs(turned) < kAlong_rad;
       if (!on_it || std::abs(at.d_m) >= std::abs(offset_m)) continue;
@@ -69,14 +69,14 @@ class AlongLane final : public Forecaster {
     }
     if (lane < 0) return Steady(false, false).forecast(clip, vehicle, step);
     ClipFuture future;
-    for (world::Vec2& place : future.places) {
+    for (map::Vec2& place : future.places) {
       s += now.speed_mps * kStep_s;
       for (int next = straightest(clip, lane); s > length_m(clip, lane) && next >= 0;
            next = straightest(clip, lane)) {
         s -= length_m(clip, lane);
         lane = next;
       }
-      const world::PolylinePose at = clip.lanes[static_cast<std::size_t>(lane)].centre.at(s);
+      const map::PolylinePose at = clip.lanes[static_cast<std::size_t>(lane)].centre.at(s);
       place = {at.point.x - offset_m * std::sin(at.heading_rad),
                at.point.y + offset_m * std::cos(at.heading_rad)};
     }
@@ -88,13 +88,13 @@ class AlongLane final : public Forecaster {
     return clip.lanes[static_cast<std::size_t>(lane)].centre.length_m();
   }
   static int straightest(const Clip& clip, int lane) {
-    const world::Polyline& here = clip.lanes[static_cast<std::size_t>(lane)].centre;
+    const map::Polyline& here = clip.lanes[static_cast<std::size_t>(lane)].centre;
     const double end_rad = here.at(here.length_m()).heading_rad;
     int best = -1;
     double least_rad = std::numeric_limits<double>::infinity();
     for (const int next : clip.lanes[static_cast<std::size_t>(lane)].successors) {
-      const world::Polyline& there = clip.lanes[static_cast<std::size_t>(next)].centre;
-      const double turn_rad = std::abs(world::wrap_angle(there.at(there.length_m()).heading_rad - end_rad));
+      const map::Polyline& there = clip.lanes[static_cast<std::size_t>(next)].centre;
+      const double turn_rad = std::abs(map::wrap_angle(there.at(there.length_m()).heading_rad - end_rad));
       if (turn_rad >= least_rad) continue;
       least_rad = turn_rad;
       best = next;
@@ -122,7 +122,8 @@ std::unique_ptr<Forecaster> make_forecaster(const std::string& name) {
   if (name == "constant_acceleration") return std::make_unique<Steady>(true, false);
   if (name == "constant_turn_rate") return std::make_unique<Steady>(false, true);
   if (name == "lane_following") return std::make_unique<AlongLane>();
-  throw std::invalid_argument("no predictor '" + name + "'; there are: " + world::listed(forecaster_names()));
+  throw std::invalid_argument("no predictor '" + name +
+                              "'; there are: " + scenario::listed(forecaster_names()));
 }
 
 }  // namespace s4tp::clips

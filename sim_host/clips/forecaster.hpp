@@ -18,7 +18,7 @@ inline constexpr int kPastSteps = kHistorySamples - 1;
 /// places[i]: box centre at (i + 1) * kStepS after the present; the clip's frame.
 struct ClipFuture {
   double probability = 1.0;
-  std::array<world::Vec2, kHorizonSteps> places;
+  std::array<map::Vec2, kHorizonSteps> places;
 };
 
 class Forecaster {

@@ -36,8 +36,8 @@ std::vector<Window> Windows::of(const Clip& clip) {
     for (int step = vehicle.states.begin()->first + kPastSteps; step <= last; ++step) {
       const bool due = (step - vehicle.states.begin()->first) % kBetweenWindows == 0;
       if (!due || !vehicle.seen(step - kPastSteps, step + kHorizonSteps)) continue;
-      const world::Vec2 begin = vehicle.states.at(step - kPastSteps).centre;
-      const world::Vec2 end = vehicle.states.at(step + kHorizonSteps).centre;
+      const map::Vec2 begin = vehicle.states.at(step - kPastSteps).centre;
+      const map::Vec2 end = vehicle.states.at(step + kHorizonSteps).centre;
       if (std::hypot(begin.x - end.x, begin.y - end.y) < kMoves_m) continue;
       const std::string key = key_of(family, vehicle, step);
       if (seen_.count(key) != 0) continue;

@@ -81,7 +81,7 @@ struct CommonOptions {
   /// Where nobody named --out, a folder of this command's own. \throws std::runtime_error
   [[nodiscard]] OwnFolder choose_out();
   /// A scenario by the name of a shipped one, by its folder or its .toml file; in the flavour asked for.
-  [[nodiscard]] world::Scenario find_scenario(const std::string& name) const;
+  [[nodiscard]] scenario::Scenario find_scenario(const std::string& name) const;
 };
 
 }  // namespace s4tp::commands

@@ -69,15 +69,16 @@ void CommonOptions::add_traffic_to(CLI::App& command) {
       .add_option("--traffic", traffic,
                   "who simulates it: builtin (default), sumo (Debian's sumo), or adversary: the worst that "
                   "the law allows")
-      ->check(CLI::IsMember(world::engine_names()));
+      ->check(CLI::IsMember(scenario::engine_names()));
 }
 
 Parameters CommonOptions::parameters() const {
   return parameters_file.empty() ? Parameters{} : campaign::load_parameters(parameters_file);
 }
 
-world::Scenario CommonOptions::find_scenario(const std::string& name) const {
-  world::Scenario scenario = world::load_scenario(world::scenario_path(scenario_root, name), flavour);
+scenario::Scenario CommonOptions::find_scenario(const std::string& name) const {
+  scenario::Scenario scenario =
+      scenario::load_scenario(scenario::scenario_path(scenario_root, name), flavour);
   for (const std::string& note : scenario.notes) std::cerr << "note: " << note << '\n';
   return scenario;
 }

@@ -17,7 +17,7 @@ struct Options {
 
 struct Variant {
   const char* name;
-  world::EgoCoupling coupling;
+  sumo::EgoCoupling coupling;
   int replays = 0;
   int touched = 0;
   int stood = 0;
@@ -32,7 +32,7 @@ std::vector<Variant> variants() {
     change(variant.coupling);
     return variant;
   };
-  using Coupling = world::EgoCoupling;
+  using Coupling = sumo::EgoCoupling;
   return {without("plain moveToXY", [](Coupling& c) { c.early = c.ahead = c.wishes = c.on_route = false; }),
           without("without early", [](Coupling& c) { c.early = false; }),
           without("without ahead", [](Coupling& c) { c.ahead = false; }),
@@ -41,7 +41,7 @@ std::vector<Variant> variants() {
           without("as it is", [](Coupling&) {})};
 }
 
-void add(const world::Replay& replay, Variant& variant) {
+void add(const sumo::Replay& replay, Variant& variant) {
   ++variant.replays;
   variant.touched += replay.touched ? 1 : 0;
   variant.stood += replay.touched && replay.stood ? 1 : 0;
@@ -58,18 +58,18 @@ int measure(const Options& options) {
                                      static_cast<std::size_t>(options.episodes));
   std::cout << "SUMO's own drives that touched nobody, replayed as an ego it does not drive\n";
   for (const std::string& name : options.scenarios) {
-    const world::Scenario scenario = options.common.find_scenario(name);
+    const scenario::Scenario scenario = options.common.find_scenario(name);
     for (const std::string driver : kDrivers) {
       std::vector<Variant> all = variants();
       int touched = 0;
       int unfinished = 0;
       for (int i = 0; i < options.episodes; ++i) {
         const std::uint64_t seed = options.common.seed + static_cast<std::uint64_t>(i);
-        const world::SumoDrive drive = world::sumo_drive(scenario, seed, driver);
+        const sumo::Drive drive = sumo::sumo_drive(scenario, seed, driver);
         touched += drive.touched ? 1 : 0;
         unfinished += drive.arrived ? 0 : 1;
         if (!drive.touched) {
-          for (Variant& variant : all) add(world::replay(scenario, seed, drive, variant.coupling), variant);
+          for (Variant& variant : all) add(sumo::replay(scenario, seed, drive, variant.coupling), variant);
         }
         progress.done(name + (driver.empty() ? "" : ", bold driver") + ", seed " + std::to_string(seed));
       }

@@ -189,7 +189,7 @@ int merge(const MergeOptions& options) {
 }
 
 std::vector<campaign::Outcomes> read_outcomes(const fs::path& file) {
-  const std::string text = world::whole_file(file, kResultBytes);
+  const std::string text = scenario::whole_file(file, kResultBytes);
   try {
     return campaign::outcomes_of(campaign::parse_json(text));
   } catch (const nlohmann::json::exception& error) {
@@ -240,13 +240,13 @@ Command add_eval(CLI::App& tool) {
   eval->add_option("--traffic", plan.traffic,
                    "who simulates it: builtin (default), sumo, adversary (the worst that the law allows)")
       ->delimiter(',')
-      ->check(CLI::IsMember(world::engine_names()));
+      ->check(CLI::IsMember(scenario::engine_names()));
   eval->add_option("--guard", options->guards, "the guard behind the planner: on (default), off")
       ->delimiter(',')
       ->check(CLI::IsMember({"on", "off"}));
   eval->add_option("--perception", plan.perception,
                    "ideal (default), or real: noise, latency, dropouts, occlusion")
-      ->check(CLI::IsMember(world::perception_names()));
+      ->check(CLI::IsMember(scenario::perception_names()));
   eval->add_option("--episodes", plan.episodes, "per cell (default 20)")->check(kEpisodes);
   eval->add_option("--first-seed,--seed", options->common.seed, "the others follow (default 0)")
       ->check(kSeed);

@@ -25,7 +25,7 @@ struct FaultsOptions {
 faults::Scenarios load(const FaultsOptions& options) {
   faults::Scenarios scenarios;
   for (const std::string& name : options.scenarios) {
-    world::Scenario scenario = options.common.find_scenario(name);
+    scenario::Scenario scenario = options.common.find_scenario(name);
     scenarios.insert_or_assign(scenario.name, std::move(scenario));
   }
   return scenarios;
@@ -101,7 +101,7 @@ Command add_faults(CLI::App& tool) {
   return {app, [options, seed, script] {
             const faults::Scenarios scenarios = load(*options);
             if (script->count() > 0) {
-              const std::string text = world::whole_file(options->script, kScriptBytes);
+              const std::string text = scenario::whole_file(options->script, kScriptBytes);
               return judge_one(scenarios, faults::parse_script(text, options->script));
             }
             if (seed->count() == 0) {

@@ -85,9 +85,9 @@ double kept_from_s(const fs::path& file) {
                                                               : 0.0;
 }
 
-int cut_same_start(const ReplayOptions& options, const world::Scenario& roads) {
+int cut_same_start(const ReplayOptions& options, const scenario::Scenario& roads) {
   const DriveNote note = recording::Playback(playback_options(options)).note();
-  const double start_s = *options.cut_s + note.take_over_tick * world::kTick_s - recording::kBefore_s -
+  const double start_s = *options.cut_s + note.take_over_tick * traffic::kTick_s - recording::kBefore_s -
                          kept_from_s(options.file);
   const recording::StartMade made =
       recording::write_same_start(options.file, note, start_s, roads, options.common.out);

@@ -60,7 +60,7 @@ int calibrate(RiskOptions& options) {
   for (const std::string& flavour : options.flavours) {
     options.common.flavour = flavour;
     for (const std::string& name : options.scenarios) {
-      const world::Scenario scenario = options.common.find_scenario(name);
+      const scenario::Scenario scenario = options.common.find_scenario(name);
       options.calibration.on_episode = [&](int) { progress.done(name + ", " + flavour); };
       campaign::calibrate(scenario, options.calibration, calibration);
     }

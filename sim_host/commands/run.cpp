@@ -25,7 +25,7 @@ Command add_run(CLI::App& tool) {
           ->check(CLI::IsMember({"on", "off"}));
   run->add_option("--perception", options->perception,
                   "ideal (default), or real: noise, latency, dropouts, occlusion")
-      ->check(CLI::IsMember(world::perception_names()));
+      ->check(CLI::IsMember(scenario::perception_names()));
   CLI::Option* const explain = run->add_flag("--explain", options->explain,
                                              "say in words, and in numbers, why the car does what it does");
   run->add_option("--log", options->log, "write every frame on the bus here, in candump's format");

@@ -34,8 +34,8 @@ namespace s4tp::commands {
 namespace {
 
 /// Since the ECU takes over.
-double cut_start_s(const world::Scenario& scenario) {
-  return scenario.cut->start_tick * world::kTick_s - world::WorldOptions{}.pre_roll_s;
+double cut_start_s(const scenario::Scenario& scenario) {
+  return scenario.cut->start_tick * traffic::kTick_s - world::WorldOptions{}.pre_roll_s;
 }
 
 std::string format_s(double time_s) {
@@ -45,7 +45,7 @@ std::string format_s(double time_s) {
 }
 
 /// The drive is this planner's, as the recording notes it; empty: of an ECU that was there already.
-std::unique_ptr<recording::Recorder> make_recorder(const RunOptions& run, const world::Scenario& scenario,
+std::unique_ptr<recording::Recorder> make_recorder(const RunOptions& run, const scenario::Scenario& scenario,
                                                    recording::Meeting meeting, const std::string& planner) {
   if (run.record.empty()) return nullptr;
   if (!std::isfinite(run.record_size_mb)) throw std::runtime_error("--record-size-mb: accepted is a number");
@@ -59,7 +59,7 @@ std::unique_ptr<recording::Recorder> make_recorder(const RunOptions& run, const 
   note.guarded = run.guarded();
   note.parameters = run.common.parameters();
   note.meeting = meeting;
-  note.take_over_tick = static_cast<int>(std::lround(world::WorldOptions{}.pre_roll_s / world::kTick_s));
+  note.take_over_tick = static_cast<int>(std::lround(world::WorldOptions{}.pre_roll_s / traffic::kTick_s));
   const auto bytes = static_cast<std::uint64_t>(run.record_size_mb * 1e6);
   return std::make_unique<recording::Recorder>(run.record, recording::SeriesLimits{bytes, run.record_keep},
                                                std::move(note), scenario);
@@ -70,8 +70,8 @@ void finish(recording::Recorder& recorder, const RunOptions& run) {
 }
 
 /// The scenario asked for. Of a cut also its seed, its traffic and its perception.
-world::Scenario scenario_of(RunOptions& run) {
-  world::Scenario scenario = run.common.find_scenario(run.scenario);
+scenario::Scenario scenario_of(RunOptions& run) {
+  scenario::Scenario scenario = run.common.find_scenario(run.scenario);
   if (scenario.cut) {
     run.common.seed = scenario.cut->seed;
     run.common.traffic = scenario.cut->traffic;
@@ -86,13 +86,13 @@ world::Scenario scenario_of(RunOptions& run) {
 }  // namespace
 
 int run_one(RunOptions run) try {
-  const world::Scenario scenario = scenario_of(run);
+  const scenario::Scenario scenario = scenario_of(run);
   campaign::EpisodeOptions options;
   options.seed = run.common.seed;
   options.planner = run.planner;
   options.guarded = run.guarded() && !baselines::find_planner(run.planner).drives_in_sumo;
-  options.engine = world::engine_of(run.common.traffic);
-  options.perception = world::perception_preset(run.perception);
+  options.engine = scenario::engine_of(run.common.traffic);
+  options.perception = scenario::perception_preset(run.perception);
   options.parameters = run.common.parameters();
   options.trace = true;
   std::unique_ptr<hal::sim::MemoryFlashBank> bank;
@@ -140,13 +140,13 @@ int run_one(RunOptions run) try {
             << "\nreasons: " << reasons.string() << '\n';
   if (!run.log.empty()) std::cout << "bus log: " << run.log.string() << '\n';
   if (recorder) finish(*recorder, run);
-  return result.recording.ending == world::Ending::kGoal ? 0 : kNotGoodEnough;
+  return result.recording.ending == traffic::Ending::kGoal ? 0 : kNotGoodEnough;
 } catch (const telemetry::DriveStopped&) {
   return kInterrupted;
 }
 
 int run_on_bus(RunOptions run) {
-  const world::Scenario scenario = scenario_of(run);
+  const scenario::Scenario scenario = scenario_of(run);
   const bool calls = run.bus.starts_with("slcan:tcp:");
   processes::DriveOptions options;
   const bool starts = !run.no_ecu;
@@ -156,8 +156,8 @@ int run_on_bus(RunOptions run) {
     throw std::runtime_error(run.bus + ": the ECU has to be at its other end already; add --no-ecu");
   }
   options.world.seed = run.common.seed;
-  options.world.engine = world::engine_of(run.common.traffic);
-  options.world.perception = world::perception_preset(run.perception);
+  options.world.engine = scenario::engine_of(run.common.traffic);
+  options.world.perception = scenario::perception_preset(run.perception);
   options.world.realtime = run.realtime;
   options.world.paced = run.live;
   options.world.wait_for_answers(run.patience_s);
@@ -191,15 +191,15 @@ int run_on_target(RunOptions run) {
   if (!run.common.parameters_file.empty()) {
     throw std::runtime_error("--parameters: an image has its own; --target drives with those");
   }
-  const world::Scenario scenario = scenario_of(run);
+  const scenario::Scenario scenario = scenario_of(run);
   processes::TargetOptions options;
   options.target = run.target;
   options.image = run.image;
   options.telemetry = run.telemetry;
   options.weights = run.weights;
   options.world.seed = run.common.seed;
-  options.world.engine = world::engine_of(run.common.traffic);
-  options.world.perception = world::perception_preset(run.perception);
+  options.world.engine = scenario::engine_of(run.common.traffic);
+  options.world.perception = scenario::perception_preset(run.perception);
   options.world.ecu_note = campaign::ecu_note("s4tp", true, Parameters{});
   options.world.paced = run.live;
   if (!run.log.empty()) options.world.log = run.log;

@@ -33,9 +33,9 @@ int run(TrafficOptions& options) {
   for (const std::string& flavour : options.flavours) {
     options.common.flavour = flavour;
     for (const std::string& name : options.scenarios) {
-      const world::Scenario scenario = options.common.find_scenario(name);
+      const scenario::Scenario scenario = options.common.find_scenario(name);
       for (const std::string& engine : options.engines) {
-        options.watch.engine = world::engine_of(engine);
+        options.watch.engine = scenario::engine_of(engine);
         options.watch.first_seed = options.common.seed;
         options.watch.on_episode = [&](int) { progress.done(name + ", " + flavour + ", " + engine); };
         runs.push_back(campaign::watch_traffic(scenario, options.watch));
@@ -63,7 +63,7 @@ Command add_traffic(CLI::App& tool) {
   traffic->add_option("--flavour", options->flavours, "smarts, social (default: both)")->delimiter(',');
   traffic->add_option("--traffic", options->engines, "builtin (default), sumo, or both")
       ->delimiter(',')
-      ->check(CLI::IsMember(world::engine_names()));
+      ->check(CLI::IsMember(scenario::engine_names()));
   traffic->add_option("--episodes", options->watch.episodes, "per scenario, flavour and engine (default 20)")
       ->check(kEpisodes);
   traffic->add_option("--seed,--first-seed", options->common.seed, "first seed (default 0)")->check(kSeed);

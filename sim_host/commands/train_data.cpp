@@ -63,9 +63,9 @@ class DataSet {
   }
   [[nodiscard]] bool stopped() const { return stop_; }
 
-  void drive(const world::Scenario& scenario, std::uint64_t road, train::SampleScenario kind,
+  void drive(const scenario::Scenario& scenario, std::uint64_t road, train::SampleScenario kind,
              std::uint64_t seed) {
-    world::Random random(world::next_seed(road * 65'536 + seed));
+    traffic::Random random(traffic::next_seed(road * 65'536 + seed));
     train::DriveOptions drive;
     drive.seed = seed;
     drive.road = road;
@@ -168,7 +168,7 @@ int run(DataOptions& options) {
     throw std::invalid_argument("seeds and roads from 10000 on are for reporting, never for training");
   }
   DataSet set(options);
-  std::vector<world::Scenario> shipped;
+  std::vector<scenario::Scenario> shipped;
   for (const std::string& flavour : kFlavours) {
     options.common.flavour = flavour;
     for (const std::string& name : kShipped) shipped.push_back(options.common.find_scenario(name));
@@ -191,7 +191,7 @@ int run(DataOptions& options) {
                                                         options.common.out / "roads");
       for (const std::string& flavour : kFlavours) {
         if (set.done()) break;
-        set.drive(world::load_scenario(road.folder, flavour), number, train::SampleScenario::kGenerated,
+        set.drive(scenario::load_scenario(road.folder, flavour), number, train::SampleScenario::kGenerated,
                   2 * number + (flavour == "social" ? 1 : 0));
       }
     }

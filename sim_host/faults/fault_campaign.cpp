@@ -31,7 +31,7 @@ struct Count {
       ++failed;
     }
     own_collisions += result.own_fault ? 1 : 0;
-    off_road += result.ending == world::Ending::kOffRoad ? 1 : 0;
+    off_road += result.ending == traffic::Ending::kOffRoad ? 1 : 0;
   }
 };
 

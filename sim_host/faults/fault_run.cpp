@@ -68,7 +68,7 @@ class Story final : public hal::Telemetry {
 
 class Run {
  public:
-  Run(const world::Scenario& scenario, const FaultScript& script, const RunOptions& options)
+  Run(const scenario::Scenario& scenario, const FaultScript& script, const RunOptions& options)
       : script_(script),
         options_(options),
         world_(scenario, world_options(script, options)),
@@ -79,7 +79,7 @@ class Run {
   RunResult run() {
     // A car that gets no commands is no reason to stop looking: they may come back.
     const auto goes_on = [this] {
-      return !world_.finished() || world_.recording().ending == world::Ending::kDeadEcu;
+      return !world_.finished() || world_.recording().ending == traffic::Ending::kDeadEcu;
     };
     for (int tick = 1 - kPreRollTicks; tick <= kRunTicks && goes_on() && !judge_.breached(); ++tick)
       step(tick);
@@ -100,10 +100,11 @@ class Run {
     return options;
   }
 
-  [[nodiscard]] const world::Collision* own_contact() const {
-    const std::vector<world::Collision>& all = world_.recording().collisions;
-    const auto found = std::find_if(
-        all.begin(), all.end(), [](const world::Collision& one) { return one.fault == world::Fault::kEgo; });
+  [[nodiscard]] const traffic::Collision* own_contact() const {
+    const std::vector<traffic::Collision>& all = world_.recording().collisions;
+    const auto found = std::find_if(all.begin(), all.end(), [](const traffic::Collision& one) {
+      return one.fault == traffic::Fault::kEgo;
+    });
     return found == all.end() ? nullptr : &*found;
   }
 
@@ -135,8 +136,8 @@ class Run {
     }
     for (const wire::Frame& frame : faults_.to_world(tick, sent)) world_.receive(frame);
     if (options_.watch) options_.watch(tick, ecu_->core(), pose_);
-    const world::Collision* const contact = honest(script_) ? own_contact() : nullptr;
-    if (contact != nullptr) judge_.contact(world::cause_words(contact->fault, contact->cause));
+    const traffic::Collision* const contact = honest(script_) ? own_contact() : nullptr;
+    if (contact != nullptr) judge_.contact(traffic::cause_words(contact->fault, contact->cause));
     judge_.end_tick();
   }
 

@@ -19,13 +19,13 @@
 
 namespace s4tp::faults {
 
-using Scenarios = std::map<std::string, world::Scenario>;
+using Scenarios = std::map<std::string, scenario::Scenario>;
 
 struct RunResult {
   Verdict verdict;
-  world::Ending ending = world::Ending::kRunning;  ///< kRunning: the time was over
-  bool own_fault = false;                          ///< a collision attributed to our car
-  unsigned modes = 0;                              ///< bit m: mode m was reached
+  traffic::Ending ending = traffic::Ending::kRunning;  ///< kRunning: the time was over
+  bool own_fault = false;                              ///< a collision attributed to our car
+  unsigned modes = 0;                                  ///< bit m: mode m was reached
 };
 
 struct RunOptions {
@@ -33,7 +33,7 @@ struct RunOptions {
   std::function<void(const std::vector<wire::Frame>& taken, std::vector<wire::Frame>& sent)> defect;
   /// Each tick, after the ECU's. \param pose  newest one that was sent, before any fault
   std::function<void(int tick, const ecu::EcuCore& ecu, const wire::Pose& pose)> watch;
-  world::SensorOptions sensors = {};  ///< errors of the car's sensors
+  nodes::SensorOptions sensors = {};  ///< errors of the car's sensors
   std::ostream* story = nullptr;      ///< mode changes, with their time and faults
 };
 

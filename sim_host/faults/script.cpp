@@ -70,7 +70,7 @@ constexpr std::array<KindTraits, kFaultKinds> kKinds{{
     {"lie", kMotion | kSteering | kPose | kTrackList, 0, kLies - 1, true, "which one: lies.hpp, in order"},
 }};
 
-MessageSet choose_messages(world::Random& random, MessageSet allowed) {
+MessageSet choose_messages(traffic::Random& random, MessageSet allowed) {
   if (allowed == 0) return 0;
   if (random.uniform() < 0.2) return allowed;
   MessageSet chosen = 0;
@@ -83,7 +83,7 @@ MessageSet choose_messages(world::Random& random, MessageSet allowed) {
 }
 
 /// Small, middling and extreme ones equally often.
-int choose_intensity(world::Random& random, const KindTraits& kind) {
+int choose_intensity(traffic::Random& random, const KindTraits& kind) {
   if (kind.intensity_min >= 0 && kind.intensity_max <= 6) {
     return random.integer(kind.intensity_min, kind.intensity_max);
   }
@@ -95,7 +95,7 @@ int choose_intensity(world::Random& random, const KindTraits& kind) {
   return random.integer(middle - span, middle + span);
 }
 
-int choose_ticks(world::Random& random) {
+int choose_ticks(traffic::Random& random) {
   const double kind = random.uniform();
   if (kind < 0.3) return random.integer(1, 10);
   if (kind < 0.65) return random.integer(10, 100);
@@ -103,7 +103,7 @@ int choose_ticks(world::Random& random) {
   return kForGood;
 }
 
-Fault make_fault(world::Random& random) {
+Fault make_fault(traffic::Random& random) {
   Fault fault;
   fault.kind = static_cast<FaultKind>(random.integer(0, kFaultKinds - 1));
   const KindTraits& kind = traits(fault.kind);
@@ -268,7 +268,7 @@ bool honest(const FaultScript& script) {
 }
 
 FaultScript make_script(std::uint64_t seed, const std::vector<std::string>& scenarios) {
-  world::Random random(seed ^ 0xFA17ULL);
+  traffic::Random random(seed ^ 0xFA17ULL);
   FaultScript script;
   script.seed = seed;
   script.scenario = scenarios.at(seed % scenarios.size());

@@ -77,7 +77,7 @@ void append_track(std::uint8_t generation, std::uint8_t index, std::uint64_t ran
     Frame frame;
     frame.id = id;
     frame.length = 8;
-    random = world::next_seed(random);
+    random = traffic::next_seed(random);
     set_bits(frame, 0, kBits, random);
     if (id == wire::kTrackPoseId) {
       // Within 40 m of the origin, where the car starts: far ones would be nobody's concern.
@@ -95,7 +95,7 @@ void append_track(std::uint8_t generation, std::uint8_t index, std::uint64_t ran
 
 std::uint64_t draw(const Fault& fault, int tick, std::size_t place) {
   const auto where = static_cast<std::uint64_t>(tick + kPreRollTicks) * 4096U + place;
-  return world::next_seed(world::next_seed(fault.dice) ^ where);
+  return traffic::next_seed(traffic::next_seed(fault.dice) ^ where);
 }
 
 void shift_clock(const Fault& fault, int tick, Frame& frame) {
@@ -163,7 +163,7 @@ void lengthen(const Fault& fault, int tick, std::vector<Frame>& frames) {
     const auto generation = static_cast<std::uint8_t>((frame.data[1] >> 4U) & 0xFU);
     const auto count = static_cast<std::uint8_t>(fault.intensity == 1 ? 0U : frame.data[2] & 0x1FU);
     for (std::uint8_t index = count; index < 16; ++index) {
-      append_track(generation, index, world::next_seed(random + index), result);
+      append_track(generation, index, traffic::next_seed(random + index), result);
     }
   }
   frames = result;
@@ -176,7 +176,7 @@ void babble(const Fault& fault, int tick, std::vector<Frame>& frames) {
     frame.id = message(static_cast<int>(random % kMessageCount)).id;
     if (!contains(fault.messages, frame.id)) continue;
     frame.length = 8;
-    set_bits(frame, 0, kBits, world::next_seed(random));
+    set_bits(frame, 0, kBits, traffic::next_seed(random));
     wire::e2e_seal(frame);
     frames.insert(frames.begin() + static_cast<std::ptrdiff_t>((random >> 32U) % (frames.size() + 1U)),
                   frame);

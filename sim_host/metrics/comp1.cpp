@@ -11,9 +11,9 @@
 namespace s4tp::metrics {
 namespace {
 
-using world::CarState;
-using world::Snapshot;
-using world::Vec2;
+using map::Vec2;
+using traffic::CarState;
+using traffic::Snapshot;
 
 constexpr double kCrashSteps = 800.0;
 
@@ -41,7 +41,7 @@ double obstacle_term(const Snapshot& last) {
     const double dx = other.centre.x - last.ego.centre.x;
     const double dy = other.centre.y - last.ego.centre.y;
     const double distance_m = std::hypot(dx, dy);
-    const double angle = world::wrap_angle(std::atan2(dy, dx) - last.ego.heading_rad);
+    const double angle = map::wrap_angle(std::atan2(dy, dx) - last.ego.heading_rad);
     if (std::abs(angle) > kViewRad || distance_m > 3.0 * last.ego.speed_mps) continue;
     nearest_m = std::min(nearest_m.value_or(distance_m), distance_m);
   }
@@ -50,9 +50,9 @@ double obstacle_term(const Snapshot& last) {
 
 }  // namespace
 
-Comp1 comp1_of(const world::Recording& recording, const std::vector<const Snapshot*>& driven) {
+Comp1 comp1_of(const traffic::Recording& recording, const std::vector<const Snapshot*>& driven) {
   Comp1 result;
-  result.success = recording.ending == world::Ending::kGoal;
+  result.success = recording.ending == traffic::Ending::kGoal;
   result.goal_distance_m = recording.goal_distance_m;
   result.steps = kCrashSteps;
   if (driven.size() < 2) return result;

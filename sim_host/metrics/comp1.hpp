@@ -27,7 +27,7 @@ struct Comp1 {
 };
 
 /// \param driven  the recording's snapshots from take-over on, up to what ended the drive
-[[nodiscard]] Comp1 comp1_of(const world::Recording& recording,
-                             const std::vector<const world::Snapshot*>& driven);
+[[nodiscard]] Comp1 comp1_of(const traffic::Recording& recording,
+                             const std::vector<const traffic::Snapshot*>& driven);
 
 }  // namespace s4tp::metrics

@@ -10,16 +10,16 @@
 namespace s4tp::metrics {
 namespace {
 
-using world::CarState;
-using world::Evidence;
-using world::Journey;
-using world::JourneyPoint;
-using world::Law;
-using world::NetworkLane;
-using world::Rule;
-using world::Snapshot;
-using world::ZoneGroup;
-using world::ZoneOnWay;
+using judge::Evidence;
+using judge::Journey;
+using judge::JourneyPoint;
+using judge::Law;
+using judge::ZoneGroup;
+using judge::ZoneOnWay;
+using map::Lane;
+using map::Rule;
+using traffic::CarState;
+using traffic::Snapshot;
 
 constexpr double kZonePad_m =
     3.0;  // a car beside its lane's centre comes over a zone a little earlier and later
@@ -46,17 +46,17 @@ struct Ahead {
 };
 
 /// Places of a car on lanes: its own, and those beside it that its box reaches into.
-std::vector<std::pair<world::LaneId, double>> places_of(const Evidence& evidence, const CarState& car) {
-  std::vector<std::pair<world::LaneId, double>> places;
-  if (car.lane == world::kNoLane) {
+std::vector<std::pair<map::LaneId, double>> places_of(const Evidence& evidence, const CarState& car) {
+  std::vector<std::pair<map::LaneId, double>> places;
+  if (car.lane == map::kNoLane) {
     return places;
   }
-  const NetworkLane& lane = evidence.road().lane(car.lane);
+  const Lane& lane = evidence.road().lane(car.lane);
   places.emplace_back(car.lane, lane.centre.project(car.centre).s_m);
-  for (const world::LaneId beside : {lane.left, lane.right}) {
-    if (beside != world::kNoLane) {
-      const NetworkLane& other = evidence.road().lane(beside);
-      const world::PolylineProjection at = other.centre.project(car.centre);
+  for (const map::LaneId beside : {lane.left, lane.right}) {
+    if (beside != map::kNoLane) {
+      const Lane& other = evidence.road().lane(beside);
+      const map::PolylineProjection at = other.centre.project(car.centre);
       if (std::abs(at.d_m) < 0.5 * (other.width_m + car.width_m) - kReachesIn_m) {
         places.emplace_back(beside, at.s_m);
       }
@@ -240,7 +240,7 @@ Encounters encounters_of(const Law& law, const Evidence& evidence, double from_s
     }
     ++steps;
     bool violates = false;
-    if (now.ego.lane != world::kNoLane) {
+    if (now.ego.lane != map::kNoLane) {
       const JourneyPoint& here = ego->at(now.time_s);
       if (const std::optional<Ahead> leader = next_ahead(evidence, now, *ego)) {
         gap_sum_m += leader->gap_m;

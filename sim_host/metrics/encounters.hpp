@@ -35,6 +35,6 @@ struct Encounters {
 };
 
 /// \param evidence  with the ego, up to where it counts  \param from_s  since when it counts
-[[nodiscard]] Encounters encounters_of(const world::Law& law, const world::Evidence& evidence, double from_s);
+[[nodiscard]] Encounters encounters_of(const judge::Law& law, const judge::Evidence& evidence, double from_s);
 
 }  // namespace s4tp::metrics

@@ -7,32 +7,33 @@
 namespace s4tp::metrics {
 namespace {
 
-constexpr world::Ending kEndings[] = {world::Ending::kRunning,   world::Ending::kGoal,
-                                      world::Ending::kCollision, world::Ending::kOffRoad,
-                                      world::Ending::kTimeOut,   world::Ending::kDeadEcu};
+using traffic::Ending;
+
+constexpr Ending kEndings[] = {Ending::kRunning, Ending::kGoal,    Ending::kCollision,
+                               Ending::kOffRoad, Ending::kTimeOut, Ending::kDeadEcu};
 
 }  // namespace
 
-const char* ending_name(world::Ending ending) {
+const char* ending_name(Ending ending) {
   switch (ending) {
-    case world::Ending::kRunning:
+    case Ending::kRunning:
       return "running";
-    case world::Ending::kGoal:
+    case Ending::kGoal:
       return "goal";
-    case world::Ending::kCollision:
+    case Ending::kCollision:
       return "collision";
-    case world::Ending::kOffRoad:
+    case Ending::kOffRoad:
       return "off road";
-    case world::Ending::kTimeOut:
+    case Ending::kTimeOut:
       return "time-out";
-    case world::Ending::kDeadEcu:
+    case Ending::kDeadEcu:
       return "dead ECU";
   }
   return "?";
 }
 
-world::Ending ending_of(const std::string& name) {
-  for (const world::Ending ending : kEndings) {
+Ending ending_of(const std::string& name) {
+  for (const Ending ending : kEndings) {
     if (name == ending_name(ending)) return ending;
   }
   throw std::invalid_argument("no ending is called '" + name + "'");

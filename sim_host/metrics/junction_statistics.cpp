@@ -9,10 +9,11 @@
 namespace s4tp::metrics {
 namespace {
 
-using world::kNoLane;
-using world::LaneId;
-using world::NetworkLane;
-using world::Rule;
+using judge::Journey;
+using map::kNoLane;
+using map::Lane;
+using map::LaneId;
+using map::Rule;
 
 constexpr double kMoving_mps = 3.0;
 constexpr double kPetMax_s = 10.0;
@@ -21,16 +22,16 @@ constexpr double kTurn_rad = 0.6;
 constexpr double kStep_s = 0.1;
 constexpr double kStuck_s = 60.0;
 
-void post_encroachment(const world::Network& network, const std::vector<world::Journey>& tracks,
+void post_encroachment(const map::Network& network, const std::vector<Journey>& tracks,
                        TrafficSamples& samples) {
   struct Stay {
     double in_s = 0.0;
     double out_s = 0.0;
     bool first_lane = false;
   };
-  for (const world::NetworkConflict& zone : network.conflicts) {
+  for (const map::Conflict& zone : network.conflicts) {
     std::vector<Stay> stays;
-    for (const world::Journey& track : tracks) {
+    for (const Journey& track : tracks) {
       for (const bool first : {true, false}) {
         const LaneId lane = first ? zone.first : zone.second;
         const auto in_s = track.time_at(lane, first ? zone.first_entry_m : zone.second_entry_m);
@@ -59,11 +60,11 @@ struct YieldZone {
 };
 
 /// Of a way through a junction that begins with this lane (some have two, to wait between).
-std::vector<YieldZone> yield_zones(const world::Network& network, LaneId first_lane) {
+std::vector<YieldZone> yield_zones(const map::Network& network, LaneId first_lane) {
   std::vector<YieldZone> zones;
   LaneId lane = first_lane;
   for (int part = 0; part < 3 && lane != kNoLane && lane_of(network, lane).in_junction; ++part) {
-    for (const world::NetworkConflict& c : network.conflicts) {
+    for (const map::Conflict& c : network.conflicts) {
       if (c.first == lane && c.rule == Rule::kFirstYields) {
         zones.push_back({lane, c.first_entry_m, c.second, c.second_entry_m});
       } else if (c.second == lane && c.rule == Rule::kFirstHasPriority) {
@@ -77,8 +78,8 @@ std::vector<YieldZone> yield_zones(const world::Network& network, LaneId first_l
 }
 
 /// By the angle between the lanes before and behind the junction.
-Manoeuvre turn_of(const world::Network& network, LaneId inside) {
-  const NetworkLane& before = lane_of(network, lane_of(network, inside).predecessors.front());
+Manoeuvre turn_of(const map::Network& network, LaneId inside) {
+  const Lane& before = lane_of(network, lane_of(network, inside).predecessors.front());
   LaneId after = inside;
   for (int part = 0; part < 3 && lane_of(network, after).in_junction; ++part) {
     if (lane_of(network, after).successors.empty()) {
@@ -86,23 +87,23 @@ Manoeuvre turn_of(const world::Network& network, LaneId inside) {
     }
     after = lane_of(network, after).successors.front();
   }
-  const double turn_rad = world::wrap_angle(lane_of(network, after).centre.at(0.0).heading_rad -
-                                            before.centre.at(before.centre.length_m()).heading_rad);
+  const double turn_rad = map::wrap_angle(lane_of(network, after).centre.at(0.0).heading_rad -
+                                          before.centre.at(before.centre.length_m()).heading_rad);
   return turn_rad > kTurn_rad    ? Manoeuvre::kLeftTurn
          : turn_rad < -kTurn_rad ? Manoeuvre::kRightTurn
                                  : Manoeuvre::kStraight;
 }
 
 /// When a driver is first in line near the end of a lane: nobody of the others on it is still before it.
-std::optional<double> first_in_line_s(const world::Journey& self, LaneId lane, double length_m,
-                                      const std::vector<world::Journey>& tracks, double entered_s) {
+std::optional<double> first_in_line_s(const Journey& self, LaneId lane, double length_m,
+                                      const std::vector<Journey>& tracks, double entered_s) {
   const double near_m = length_m - kFirstInLine_m - 0.5 * self.length_m;
   const auto near_s = self.time_at(lane, near_m);
   if (!near_s && (self.points.front().lane != lane || self.points.front().s_m < near_m)) {
     return std::nullopt;
   }
   double since_s = near_s.value_or(self.points.front().time_s);
-  for (const world::Journey& other : tracks) {
+  for (const Journey& other : tracks) {
     const auto left_s = other.time_at(lane, length_m - 0.5 * other.length_m);
     if (other.id != self.id && left_s && *left_s < entered_s) {
       since_s = std::max(since_s, *left_s);
@@ -136,16 +137,15 @@ void add_choice(const std::vector<double>& others_s, double since_s, double take
 }
 
 /// Others' passages of the ground, referred to the line; none where the recording ends too early to say.
-std::optional<std::vector<double>> others_at_line_s(const std::vector<YieldZone>& zones,
-                                                    const world::Journey& self, double entered_s,
-                                                    const std::vector<world::Journey>& tracks) {
+std::optional<std::vector<double>> others_at_line_s(const std::vector<YieldZone>& zones, const Journey& self,
+                                                    double entered_s, const std::vector<Journey>& tracks) {
   std::vector<double> times_s;
   for (const YieldZone& zone : zones) {
     const auto own_s = self.time_at(zone.own, zone.own_entry_m);
     if (!own_s) {
       return std::nullopt;
     }
-    for (const world::Journey& other : tracks) {
+    for (const Journey& other : tracks) {
       const auto other_s = other.time_at(zone.other, zone.other_entry_m);
       if (other_s && other.id != self.id) {
         times_s.push_back(*other_s - (*own_s - entered_s));
@@ -156,10 +156,9 @@ std::optional<std::vector<double>> others_at_line_s(const std::vector<YieldZone>
   return times_s;
 }
 
-void junction_gaps(const world::Network& network, const std::vector<world::Journey>& tracks,
-                   TrafficSamples& samples) {
+void junction_gaps(const map::Network& network, const std::vector<Journey>& tracks, TrafficSamples& samples) {
   for (std::size_t id = 0; id < network.lanes.size(); ++id) {
-    const NetworkLane& inside = network.lanes[id];
+    const Lane& inside = network.lanes[id];
     if (!inside.in_junction || inside.predecessors.empty() ||
         lane_of(network, inside.predecessors.front()).in_junction) {
       continue;
@@ -171,7 +170,7 @@ void junction_gaps(const world::Network& network, const std::vector<world::Journ
     const Manoeuvre manoeuvre = turn_of(network, static_cast<LaneId>(id));
     const LaneId before = inside.predecessors.front();
     const double before_m = lane_of(network, before).centre.length_m();
-    for (const world::Journey& self : tracks) {
+    for (const Journey& self : tracks) {
       const auto entered_s = self.time_at(before, before_m - 0.5 * self.length_m);
       if (!entered_s || !self.time_at(static_cast<LaneId>(id), 0.0)) {
         continue;
@@ -189,15 +188,15 @@ void junction_gaps(const world::Network& network, const std::vector<world::Journ
 }
 
 /// Who stands at the end of a lane that leads into a junction when the recording ends, and has for long.
-void still_waiting(const world::Network& network, const std::vector<world::Journey>& tracks, double last_s,
+void still_waiting(const map::Network& network, const std::vector<Journey>& tracks, double last_s,
                    TrafficSamples& samples) {
-  for (const world::Journey& track : tracks) {
-    const world::JourneyPoint& last = track.points.back();
-    const NetworkLane& lane = lane_of(network, last.lane);
+  for (const Journey& track : tracks) {
+    const judge::JourneyPoint& last = track.points.back();
+    const Lane& lane = lane_of(network, last.lane);
     const bool at_line = !lane.successors.empty() && lane_of(network, lane.successors.front()).in_junction &&
                          last.s_m > lane.centre.length_m() - kFirstInLine_m - 0.5 * track.length_m;
     const auto moved = std::find_if(track.points.rbegin(), track.points.rend(),
-                                    [](const world::JourneyPoint& p) { return p.speed_mps > kMoving_mps; });
+                                    [](const judge::JourneyPoint& p) { return p.speed_mps > kMoving_mps; });
     const double since_s = moved == track.points.rend() ? track.points.front().time_s : moved->time_s;
     if (at_line && !lane.in_junction && last.time_s > last_s - 0.5 * kStep_s && last_s - since_s > kStuck_s) {
       ++samples.still_waiting;
@@ -207,7 +206,7 @@ void still_waiting(const world::Network& network, const std::vector<world::Journ
 
 }  // namespace
 
-void add_junctions(const world::Network& network, const std::vector<world::Journey>& tracks, double last_s,
+void add_junctions(const map::Network& network, const std::vector<Journey>& tracks, double last_s,
                    TrafficSamples& samples) {
   post_encroachment(network, tracks, samples);
   junction_gaps(network, tracks, samples);

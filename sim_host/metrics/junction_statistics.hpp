@@ -9,7 +9,7 @@
 namespace s4tp::metrics {
 
 /// Adds choices, gaps, waits, post-encroachment times and who is still waiting at the recording's end.
-void add_junctions(const world::Network& network, const std::vector<world::Journey>& tracks, double last_s,
+void add_junctions(const map::Network& network, const std::vector<judge::Journey>& tracks, double last_s,
                    TrafficSamples& samples);
 
 }  // namespace s4tp::metrics

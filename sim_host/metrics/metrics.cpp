@@ -11,9 +11,9 @@
 namespace s4tp::metrics {
 namespace {
 
-using world::CarState;
-using world::Snapshot;
-using world::Vec2;
+using map::Vec2;
+using traffic::CarState;
+using traffic::Snapshot;
 
 constexpr double kNobodyM = 1e3;
 constexpr double kStandingMps = 0.1;
@@ -22,7 +22,7 @@ double mean(double sum, std::size_t count) {
   return count > 0 ? sum / static_cast<double>(count) : 0.0;
 }
 
-std::vector<const Snapshot*> driven_part(const world::Recording& recording) {
+std::vector<const Snapshot*> driven_part(const traffic::Recording& recording) {
   std::vector<const Snapshot*> driven;
   for (const Snapshot& snapshot : recording.snapshots) {
     if (snapshot.time_s < 0.0) continue;
@@ -36,19 +36,19 @@ std::vector<const Snapshot*> driven_part(const world::Recording& recording) {
   return driven;
 }
 
-void measure_collisions(const world::Recording& recording, EpisodeMetrics& result) {
+void measure_collisions(const traffic::Recording& recording, EpisodeMetrics& result) {
   result.collisions_competition_box = static_cast<int>(recording.collisions_competition.size());
-  for (const world::Collision& collision : recording.collisions) {
-    const bool ours = collision.fault == world::Fault::kEgo;
+  for (const traffic::Collision& collision : recording.collisions) {
+    const bool ours = collision.fault == traffic::Fault::kEgo;
     ++(ours ? result.collisions_at_fault : result.collisions_other_fault);
   }
-  const bool touched = recording.ending == world::Ending::kCollision && !recording.collisions.empty();
+  const bool touched = recording.ending == traffic::Ending::kCollision && !recording.collisions.empty();
   result.cause =
-      touched ? world::cause_words(recording.collisions.front().fault, recording.collisions.front().cause)
+      touched ? traffic::cause_words(recording.collisions.front().fault, recording.collisions.front().cause)
               : ending_name(recording.ending);
 }
 
-void measure_motion(const world::Recording& recording, const std::vector<const Snapshot*>& driven,
+void measure_motion(const traffic::Recording& recording, const std::vector<const Snapshot*>& driven,
                     EpisodeMetrics& result) {
   double jerk_sum = 0.0;
   double squares = 0.0;
@@ -71,7 +71,7 @@ void measure_motion(const world::Recording& recording, const std::vector<const S
     result.duration_s = driven.back()->time_s;
     const Vec2 start = driven.front()->ego.centre;
     const double whole_m = std::abs(recording.goal.x - start.x) + std::abs(recording.goal.y - start.y);
-    const double left_m = recording.ending == world::Ending::kGoal ? 0.0 : recording.goal_distance_m;
+    const double left_m = recording.ending == traffic::Ending::kGoal ? 0.0 : recording.goal_distance_m;
     if (whole_m > 0.0) result.progress_share = std::clamp(1.0 - left_m / whole_m, 0.0, 1.0);
   }
 }
@@ -81,7 +81,7 @@ void measure_distances(const std::vector<const Snapshot*>& driven, EpisodeMetric
   for (const Snapshot* const now : driven) {
     for (const CarState& other : now->others) {
       result.min_gap_m =
-          std::min(result.min_gap_m, world::distance_m(world::box_of(now->ego), world::box_of(other)));
+          std::min(result.min_gap_m, traffic::distance_m(traffic::box_of(now->ego), traffic::box_of(other)));
       result.min_time_to_collision_s =
           std::min(result.min_time_to_collision_s, time_to_collision_s(now->ego, other, kTtcHorizonS));
     }
@@ -89,25 +89,25 @@ void measure_distances(const std::vector<const Snapshot*>& driven, EpisodeMetric
 }
 
 /// What came before take-over is evidence too: who has been ahead for how long.
-void measure_encounters(const world::Recording& recording, const world::Scenario& scenario,
+void measure_encounters(const traffic::Recording& recording, const scenario::Scenario& scenario,
                         const std::vector<const Snapshot*>& driven, EpisodeMetrics& result) {
   if (driven.empty() || scenario.mission.edges.empty()) return;  // of a drive elsewhere no way is known
-  const world::RouteGuide guide = mission_guide(scenario);
+  const map::RouteGuide guide = mission_guide(scenario);
   const std::span<const Snapshot> upto(
       recording.snapshots.data(), static_cast<std::size_t>(driven.back() - recording.snapshots.data()) + 1);
-  result.encounters = encounters_of({}, world::Evidence(scenario.network, upto, &guide), 0.0);
+  result.encounters = encounters_of({}, judge::Evidence(scenario.network, upto, &guide), 0.0);
 }
 
 }  // namespace
 
-EpisodeMetrics evaluate(const world::Recording& recording, const world::Scenario& scenario) {
+EpisodeMetrics evaluate(const traffic::Recording& recording, const scenario::Scenario& scenario) {
   const std::vector<const Snapshot*> driven = driven_part(recording);
   EpisodeMetrics result;
   result.seed = recording.seed;
   result.ending = recording.ending;
   result.redrawn = recording.redrawn;
   measure_collisions(recording, result);
-  result.collided_standing = recording.ending == world::Ending::kCollision && !driven.empty() &&
+  result.collided_standing = recording.ending == traffic::Ending::kCollision && !driven.empty() &&
                              driven.back()->ego.speed_mps < kStandingMps;
   measure_motion(recording, driven, result);
   measure_distances(driven, result);

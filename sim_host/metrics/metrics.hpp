@@ -17,7 +17,7 @@ inline constexpr double kTtcHorizonS = 10.0;
 
 struct EpisodeMetrics {
   std::uint64_t seed = 0;
-  world::Ending ending = world::Ending::kRunning;
+  traffic::Ending ending = traffic::Ending::kRunning;
   int redrawn = 0;
   // Collisions: all that touched at the same instant; the first one's cause.
   int collisions_at_fault = 0;
@@ -44,11 +44,12 @@ struct EpisodeMetrics {
 };
 
 /// Only what happened after take-over (time >= 0) counts, and nothing after the first touch.
-[[nodiscard]] EpisodeMetrics evaluate(const world::Recording& recording, const world::Scenario& scenario);
+[[nodiscard]] EpisodeMetrics evaluate(const traffic::Recording& recording,
+                                      const scenario::Scenario& scenario);
 
 /// \return the word shown for an ending
-[[nodiscard]] const char* ending_name(world::Ending ending);
+[[nodiscard]] const char* ending_name(traffic::Ending ending);
 /// \throws std::invalid_argument for a word ending_name() never gives
-[[nodiscard]] world::Ending ending_of(const std::string& name);
+[[nodiscard]] traffic::Ending ending_of(const std::string& name);
 
 }  // namespace s4tp::metrics

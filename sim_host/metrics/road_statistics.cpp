@@ -9,9 +9,9 @@
 namespace s4tp::metrics {
 namespace {
 
-using world::kNoLane;
-using world::LaneId;
-using world::NetworkLane;
+using map::kNoLane;
+using map::Lane;
+using map::LaneId;
 
 constexpr double kDetectorLane_m = 20.0;
 constexpr double kFollowing_s = 3.0;
@@ -20,7 +20,7 @@ constexpr double kMoving_mps = 3.0;
 
 /// The next car on the same lane ahead and behind a place.
 struct Beside {
-  const world::CarState* car = nullptr;
+  const traffic::CarState* car = nullptr;
   double s_m = 0.0;
 };
 struct Neighbours {
@@ -28,10 +28,10 @@ struct Neighbours {
   Beside behind;
 };
 
-Neighbours neighbours(const world::Network& network, const world::Snapshot& snapshot, LaneId lane, double s_m,
+Neighbours neighbours(const map::Network& network, const traffic::Snapshot& snapshot, LaneId lane, double s_m,
                       int self) {
   Neighbours found;
-  for (const world::CarState& car : snapshot.others) {
+  for (const traffic::CarState& car : snapshot.others) {
     if (car.lane != lane || car.id == self) {
       continue;
     }
@@ -50,18 +50,18 @@ double gap_s(const Beside& behind, const Beside& ahead) {
   return gap_m / std::max(behind.car->speed_mps, 0.1);
 }
 
-const world::CarState* find(const world::Snapshot& snapshot, int id) {
+const traffic::CarState* find(const traffic::Snapshot& snapshot, int id) {
   const auto car = std::find_if(snapshot.others.begin(), snapshot.others.end(),
-                                [&](const world::CarState& c) { return c.id == id; });
+                                [&](const traffic::CarState& c) { return c.id == id; });
   return car != snapshot.others.end() ? &*car : nullptr;
 }
 
 /// Where a lane ends, a gap beside is rejected when the one who closes it goes past.
-GapChoice merge_choice(const world::Network& network, std::span<const world::Snapshot> snapshots,
+GapChoice merge_choice(const map::Network& network, std::span<const traffic::Snapshot> snapshots,
                        std::size_t changed, int self, LaneId from, LaneId to, TrafficSamples& samples) {
   GapChoice choice;
   const auto beside = [&](std::size_t i) -> std::optional<Neighbours> {
-    const world::CarState* car = find(snapshots[i], self);
+    const traffic::CarState* car = find(snapshots[i], self);
     if (car == nullptr || (i < changed && car->lane != from)) {
       return std::nullopt;
     }
@@ -88,15 +88,15 @@ GapChoice merge_choice(const world::Network& network, std::span<const world::Sna
 
 }  // namespace
 
-void add_headways(const world::Network& network, const std::vector<world::Journey>& tracks,
+void add_headways(const map::Network& network, const std::vector<judge::Journey>& tracks,
                   TrafficSamples& samples) {
   for (std::size_t id = 0; id < network.lanes.size(); ++id) {
-    const NetworkLane& lane = network.lanes[id];
+    const Lane& lane = network.lanes[id];
     if (lane.in_junction || lane.centre.length_m() < kDetectorLane_m) {
       continue;
     }
     std::vector<double> passages;
-    for (const world::Journey& track : tracks) {
+    for (const judge::Journey& track : tracks) {
       const double place_m = 0.5 * lane.centre.length_m() - 0.5 * track.length_m;
       if (const auto time_s = track.time_at(static_cast<LaneId>(id), place_m)) {
         passages.push_back(*time_s);
@@ -109,8 +109,8 @@ void add_headways(const world::Network& network, const std::vector<world::Journe
   }
 }
 
-void add_following(const world::Network& network, const world::Snapshot& snapshot, TrafficSamples& samples) {
-  for (const world::CarState& car : snapshot.others) {
+void add_following(const map::Network& network, const traffic::Snapshot& snapshot, TrafficSamples& samples) {
+  for (const traffic::CarState& car : snapshot.others) {
     if (car.lane == kNoLane || car.speed_mps <= kMoving_mps) {
       continue;
     }
@@ -126,15 +126,15 @@ void add_following(const world::Network& network, const world::Snapshot& snapsho
   }
 }
 
-void add_lane_changes(const world::Network& network, std::span<const world::Snapshot> snapshots,
+void add_lane_changes(const map::Network& network, std::span<const traffic::Snapshot> snapshots,
                       TrafficSamples& samples) {
   for (std::size_t i = 1; i < snapshots.size(); ++i) {
-    for (const world::CarState& car : snapshots[i].others) {
-      const world::CarState* before = find(snapshots[i - 1], car.id);
+    for (const traffic::CarState& car : snapshots[i].others) {
+      const traffic::CarState* before = find(snapshots[i - 1], car.id);
       if (before == nullptr || before->lane == kNoLane || car.lane == kNoLane || before->lane == car.lane) {
         continue;
       }
-      const NetworkLane& from = lane_of(network, before->lane);
+      const Lane& from = lane_of(network, before->lane);
       if (car.lane != from.left && car.lane != from.right) {
         continue;
       }

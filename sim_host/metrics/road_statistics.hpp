@@ -9,11 +9,11 @@
 
 namespace s4tp::metrics {
 
-void add_headways(const world::Network& network, const std::vector<world::Journey>& tracks,
+void add_headways(const map::Network& network, const std::vector<judge::Journey>& tracks,
                   TrafficSamples& samples);
-void add_following(const world::Network& network, const world::Snapshot& snapshot, TrafficSamples& samples);
+void add_following(const map::Network& network, const traffic::Snapshot& snapshot, TrafficSamples& samples);
 /// Merges at a lane's end are among the choices.
-void add_lane_changes(const world::Network& network, std::span<const world::Snapshot> snapshots,
+void add_lane_changes(const map::Network& network, std::span<const traffic::Snapshot> snapshots,
                       TrafficSamples& samples);
 
 }  // namespace s4tp::metrics

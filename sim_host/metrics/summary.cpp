@@ -26,7 +26,7 @@ double percentile(std::vector<double> values, double share) {
 }
 
 Summary summarize(const std::vector<EpisodeMetrics>& episodes) {
-  using world::Ending;
+  using traffic::Ending;
   Summary sum;
   sum.episodes = static_cast<int>(episodes.size());
   if (episodes.empty()) return sum;

@@ -8,8 +8,8 @@
 namespace s4tp::metrics {
 namespace {
 
-using world::CarState;
-using world::Vec2;
+using map::Vec2;
+using traffic::CarState;
 
 constexpr double kSampleS = 0.05;
 constexpr double kStraightRadps = 0.01;  // 0.1 m beside the straight line after 10 m at 5 m/s
@@ -37,10 +37,10 @@ CarState after(const CarState& car, double time_s) {
 }  // namespace
 
 double time_to_collision_s(const CarState& a, const CarState& b, double horizon_s) {
-  if (world::overlap(world::box_of(a), world::box_of(b))) return 0.0;
+  if (traffic::overlap(traffic::box_of(a), traffic::box_of(b))) return 0.0;
   if (straight(a) && straight(b)) {
-    return std::min(horizon_s,
-                    world::time_to_contact_s(world::box_of(a), velocity(a), world::box_of(b), velocity(b)));
+    return std::min(horizon_s, traffic::time_to_contact_s(traffic::box_of(a), velocity(a), traffic::box_of(b),
+                                                          velocity(b)));
   }
   const double reach_m = 0.5 * (std::hypot(a.length_m, a.width_m) + std::hypot(b.length_m, b.width_m));
   double time_s = kSampleS;
@@ -49,7 +49,7 @@ double time_to_collision_s(const CarState& a, const CarState& b, double horizon_
     const CarState then_b = after(b, time_s);
     const double apart_m =
         std::hypot(then_b.centre.x - then_a.centre.x, then_b.centre.y - then_a.centre.y) - reach_m;
-    if (apart_m <= 0.0 && world::overlap(world::box_of(then_a), world::box_of(then_b))) return time_s;
+    if (apart_m <= 0.0 && traffic::overlap(traffic::box_of(then_a), traffic::box_of(then_b))) return time_s;
     // Nothing can touch sooner than both can come together.
     const double safe_s = std::max(0.0, apart_m) / std::max(a.speed_mps + b.speed_mps, 0.1);
     time_s += std::max(1.0, std::floor(safe_s / kSampleS)) * kSampleS;

@@ -8,7 +8,7 @@ namespace s4tp::metrics {
 /// Both keep speed and yaw rate: straight on, exactly; on arcs, sampled every 0.05 s. With headings frozen
 /// every car that turns past another one would seem about to hit it.
 /// \return 0 when they touch already; `horizon_s` when not before it
-[[nodiscard]] double time_to_collision_s(const world::CarState& a, const world::CarState& b,
+[[nodiscard]] double time_to_collision_s(const traffic::CarState& a, const traffic::CarState& b,
                                          double horizon_s);
 
 }  // namespace s4tp::metrics

@@ -15,8 +15,8 @@ namespace {
 
 constexpr double kStep_s = 0.1;
 
-void collisions(const world::Snapshot& snapshot, std::set<std::pair<int, int>>& known) {
-  const std::vector<world::CarState>& cars = snapshot.others;
+void collisions(const traffic::Snapshot& snapshot, std::set<std::pair<int, int>>& known) {
+  const std::vector<traffic::CarState>& cars = snapshot.others;
   for (std::size_t a = 0; a < cars.size(); ++a) {
     for (std::size_t b = a + 1; b < cars.size(); ++b) {
       const double reach_m = 0.5 * (cars[a].length_m + cars[b].length_m + cars[a].width_m + cars[b].width_m);
@@ -93,27 +93,27 @@ void TrafficSamples::add(const TrafficSamples& other) {
   vehicle_s += other.vehicle_s;
 }
 
-TrafficSamples observe_traffic(const world::Network& network, std::span<const world::Snapshot> snapshots) {
+TrafficSamples observe_traffic(const map::Network& network, std::span<const traffic::Snapshot> snapshots) {
   TrafficSamples samples;
   if (snapshots.size() < 2) {
     return samples;
   }
-  const std::vector<world::Journey> tracks = world::journeys_of(network, snapshots);
+  const std::vector<judge::Journey> tracks = judge::journeys_of(network, snapshots);
   const double last_s = snapshots.back().time_s;
   samples.observed_s = last_s - snapshots.front().time_s;
   samples.vehicles = static_cast<int>(tracks.size());
-  for (const world::Journey& track : tracks) {
+  for (const judge::Journey& track : tracks) {
     samples.vehicle_s += track.points.back().time_s - track.points.front().time_s;
     samples.finished += track.points.back().time_s < last_s - 0.5 * kStep_s ? 1 : 0;
   }
   std::set<std::pair<int, int>> touched;
   double next_speed_s = snapshots.front().time_s;
-  for (const world::Snapshot& snapshot : snapshots) {
+  for (const traffic::Snapshot& snapshot : snapshots) {
     add_following(network, snapshot, samples);
     collisions(snapshot, touched);
     if (snapshot.time_s >= next_speed_s - 0.5 * kStep_s) {
       next_speed_s += 1.0;
-      for (const world::CarState& car : snapshot.others) {
+      for (const traffic::CarState& car : snapshot.others) {
         samples.speeds_mps.push_back(car.speed_mps);
       }
     }

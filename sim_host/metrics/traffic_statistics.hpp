@@ -64,7 +64,7 @@ struct TrafficSamples {
   void add(const TrafficSamples& other);
 };
 
-[[nodiscard]] TrafficSamples observe_traffic(const world::Network& network,
-                                             std::span<const world::Snapshot> snapshots);
+[[nodiscard]] TrafficSamples observe_traffic(const map::Network& network,
+                                             std::span<const traffic::Snapshot> snapshots);
 
 }  // namespace s4tp::metrics

@@ -44,7 +44,7 @@ bool has_two_ends(const std::string& bus) {
   return !bus.starts_with("slcan:") || bus.starts_with(kListener);
 }
 
-int drive_on_bus(const world::Scenario& scenario, const DriveOptions& options, std::ostream& out) {
+int drive_on_bus(const scenario::Scenario& scenario, const DriveOptions& options, std::ostream& out) {
   const std::atomic<bool>& stop = stop_on_signals();
   WorldProcessOptions world = options.world;
   const auto bus = std::make_unique<hal::linux_host::NamedBus>();
@@ -70,7 +70,7 @@ int drive_on_bus(const world::Scenario& scenario, const DriveOptions& options, s
   campaign::EpisodeRow row;
   row.cell.planner = options.planner;
   row.cell.scenario = scenario.name;
-  row.cell.traffic = world::engine_names().at(static_cast<std::size_t>(options.world.engine));
+  row.cell.traffic = scenario::engine_names().at(static_cast<std::size_t>(options.world.engine));
   row.metrics = metrics::evaluate(result.recording, scenario);
   print_link(out, world, result, bus->can());
   campaign::print_episode(out, row, result.recording);
@@ -84,7 +84,7 @@ int drive_on_bus(const world::Scenario& scenario, const DriveOptions& options, s
   }
   if (world.log) out << "bus log: " << world.log->string() << '\n';
   if (stop) return kStopped;
-  return result.recording.ending == world::Ending::kGoal ? 0 : 1;
+  return result.recording.ending == traffic::Ending::kGoal ? 0 : 1;
 }
 
 }  // namespace s4tp::processes

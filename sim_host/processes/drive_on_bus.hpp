@@ -26,7 +26,7 @@ struct DriveOptions {
 /// Prints the result as `s4tp run` does and writes run.json. \return exit code: 0 goal, 1 none, 2 no ECU came, 130 told
 /// to stop by SIGINT or SIGTERM
 /// \throws std::runtime_error for a bus that cannot be opened, a log that cannot be written
-[[nodiscard]] int drive_on_bus(const world::Scenario& scenario, const DriveOptions& options,
+[[nodiscard]] int drive_on_bus(const scenario::Scenario& scenario, const DriveOptions& options,
                                std::ostream& out);
 
 }  // namespace s4tp::processes

@@ -40,7 +40,7 @@ fs::path built_image(const std::string& target) {
 
 }  // namespace
 
-int drive_on_target(const world::Scenario& scenario, const TargetOptions& options, std::ostream& out) {
+int drive_on_target(const scenario::Scenario& scenario, const TargetOptions& options, std::ostream& out) {
   const EmulatedBoard& board = find_board(options.target);
   const fs::path image = options.image.empty() ? built_image(options.target) : options.image;
   if (!fs::exists(image)) {

@@ -21,7 +21,7 @@ struct TargetOptions {
 /// PROC-044 As drive_on_bus(), then the table of what planning cost. A board that stops says why: its last
 /// words are printed, and the exit code is 1. \throws std::runtime_error when there is no image or no QEMU,
 /// with what to do
-[[nodiscard]] int drive_on_target(const world::Scenario& scenario, const TargetOptions& options,
+[[nodiscard]] int drive_on_target(const scenario::Scenario& scenario, const TargetOptions& options,
                                   std::ostream& out);
 
 }  // namespace s4tp::processes

@@ -30,7 +30,7 @@ const EmulatedBoard& find_board(const std::string& target) {
     if (target == board.target) return board;
   }
   throw std::invalid_argument("target '" + target + "': there are " +
-                              world::listed(kBoards, &EmulatedBoard::target));
+                              scenario::listed(kBoards, &EmulatedBoard::target));
 }
 
 std::vector<std::string> board_targets() {

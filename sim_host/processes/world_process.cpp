@@ -40,7 +40,7 @@ int to_ms(steady_clock::duration time) {
 class Session {
  public:
   /// \param authentic  of `can`; null: none
-  Session(const world::Scenario& scenario, hal::linux_host::LinuxCan& can, secoc::AuthenticCan* authentic,
+  Session(const scenario::Scenario& scenario, hal::linux_host::LinuxCan& can, secoc::AuthenticCan* authentic,
           const WorldProcessOptions& options, std::ostream& out, const std::atomic<bool>& stop)
       : can_(can),
         authentic_(authentic),
@@ -172,7 +172,7 @@ class Session {
       if (!timer.take()) continue;
       report.wake_ups.add(timer.wake_up().late_us);
       report.wake_ups.add_slips(timer.wake_up().skipped);
-      if (result_.ticks > 0 && !take_frames(world::kOldestEcho)) ++result_.unanswered;
+      if (result_.ticks > 0 && !take_frames(nodes::kOldestEcho)) ++result_.unanswered;
       begin_tick();
       // Frames stay in the socket until the tick; only the link is looked after.
       for (auto now_us = clock.now_us(); now_us + kQuiet_us + 1000U <= timer.due_us();
@@ -224,7 +224,7 @@ class Session {
   }
 
   [[nodiscard]] bool answers(const wire::Frame& frame, unsigned oldest) const {
-    return world::answers_tick(frame, static_cast<unsigned>(result_.ticks), oldest, !first_answer_);
+    return nodes::answers_tick(frame, static_cast<unsigned>(result_.ticks), oldest, !first_answer_);
   }
 
   void log(const std::vector<wire::Frame>& frames) {
@@ -255,7 +255,7 @@ class Session {
 
 }  // namespace
 
-WorldProcessResult run_world(const world::Scenario& scenario, hal::linux_host::LinuxCan& can,
+WorldProcessResult run_world(const scenario::Scenario& scenario, hal::linux_host::LinuxCan& can,
                              const WorldProcessOptions& options, std::ostream& out,
                              const std::atomic<bool>& stop) {
   if (options.keys == nullptr) return Session(scenario, can, nullptr, options, out, stop).run();

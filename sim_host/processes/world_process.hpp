@@ -23,8 +23,8 @@ namespace s4tp::processes {
 struct WorldProcessOptions {
   std::string bus;  ///< its name, for messages
   std::uint64_t seed = 0;
-  world::Engine engine = world::Engine::kBuiltin;
-  world::PerceptionOptions perception;
+  scenario::Engine engine = scenario::Engine::kBuiltin;
+  scenario::PerceptionOptions perception;
   bool realtime = false;
   bool paced = false;  ///< lock-step: a tick takes 10 ms of host time at least, for onlookers
   int wait_s = 10;     ///< for a sign of the ECU; 0: begin at once
@@ -46,7 +46,7 @@ struct WorldProcessOptions {
 
 struct WorldProcessResult {
   bool met_ecu = false;  ///< false: nothing was driven
-  world::Recording recording;
+  traffic::Recording recording;
   int ticks = 0;
   int unanswered = 0;                    ///< ticks without an answer
   int refused_commands = 0;              ///< Command frames that answered no tick
@@ -65,7 +65,7 @@ struct WorldProcessResult {
 /// AUTH-033 With keys it begins when an ECU has said its nonce, too, and a Command frame is one only if its
 /// companion verifies.
 /// \throws std::runtime_error when the log cannot be written
-[[nodiscard]] WorldProcessResult run_world(const world::Scenario& scenario, hal::linux_host::LinuxCan& can,
+[[nodiscard]] WorldProcessResult run_world(const scenario::Scenario& scenario, hal::linux_host::LinuxCan& can,
                                            const WorldProcessOptions& options, std::ostream& out,
                                            const std::atomic<bool>& stop);
 

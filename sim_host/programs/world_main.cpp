@@ -33,7 +33,7 @@ int main(int argc, char** argv) {
                                                                          : text + ": accepted are digits";
       });
   app.add_option("--traffic", traffic, "who simulates it: builtin (default) or sumo (Debian's sumo)")
-      ->check(CLI::IsMember(world::engine_names()));
+      ->check(CLI::IsMember(scenario::engine_names()));
   app.add_option("--wait-ecu", options.world.wait_s,
                  "seconds for a sign of the ECU (default 10; 0: begin at once)");
   app.add_option("--patience", patience_s, "seconds for each of the ECU's answers (default 1)")
@@ -52,11 +52,11 @@ int main(int argc, char** argv) {
   try {
     if (!log.empty()) options.world.log = log;
     if (!key.empty()) options.world.keys = processes::open_keys(key);
-    options.world.engine = world::engine_of(traffic);
+    options.world.engine = scenario::engine_of(traffic);
     options.world.wait_for_answers(patience_s);
     if (scenario_root.empty()) scenario_root = processes::own_data("scenarios");
-    const world::Scenario loaded =
-        world::load_scenario(world::scenario_path(scenario_root, scenario), flavour);
+    const scenario::Scenario loaded =
+        scenario::load_scenario(scenario::scenario_path(scenario_root, scenario), flavour);
     return processes::drive_on_bus(loaded, options, std::cout);
   } catch (const std::exception& error) {
     std::cerr << "s4tp_world_process: " << error.what() << '\n';

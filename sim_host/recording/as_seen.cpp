@@ -10,8 +10,8 @@ namespace {
 
 constexpr int kTicksPerSnapshot = 10;
 
-world::CarState state_of(const Track& track) {
-  world::CarState car;
+traffic::CarState state_of(const Track& track) {
+  traffic::CarState car;
   car.id = track.id;
   car.centre = {track.centre.x_m, track.centre.y_m};
   car.heading_rad = track.centre.heading_rad;
@@ -23,9 +23,9 @@ world::CarState state_of(const Track& track) {
   return car;
 }
 
-world::CarState state_of(const EgoState& ego, const Parameters& parameters) {
+traffic::CarState state_of(const EgoState& ego, const Parameters& parameters) {
   const double ahead_m = 0.5 * parameters.vehicle.length_m - parameters.vehicle.rear_overhang_m;
-  world::CarState car;
+  traffic::CarState car;
   car.heading_rad = ego.rear_axle.heading_rad;
   car.centre = {ego.rear_axle.x_m + ahead_m * std::cos(car.heading_rad),
                 ego.rear_axle.y_m + ahead_m * std::sin(car.heading_rad)};
@@ -39,9 +39,9 @@ world::CarState state_of(const EgoState& ego, const Parameters& parameters) {
 
 }  // namespace
 
-world::Snapshot snapshot_of(const ecu::EcuCore& core, const Parameters& parameters) {
+traffic::Snapshot snapshot_of(const ecu::EcuCore& core, const Parameters& parameters) {
   const ecu::Inputs& inputs = core.inputs();
-  world::Snapshot now;
+  traffic::Snapshot now;
   now.ego = state_of(inputs.ego(), parameters);
   now.ego_steering_rad = inputs.ego().steering_rad;
   for (const Track& track : inputs.tracks()) now.others.push_back(state_of(track));
@@ -61,8 +61,8 @@ void AsSeen::look(const ecu::EcuCore& core, const Parameters& parameters, double
   }
 }
 
-world::Recording AsSeen::recording() const {
-  world::Recording seen = recording_;
+traffic::Recording AsSeen::recording() const {
+  traffic::Recording seen = recording_;
   if (seen.snapshots.empty()) return seen;
   // A page counts a plan's time from vehicle time, which began so long before.
   seen.snapshots.insert(seen.snapshots.begin(), seen.snapshots.front());
@@ -74,16 +74,16 @@ world::Recording AsSeen::recording() const {
 void AsSeen::keep_lanes(const wire::Map& map) {
   for (const wire::Lane& lane : map.lanes) {
     if (!lane.present || lane.point_count < 2) continue;
-    std::vector<world::Vec2> points;
+    std::vector<map::Vec2> points;
     for (int i = 0; i < lane.point_count; ++i) points.push_back({lane.x_m[i], lane.y_m[i]});
-    const world::Vec2 first = points.front();
-    const world::Vec2 last = points.back();
+    const map::Vec2 first = points.front();
+    const map::Vec2 last = points.back();
     const std::array<long, 4> ends{std::lround(first.x), std::lround(first.y), std::lround(last.x),
                                    std::lround(last.y)};
     if (!known_.insert(ends).second) continue;
     try {
-      world::NetworkLane drawn;
-      drawn.centre = world::Polyline(points);
+      map::Lane drawn;
+      drawn.centre = map::Polyline(points);
       drawn.width_m = lane.width_m;
       drawn.in_junction = lane.in_junction;
       scenario_.network.lanes.push_back(std::move(drawn));

@@ -14,7 +14,7 @@
 namespace s4tp::recording {
 
 /// \pre core.inputs().ego_known()
-[[nodiscard]] world::Snapshot snapshot_of(const ecu::EcuCore& core, const Parameters& parameters);
+[[nodiscard]] traffic::Snapshot snapshot_of(const ecu::EcuCore& core, const Parameters& parameters);
 
 /// Coordinates are the odometry frame's. Vehicles are those of the track lists, with their ids and errors;
 /// lanes are those of the map on the bus; nothing is known of a goal or of touches.
@@ -23,15 +23,15 @@ class AsSeen {
   /// REC-040 After every tick. \param time_s  on the page's clock
   void look(const ecu::EcuCore& core, const Parameters& parameters, double time_s);
   [[nodiscard]] bool empty() const { return recording_.snapshots.empty(); }
-  [[nodiscard]] world::Recording recording() const;
+  [[nodiscard]] traffic::Recording recording() const;
   /// Its network only.
-  [[nodiscard]] const world::Scenario& scenario() const { return scenario_; }
+  [[nodiscard]] const scenario::Scenario& scenario() const { return scenario_; }
 
  private:
   void keep_lanes(const wire::Map& map);
 
-  world::Recording recording_;
-  world::Scenario scenario_;
+  traffic::Recording recording_;
+  scenario::Scenario scenario_;
   std::set<std::array<long, 4>> known_;  ///< first and last points of lanes kept [m]
   std::uint32_t revision_ = 0;
   double clock_s_ = 0.0;  ///< vehicle time at 0 of the page's clock

@@ -23,9 +23,9 @@ std::string seconds(double time_s) {
 }
 
 /// What was driven; of a cut that was driven, what that is a cut of.
-world::Cut origin_of(const DriveNote& note, const world::Scenario& scenario) {
+scenario::Cut origin_of(const DriveNote& note, const scenario::Scenario& scenario) {
   if (scenario.cut) return *scenario.cut;
-  world::Cut cut;
+  scenario::Cut cut;
   cut.flavour = note.flavour;
   cut.seed = note.seed;
   cut.traffic = note.traffic;
@@ -43,7 +43,7 @@ CutMade write_cut(const fs::path& file, double moment_s, const fs::path& folder)
         "names its roads, for the same start with default drivers");
   }
   const DriveNote note = read_note(file);
-  const world::Scenario scenario = scenario_of(file);
+  const scenario::Scenario scenario = scenario_of(file);
   TickReader reader(file);
   if (reader.series().begins_later()) {
     throw NoSuchWorld(file.string() +
@@ -70,7 +70,7 @@ CutMade write_cut(const fs::path& file, double moment_s, const fs::path& folder)
 
   CutMade made;
   const long wanted = moment_tick - std::lround(kBefore_s / kTick_s);
-  world::Cut cut = origin_of(note, scenario);
+  scenario::Cut cut = origin_of(note, scenario);
   const int before = cut.start_tick;  // until there the vehicle followed an older recording
   cut.start_tick = static_cast<int>(std::max<long>(before, wanted));
   for (int i = before; i < cut.start_tick; ++i) {
@@ -87,10 +87,10 @@ CutMade write_cut(const fs::path& file, double moment_s, const fs::path& folder)
   if (parameters_crc(note.parameters) != parameters_crc(Parameters{})) {
     write_parameters(note.parameters, folder / "parameters.toml");
   }
-  world::write_cut(cut,
-                   "Cut out of a recorded drive at " + seconds(moment_s) + "; it begins at " +
-                       seconds(made.start_s) + " (docs/recording.md).",
-                   folder);
+  scenario::write_cut(cut,
+                      "Cut out of a recorded drive at " + seconds(moment_s) + "; it begins at " +
+                          seconds(made.start_s) + " (docs/recording.md).",
+                      folder);
   return made;
 }
 

@@ -53,7 +53,7 @@ fs::path common_folder(const std::vector<fs::path>& files) {
 }
 
 ordered_json read_json(const fs::path& file) {
-  const std::string text = world::whole_file(file, kNoteBytes);
+  const std::string text = scenario::whole_file(file, kNoteBytes);
   try {
     return campaign::parse_json(text);
   } catch (const std::exception& error) {
@@ -72,7 +72,7 @@ void write_json(const DriveNote& note, ordered_json json, const fs::path& file) 
 std::string name_in(const ordered_json& json, const std::string& key, const std::vector<std::string>& names) {
   const std::string name = json.at(key).get<std::string>();
   if (std::find(names.begin(), names.end(), name) != names.end()) return name;
-  throw std::runtime_error(key + ": accepted is one of " + world::listed(names));
+  throw std::runtime_error(key + ": accepted is one of " + scenario::listed(names));
 }
 
 }  // namespace
@@ -102,7 +102,7 @@ void write_parameters(const Parameters& parameters, const fs::path& file) {
   if (!stream) throw std::runtime_error(file.string() + ": cannot be written");
 }
 
-void write_note(const DriveNote& note, const world::Scenario& scenario, const fs::path& file) {
+void write_note(const DriveNote& note, const scenario::Scenario& scenario, const fs::path& file) {
   const fs::path folder = note_folder(file);
   fs::create_directories(folder);
   std::vector<fs::path> files;
@@ -153,8 +153,8 @@ DriveNote read_note(const fs::path& file) {
     note.scenario = json.at("name").get<std::string>();
     note.flavour = json.at("flavour").get<std::string>();
     note.seed = campaign::whole_number(json.at("seed"), "seed", 0, campaign::kSeedMax);
-    note.traffic = name_in(json, "traffic", world::engine_names());
-    note.perception = name_in(json, "perception", world::perception_names());
+    note.traffic = name_in(json, "traffic", scenario::engine_names());
+    note.perception = name_in(json, "perception", scenario::perception_names());
     note.planner = json.at("planner").get<std::string>();
     note.guarded = json.at("guarded").get<bool>();
     const std::string bus = name_in(json, "bus", {kMeetings.begin(), kMeetings.end()});
@@ -177,7 +177,7 @@ DriveNote read_note(const fs::path& file) {
   return note;
 }
 
-world::Scenario scenario_of(const fs::path& file) {
+scenario::Scenario scenario_of(const fs::path& file) {
   const ordered_json json = read_json(json_file(file));
   fs::path place;
   try {
@@ -186,7 +186,8 @@ world::Scenario scenario_of(const fs::path& file) {
   } catch (const std::exception& error) {
     throw std::runtime_error(json_file(file).string() + ": " + error.what());
   }
-  world::Scenario scenario = world::load_scenario(scenario_folder(file) / place, read_note(file).flavour);
+  scenario::Scenario scenario =
+      scenario::load_scenario(scenario_folder(file) / place, read_note(file).flavour);
   if (digest_of(scenario.files) != json.at("digest")) {
     throw std::runtime_error(scenario_folder(file).string() +
                              ": the scenario's files are not as they were in the drive");

@@ -42,7 +42,7 @@ struct DriveNote {
 [[nodiscard]] std::string versions_here();
 
 /// With the scenario's files. \throws std::runtime_error naming the file
-void write_note(const DriveNote& note, const world::Scenario& scenario, const std::filesystem::path& file);
+void write_note(const DriveNote& note, const scenario::Scenario& scenario, const std::filesystem::path& file);
 /// The drive has come to its end.
 void end_note(const DriveNote& note, const std::filesystem::path& file);
 
@@ -51,8 +51,8 @@ void end_note(const DriveNote& note, const std::filesystem::path& file);
 [[nodiscard]] DriveNote read_note(const std::filesystem::path& file);
 
 /// The recording's copy. REC-010 Files that are not as they were are refused.
-/// \throws std::runtime_error as world::load_scenario()
-[[nodiscard]] world::Scenario scenario_of(const std::filesystem::path& file);
+/// \throws std::runtime_error as scenario::load_scenario()
+[[nodiscard]] scenario::Scenario scenario_of(const std::filesystem::path& file);
 /// FILE.drive/scenario
 [[nodiscard]] std::filesystem::path scenario_folder(const std::filesystem::path& file);
 

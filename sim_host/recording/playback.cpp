@@ -137,7 +137,7 @@ void Playback::write_page(const fs::path& file, std::ostream& out) {
     out << "the page shows what the ECU was told of the road and the others"
         << format(", %.0f s at most from %.0f s on\n", kPage_s, shown_from_s());
   }
-  const world::Scenario& scenario = known ? *scenario_ : seen_.scenario();
+  const scenario::Scenario& scenario = known ? *scenario_ : seen_.scenario();
   campaign::EpisodeResult result;
   result.recording = known ? world_->world().recording() : seen_.recording();
   if (known) result.origin = world_->world().origin();

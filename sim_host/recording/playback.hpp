@@ -62,7 +62,7 @@ class Playback {
   std::unique_ptr<campaign::Trace> trace_ = std::make_unique<campaign::Trace>();
   std::size_t kept_cycles_ = 0;
   std::optional<EcuRerun> ecu_;
-  std::optional<world::Scenario> scenario_;
+  std::optional<scenario::Scenario> scenario_;
   std::optional<WorldRerun> world_;
   AsSeen seen_;
   Agreement judged_;

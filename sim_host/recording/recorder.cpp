@@ -21,7 +21,7 @@ const std::filesystem::path& free_place(const std::filesystem::path& file) {
 }  // namespace
 
 Recorder::Recorder(const std::filesystem::path& file, const SeriesLimits& limits, DriveNote note,
-                   const world::Scenario& scenario)
+                   const scenario::Scenario& scenario)
     : file_(file), note_(std::move(note)), series_(free_place(file), limits) {
   write_note(note_, scenario, file);
 }

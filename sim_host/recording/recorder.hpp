@@ -16,7 +16,7 @@ class Recorder {
  public:
   /// \throws std::runtime_error naming the file, here and later
   Recorder(const std::filesystem::path& file, const SeriesLimits& limits, DriveNote note,
-           const world::Scenario& scenario);
+           const scenario::Scenario& scenario);
   /// REC-006 Of a drive that never began nothing stays.
   ~Recorder();
   Recorder(const Recorder&) = delete;

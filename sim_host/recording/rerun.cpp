@@ -33,8 +33,8 @@ std::string difference(const wire::Frame* recorded, const wire::Frame* now) {
 world::WorldOptions world_options(const DriveNote& note) {
   world::WorldOptions options;
   options.seed = note.seed;
-  options.engine = world::engine_of(note.traffic);
-  options.perception = world::perception_preset(note.perception);
+  options.engine = scenario::engine_of(note.traffic);
+  options.perception = scenario::perception_preset(note.perception);
   return options;
 }
 
@@ -65,7 +65,7 @@ void EcuRerun::play(const RecordedTick& tick, Agreement& agreement) {
   agreement.compare(tick, tick.from_ecu, answers_, tick.lines);
 }
 
-WorldRerun::WorldRerun(const DriveNote& note, const world::Scenario& scenario)
+WorldRerun::WorldRerun(const DriveNote& note, const scenario::Scenario& scenario)
     : meeting_(note.meeting), world_(scenario, world_options(note)) {}
 
 void WorldRerun::play(const RecordedTick& tick) {
@@ -82,9 +82,9 @@ void WorldRerun::play(const RecordedTick& tick) {
 
 bool WorldRerun::reached_vehicle(const wire::Frame& frame, std::uint64_t tick) {
   if (meeting_ == Meeting::kInProcess) return true;
-  const unsigned oldest = meeting_ == Meeting::kRealTime ? world::kOldestEcho : 0U;
+  const unsigned oldest = meeting_ == Meeting::kRealTime ? nodes::kOldestEcho : 0U;
   const bool reached = frame.id == wire::kCommandId &&
-                       world::answers_tick(frame, static_cast<unsigned>(tick + 1), oldest, !answered_);
+                       nodes::answers_tick(frame, static_cast<unsigned>(tick + 1), oldest, !answered_);
   answered_ = answered_ || reached;
   return reached;
 }

@@ -44,7 +44,7 @@ class EcuRerun {
 class WorldRerun {
  public:
   /// \param scenario  must outlive it  \throws std::runtime_error when the traffic cannot be started
-  WorldRerun(const DriveNote& note, const world::Scenario& scenario);
+  WorldRerun(const DriveNote& note, const scenario::Scenario& scenario);
   /// REC-022 The recording shows this world as long as all its frames agree.
   void play(const RecordedTick& tick);
   [[nodiscard]] const Agreement& agreement() const { return agreement_; }

@@ -22,20 +22,20 @@ namespace s4tp::recording {
 namespace {
 
 namespace fs = std::filesystem;
-using world::LaneId;
-using world::Network;
-using world::NetworkLane;
+using map::Lane;
+using map::LaneId;
+using map::Network;
 
 constexpr double kTick_s = 0.01;
 
 /// A position along a lane's shape as SUMO counts it.
-double sumo_position_m(const NetworkLane& lane, double s_m) {
+double sumo_position_m(const Lane& lane, double s_m) {
   const double shape_m = lane.centre.length_m();
   const double on_lane_m = std::clamp(s_m, 0.0, shape_m);
   return lane.sumo_length_m > 0.0 ? on_lane_m * lane.sumo_length_m / shape_m : on_lane_m;
 }
 
-double turn_rad(const NetworkLane& lane) {
+double turn_rad(const Lane& lane) {
   const double turn = lane.centre.at(lane.centre.length_m()).heading_rad - lane.centre.at(0.0).heading_rad;
   return std::abs(std::remainder(turn, 2.0 * std::numbers::pi));
 }
@@ -49,7 +49,7 @@ std::string straight_on(const Network& network, LaneId lane) {
     lane = *std::min_element(successors.begin(), successors.end(), [&](LaneId a, LaneId b) {
       return turn_rad(lane_of(network, a)) < turn_rad(lane_of(network, b));
     });
-    const NetworkLane& next = lane_of(network, lane);
+    const Lane& next = lane_of(network, lane);
     if (next.in_junction) continue;
     if (!passed.insert(next.edge).second) break;
     edges += ' ' + next.edge;
@@ -59,8 +59,8 @@ std::string straight_on(const Network& network, LaneId lane) {
 
 /// What was on the bus at an instant, in the network's coordinates.
 struct Instant {
-  world::CarState ego;
-  std::vector<world::CarState> others;
+  traffic::CarState ego;
+  std::vector<traffic::CarState> others;
 };
 
 Instant instant_of(const fs::path& file, const DriveNote& note, double start_s) {
@@ -80,14 +80,14 @@ Instant instant_of(const fs::path& file, const DriveNote& note, double start_s) 
     throw std::runtime_error(file.string() + ": holds no pose of ours " + std::to_string(start_s) +
                              " s after its beginning; --cut takes a moment 10 s after one it holds");
   }
-  const world::Snapshot now = snapshot_of(ecu.core(), note.parameters);
+  const traffic::Snapshot now = snapshot_of(ecu.core(), note.parameters);
   Instant instant{now.ego, now.others};
-  const auto moved = [&](world::CarState& car) {
+  const auto moved = [&](traffic::CarState& car) {
     car.centre.x += static_cast<double>(origin.x_m);
     car.centre.y += static_cast<double>(origin.y_m);
   };
   moved(instant.ego);
-  for (world::CarState& car : instant.others) moved(car);
+  for (traffic::CarState& car : instant.others) moved(car);
   return instant;
 }
 
@@ -101,17 +101,17 @@ void write(const fs::path& file, const std::string& text) {
 }  // namespace
 
 StartMade write_same_start(const fs::path& file, const DriveNote& note, double start_s,
-                           const world::Scenario& roads, const fs::path& folder) {
+                           const scenario::Scenario& roads, const fs::path& folder) {
   const Instant instant = instant_of(file, note, start_s);
   const Network& network = roads.network;
   const world::EgoRoad road(roads);
-  const auto place_of = [&](const world::CarState& car) {
-    return road.locator.locate(car.centre, car.heading_rad, world::kNoLane);
+  const auto place_of = [&](const traffic::CarState& car) {
+    return road.locator.locate(car.centre, car.heading_rad, map::kNoLane);
   };
-  const auto on_a_lane = [&](const world::LanePlace& place) {
-    return place.inside && place.lane != world::kNoLane && !lane_of(network, place.lane).in_junction;
+  const auto on_a_lane = [&](const traffic::LanePlace& place) {
+    return place.inside && place.lane != map::kNoLane && !lane_of(network, place.lane).in_junction;
   };
-  const world::LanePlace self = place_of(instant.ego);
+  const traffic::LanePlace self = place_of(instant.ego);
   if (!on_a_lane(self)) {
     throw std::runtime_error(file.string() + ": 10 s before that moment we are inside a junction of " +
                              roads.network_file.string() + ", or on none of its lanes; name another moment");
@@ -119,13 +119,13 @@ StartMade write_same_start(const fs::path& file, const DriveNote& note, double s
 
   StartMade made;
   struct Placed {
-    world::CarState car;
-    world::LanePlace at;
+    traffic::CarState car;
+    traffic::LanePlace at;
   };
   std::vector<Placed> placed;
-  for (const world::CarState& car : instant.others) {
+  for (const traffic::CarState& car : instant.others) {
     ++made.told;
-    const world::LanePlace at = place_of(car);
+    const traffic::LanePlace at = place_of(car);
     if (on_a_lane(at)) placed.push_back({car, at});
     if (!on_a_lane(at)) ++made.left_out;
   }
@@ -135,7 +135,7 @@ StartMade write_same_start(const fs::path& file, const DriveNote& note, double s
 
   std::string routes = "<routes>\n";
   for (const auto& [car, at] : placed) {
-    const NetworkLane& lane = lane_of(network, at.lane);
+    const Lane& lane = lane_of(network, at.lane);
     const std::string id = '"' + std::to_string(car.id) + '"';
     const double front_m = sumo_position_m(lane, at.s_m + 0.5 * car.length_m);
     routes += " <vType id=" + id + " length=\"" + std::to_string(car.length_m) + "\" width=\"" +
@@ -146,9 +146,9 @@ StartMade write_same_start(const fs::path& file, const DriveNote& note, double s
   }
   routes += "</routes>\n";
 
-  const world::Mission& mission = roads.mission;
-  const NetworkLane& start = lane_of(network, self.lane);
-  const NetworkLane& goal = lane_of(network, mission.goal_lane);
+  const scenario::Mission& mission = roads.mission;
+  const Lane& start = lane_of(network, self.lane);
+  const Lane& goal = lane_of(network, mission.goal_lane);
   fs::create_directories(folder);
   fs::copy_file(roads.network_file, folder / "network.net.xml");
   write(folder / "traffic.rou.xml", routes);
@@ -163,7 +163,7 @@ StartMade write_same_start(const fs::path& file, const DriveNote& note, double s
             "\n[traffic]\nroutes = [\"traffic.rou.xml\"]\n");
 
   try {
-    const world::Scenario scenario = world::load_scenario(folder);
+    const scenario::Scenario scenario = scenario::load_scenario(folder);
     const auto engine = world::make_engine(scenario, {});
     for (std::size_t i = 0; i < placed.size(); ++i) engine->step(nullptr);  // one a step comes into a lane
     made.there = static_cast<int>(engine->cars().size());

@@ -21,6 +21,6 @@ struct StartMade {
 /// \param note   who drove  \param start_s  since the log's first tick  \param folder  new, or empty
 /// \throws std::runtime_error when the log does not hold the instant, or where we were is no start
 StartMade write_same_start(const std::filesystem::path& file, const DriveNote& note, double start_s,
-                           const world::Scenario& roads, const std::filesystem::path& folder);
+                           const scenario::Scenario& roads, const std::filesystem::path& folder);
 
 }  // namespace s4tp::recording

@@ -14,17 +14,17 @@ constexpr int kCrossingStreams = 4;
 
 }  // namespace
 
-double draw_length_m(world::Random& random, double low_m, double high_m) {
+double draw_length_m(traffic::Random& random, double low_m, double high_m) {
   const double share = random.uniform();
   return low_m + (high_m - low_m) * share * share;
 }
 
-world::Range draw_rate(world::Random& random, double most) {
+scenario::Range draw_rate(traffic::Random& random, double most) {
   const double low = random.uniform(kLeastPerMinute, most);
   return {low, random.uniform(low, most)};
 }
 
-Streams draw_crossing_streams(world::Random& random) {
+Streams draw_crossing_streams(traffic::Random& random) {
   Streams streams;
   streams.choose_low = 1;
   streams.choose_high = random.integer(1, kCrossingStreams);
@@ -32,7 +32,7 @@ Streams draw_crossing_streams(world::Random& random) {
   return streams;
 }
 
-RoadMission draw_mission(world::Random& random) {
+RoadMission draw_mission(traffic::Random& random) {
   RoadMission mission;
   mission.start_share = random.uniform();
   mission.speed_share = random.uniform(0.6, 1.0);
@@ -45,7 +45,7 @@ RoadTraffic with_social_drivers(RoadTraffic traffic) {
   return traffic;
 }
 
-std::vector<double> draw_directions(world::Random& random, int count, double apart_rad) {
+std::vector<double> draw_directions(traffic::Random& random, int count, double apart_rad) {
   std::vector<double> directions;
   directions.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) {
@@ -58,7 +58,7 @@ std::vector<double> draw_directions(world::Random& random, int count, double apa
   return directions;
 }
 
-world::Vec2 polar(double radius_m, double angle_rad) {
+map::Vec2 polar(double radius_m, double angle_rad) {
   return {radius_m * std::cos(angle_rad), radius_m * std::sin(angle_rad)};
 }
 

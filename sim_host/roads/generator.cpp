@@ -21,8 +21,8 @@ constexpr int kDraws = 100;
 constexpr double kAnywhere_m = 5000.0;
 
 /// Turned about the origin, then shifted.
-PlainNetwork placed(PlainNetwork network, double turn_rad, world::Vec2 at) {
-  const auto place = [&](world::Vec2& point) {
+PlainNetwork placed(PlainNetwork network, double turn_rad, map::Vec2 at) {
+  const auto place = [&](map::Vec2& point) {
     point = {at.x + point.x * std::cos(turn_rad) - point.y * std::sin(turn_rad),
              at.y + point.x * std::sin(turn_rad) + point.y * std::cos(turn_rad)};
   };
@@ -30,7 +30,7 @@ PlainNetwork placed(PlainNetwork network, double turn_rad, world::Vec2 at) {
     place(node.at);
   }
   for (PlainEdge& edge : network.edges) {
-    for (world::Vec2& point : edge.shape) {
+    for (map::Vec2& point : edge.shape) {
       place(point);
     }
   }
@@ -38,7 +38,7 @@ PlainNetwork placed(PlainNetwork network, double turn_rad, world::Vec2 at) {
 }
 
 /// Anywhere and in any direction.
-Road draw(const Family& family, world::Random& random) {
+Road draw(const Family& family, traffic::Random& random) {
   Road road = family.draw(random);
   const double turn_rad = random.uniform(0.0, 2.0 * std::numbers::pi);
   const double x_m = random.uniform(-kAnywhere_m, kAnywhere_m);
@@ -64,15 +64,15 @@ std::string refusal(const Road& road, const std::string& family, const fs::path&
   }
   std::string text;
   try {
-    text = scenario_toml(road, world::load_network(folder / "network.net.xml"), family);
+    text = scenario_toml(road, map::load_network(folder / "network.net.xml"), family);
   } catch (const std::runtime_error&) {
     return "a way leads nowhere";
   }
   write_text(folder / "scenario.toml", text);
   fs::copy_file(mix, folder / "social.toml", fs::copy_options::overwrite_existing);
   try {
-    const world::Scenario smarts = world::load_scenario(folder);
-    static_cast<void>(world::load_scenario(folder, "social"));
+    const scenario::Scenario smarts = scenario::load_scenario(folder);
+    static_cast<void>(scenario::load_scenario(folder, "social"));
     return obstacle_of(smarts);
   } catch (const std::runtime_error&) {
     return "the scenario cannot be read";
@@ -88,7 +88,7 @@ WrittenRoad write_road(std::uint64_t number, const fs::path& mix, const fs::path
   WrittenRoad written{family.name, out / (std::string(family.name) + digits), {}};
   const fs::path work = out / (std::string(".") + family.name + digits);
   fs::create_directories(work);
-  world::Random random(number);
+  traffic::Random random(number);
   for (int i = 0; i < kDraws; ++i) {
     const std::string reason = refusal(draw(family, random), family.name, mix, work);
     if (reason.empty()) {

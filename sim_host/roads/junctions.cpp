@@ -11,7 +11,7 @@
 namespace s4tp::roads {
 namespace {
 
-using world::Random;
+using traffic::Random;
 
 constexpr double kDegree_rad = std::numbers::pi / 180.0;
 constexpr double kApart_rad = 45.0 * kDegree_rad;
@@ -251,7 +251,7 @@ Road draw_roundabout(Random& random) {
       edges.push_back(ring(k));
     }
     edges.push_back(arms[static_cast<std::size_t>(to)].name + "_out");
-    return world::TrafficRoute{edges};
+    return scenario::TrafficRoute{edges};
   };
   const int start = random.integer(0, count - 1);
   const int goal = (start + random.integer(1, count - 1)) % count;

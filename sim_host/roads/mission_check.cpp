@@ -11,9 +11,9 @@
 namespace s4tp::roads {
 namespace {
 
-using world::LaneId;
-using world::Network;
-using world::NetworkLane;
+using map::Lane;
+using map::LaneId;
+using map::Network;
 
 constexpr double kPerChange_m = 20.0;
 constexpr double kTightestRadius_m = 5.5;
@@ -21,7 +21,7 @@ constexpr double kCar_m = 5.0;
 constexpr double kRounding_m = 0.5;  ///< by which netconvert may cut an arm shorter than drawn
 constexpr double kFreeShare = 0.5;
 
-const NetworkLane& lane_at(const Network& network, LaneId lane) {
+const Lane& lane_at(const Network& network, LaneId lane) {
   return network.lanes[static_cast<std::size_t>(lane)];
 }
 
@@ -30,7 +30,7 @@ std::set<LaneId> spread(const Network& network, std::set<LaneId> lanes, int chan
   for (int i = 0; i < changes; ++i) {
     for (const LaneId lane : std::set<LaneId>(lanes)) {
       for (const LaneId beside : {lane_at(network, lane).left, lane_at(network, lane).right}) {
-        if (beside != world::kNoLane) {
+        if (beside != map::kNoLane) {
           lanes.insert(beside);
         }
       }
@@ -57,8 +57,8 @@ std::set<LaneId> followed(const Network& network, const std::set<LaneId>& lanes,
   return reached;
 }
 
-bool changes_fit(const world::Scenario& scenario) {
-  const world::Mission& mission = scenario.mission;
+bool changes_fit(const scenario::Scenario& scenario) {
+  const scenario::Mission& mission = scenario.mission;
   const Network& network = scenario.network;
   std::set<LaneId> lanes{mission.start_lane};
   for (std::size_t i = 0; i < mission.edges.size(); ++i) {
@@ -75,7 +75,7 @@ bool changes_fit(const world::Scenario& scenario) {
 }
 
 /// Over any length of a car a lane may turn as much as an arc of the tightest radius does.
-bool is_tight(const NetworkLane& lane) {
+bool is_tight(const Lane& lane) {
   for (double s_m = -kCar_m; s_m < lane.centre.length_m(); s_m += 0.5) {
     const double turned_rad = std::remainder(
         lane.centre.at(s_m + kCar_m).heading_rad - lane.centre.at(s_m).heading_rad, 2.0 * M_PI);
@@ -88,24 +88,22 @@ bool is_tight(const NetworkLane& lane) {
 
 }  // namespace
 
-std::string obstacle_of(const world::Scenario& scenario) {
-  const world::Mission& mission = scenario.mission;
+std::string obstacle_of(const scenario::Scenario& scenario) {
+  const scenario::Mission& mission = scenario.mission;
   const Network& network = scenario.network;
   for (const LaneId lane : {mission.start_lane, mission.goal_lane}) {
     if (lane_at(network, lane).centre.length_m() < kShortestArm_m - kRounding_m) {
       return "an arm shorter than 25 m";
     }
   }
-  const auto is_short = [](const NetworkLane& lane) {
-    return !lane.in_junction && lane.centre.length_m() < kCar_m;
-  };
+  const auto is_short = [](const Lane& lane) { return !lane.in_junction && lane.centre.length_m() < kCar_m; };
   if (std::any_of(network.lanes.begin(), network.lanes.end(), is_short)) {
     return "an edge shorter than a car";
   }
   if (!changes_fit(scenario)) {
     return "no room for its lane changes";
   }
-  const world::RouteGuide guide(network, mission.edges, mission.goal_lane, mission.goal_s_m);
+  const map::RouteGuide guide(network, mission.edges, mission.goal_lane, mission.goal_s_m);
   for (std::size_t i = 0; i < network.lanes.size(); ++i) {
     if (guide.advice(static_cast<LaneId>(i)).on_route && is_tight(network.lanes[i])) {
       return "a corner tighter than the car";

@@ -11,6 +11,6 @@ namespace s4tp::roads {
 /// to start and to end in, and none shorter than a car (SUMO 1.15 gives up on one that has been placed
 /// there), 20 m of road for each lane change that the way needs, corners of 5.5 m radius (the car turns
 /// on 4.7 m), and a free drive of at most half of the time limit.
-[[nodiscard]] std::string obstacle_of(const world::Scenario& scenario);
+[[nodiscard]] std::string obstacle_of(const scenario::Scenario& scenario);
 
 }  // namespace s4tp::roads

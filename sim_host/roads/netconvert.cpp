@@ -60,7 +60,7 @@ void save_edges(const PlainNetwork& network, const fs::path& file) {
       one.append_attribute("spreadType") = "center";
     }
     std::string shape;
-    for (const world::Vec2 point : edge.shape) {
+    for (const map::Vec2 point : edge.shape) {
       shape += (shape.empty() ? "" : " ") + decimals(point.x) + ',' + decimals(point.y);
     }
     if (!shape.empty()) {

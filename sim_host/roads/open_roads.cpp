@@ -10,30 +10,30 @@
 namespace s4tp::roads {
 namespace {
 
-using world::Random;
+using traffic::Random;
 
 constexpr double kDegree_rad = std::numbers::pi / 180.0;
 constexpr const char* kRoad = "road";
 
 /// Appends an arc, in pieces of at most 2 m, that goes on where the shape ends.
-void bend(std::vector<world::Vec2>& shape, double& heading_rad, double radius_m, double turn_rad) {
+void bend(std::vector<map::Vec2>& shape, double& heading_rad, double radius_m, double turn_rad) {
   const int pieces = std::max(1, static_cast<int>(std::ceil(radius_m * std::abs(turn_rad) / 2.0)));
   const double step_rad = turn_rad / pieces;
   const double chord_m = 2.0 * radius_m * std::sin(0.5 * std::abs(step_rad));
   for (int i = 0; i < pieces; ++i) {
     const double along_rad = heading_rad + 0.5 * step_rad;
-    const world::Vec2 from = shape.back();
+    const map::Vec2 from = shape.back();
     shape.push_back({from.x + chord_m * std::cos(along_rad), from.y + chord_m * std::sin(along_rad)});
     heading_rad += step_rad;
   }
 }
 
-void straight(std::vector<world::Vec2>& shape, double heading_rad, double length_m) {
-  const world::Vec2 from = shape.back();
+void straight(std::vector<map::Vec2>& shape, double heading_rad, double length_m) {
+  const map::Vec2 from = shape.back();
   shape.push_back({from.x + length_m * std::cos(heading_rad), from.y + length_m * std::sin(heading_rad)});
 }
 
-PlainNetwork one_edge(const std::vector<world::Vec2>& shape, int lanes, double speed_mps) {
+PlainNetwork one_edge(const std::vector<map::Vec2>& shape, int lanes, double speed_mps) {
   PlainNetwork network;
   network.nodes = {{"a", shape.front()}, {"b", shape.back()}};
   PlainEdge edge{kRoad, "a", "b", lanes, speed_mps};
@@ -55,7 +55,7 @@ PlainNetwork draw_open_road(Random& random, int lanes) {
   constexpr double kRunIn_m = 30.0;
   const double length_m = random.uniform(150.0, 350.0);
   const double speed_mps = one_of<double>({11.11, 13.89, 16.67, 22.22}, random);
-  std::vector<world::Vec2> shape{{}};
+  std::vector<map::Vec2> shape{{}};
   double heading_rad = 0.0;
   if (random.integer(0, 1) == 0) {
     straight(shape, heading_rad, length_m);
@@ -69,7 +69,7 @@ PlainNetwork draw_open_road(Random& random, int lanes) {
 }
 
 /// A stream in each of the lanes given.
-Streams in_lanes(const std::vector<int>& lanes, world::Range vehicles_per_minute) {
+Streams in_lanes(const std::vector<int>& lanes, scenario::Range vehicles_per_minute) {
   Streams streams;
   for (const int lane : lanes) {
     streams.ways.push_back({{kRoad}, lane, -1});
@@ -99,7 +99,7 @@ Road draw_curve(Random& random) {
   const double inside_m = lanes * kLaneWidth_m;
   const double least_m = std::max(speed_mps * speed_mps / kSideways_mps2, 10.0) + inside_m;
   const double side = random.integer(0, 1) == 0 ? -1.0 : 1.0;
-  std::vector<world::Vec2> shape{{}};
+  std::vector<map::Vec2> shape{{}};
   double heading_rad = 0.0;
   straight(shape, heading_rad, random.uniform(20.0, 60.0));
   const double radius_m = draw_length_m(random, least_m, least_m + 80.0);

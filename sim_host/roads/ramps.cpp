@@ -8,7 +8,7 @@
 namespace s4tp::roads {
 namespace {
 
-using world::Random;
+using traffic::Random;
 
 constexpr double kDegree_rad = std::numbers::pi / 180.0;
 constexpr double kLongestRamp_m = 150.0;
@@ -16,8 +16,8 @@ constexpr int kRoadPriority = 9;
 
 /// Centre line of a ramp of one lane that ends at the origin along the x axis: straight, then an arc.
 /// \param angle_rad  of the straight part  \param arc_m  0: straight all the way, ends at that angle
-std::vector<world::Vec2> ramp_shape(double length_m, double angle_rad, double arc_m) {
-  std::vector<world::Vec2> shape;
+std::vector<map::Vec2> ramp_shape(double length_m, double angle_rad, double arc_m) {
+  std::vector<map::Vec2> shape;
   if (arc_m > 0.0) {
     constexpr int kPoints = 12;
     const double radius_m = arc_m / angle_rad;
@@ -35,8 +35,8 @@ std::vector<world::Vec2> ramp_shape(double length_m, double angle_rad, double ar
   return {shape.rbegin(), shape.rend()};
 }
 
-std::vector<world::Vec2> moved(std::vector<world::Vec2> shape, world::Vec2 by) {
-  for (world::Vec2& point : shape) {
+std::vector<map::Vec2> moved(std::vector<map::Vec2> shape, map::Vec2 by) {
+  for (map::Vec2& point : shape) {
     point = {point.x + by.x, point.y + by.y};
   }
   return shape;

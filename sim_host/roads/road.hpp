@@ -18,7 +18,7 @@ inline constexpr double kShortestArm_m = 25.0;  ///< of the lanes that a mission
 
 struct PlainNode {
   std::string id;
-  world::Vec2 at{};
+  map::Vec2 at{};
   std::string type = "dead_end";
   double radius_m = 4.0;  ///< of the kerb's corners
 };
@@ -30,8 +30,8 @@ struct PlainEdge {
   int lanes = 1;
   double speed_mps = 13.89;
   int priority = 1;
-  std::vector<world::Vec2> shape{};  ///< empty: straight; else from its first to its last point
-  bool centred = false;              ///< lanes to both sides of the shape; else to its right
+  std::vector<map::Vec2> shape{};  ///< empty: straight; else from its first to its last point
+  bool centred = false;            ///< lanes to both sides of the shape; else to its right
 };
 
 /// Of an edge that has none netconvert guesses them.
@@ -60,10 +60,10 @@ struct RoadMission {
 
 /// Streams of traffic, of which each episode draws some.
 struct Streams {
-  std::vector<world::TrafficRoute> ways{};  ///< start_lane -1: one stream for each lane that leads on
+  std::vector<scenario::TrafficRoute> ways{};  ///< start_lane -1: one stream for each lane that leads on
   int choose_low = 0;
   int choose_high = 0;  ///< 0: every stream drives
-  world::Range vehicles_per_minute{};
+  scenario::Range vehicles_per_minute{};
   std::string driver{};  ///< TOML of the table `driver`; empty: as all
 };
 
@@ -83,29 +83,29 @@ struct Road {
 /// A kind of road; results are grouped by it.
 struct Family {
   const char* name;
-  Road (*draw)(world::Random& random);
+  Road (*draw)(traffic::Random& random);
 };
 
 /// In the order in which numbers have them: road number N is of family N modulo their number.
 [[nodiscard]] const std::vector<Family>& families();
 
 // The families, each of any geometry that its kind leaves open: lanes, lengths, angles, limits, rule.
-[[nodiscard]] Road draw_crossing_left(world::Random& random);
-[[nodiscard]] Road draw_crossing_straight(world::Random& random);
-[[nodiscard]] Road draw_crossing_right(world::Random& random);
-[[nodiscard]] Road draw_tee_left(world::Random& random);
-[[nodiscard]] Road draw_tee_right(world::Random& random);
+[[nodiscard]] Road draw_crossing_left(traffic::Random& random);
+[[nodiscard]] Road draw_crossing_straight(traffic::Random& random);
+[[nodiscard]] Road draw_crossing_right(traffic::Random& random);
+[[nodiscard]] Road draw_tee_left(traffic::Random& random);
+[[nodiscard]] Road draw_tee_right(traffic::Random& random);
 /// A turn with one or two lane changes due before it and one or two after it.
-[[nodiscard]] Road draw_late_change(world::Random& random);
-[[nodiscard]] Road draw_roundabout(world::Random& random);
+[[nodiscard]] Road draw_late_change(traffic::Random& random);
+[[nodiscard]] Road draw_roundabout(traffic::Random& random);
 /// The ramp ends in a junction: its connection merges into the right lane.
-[[nodiscard]] Road draw_ramp_junction(world::Random& random);
+[[nodiscard]] Road draw_ramp_junction(traffic::Random& random);
 /// The ramp goes on beside the road for 40 to 200 m.
-[[nodiscard]] Road draw_ramp_lane(world::Random& random);
-[[nodiscard]] Road draw_lane_drop(world::Random& random);
-[[nodiscard]] Road draw_curve(world::Random& random);
-[[nodiscard]] Road draw_cruise(world::Random& random);
-[[nodiscard]] Road draw_overtake(world::Random& random);
-[[nodiscard]] Road draw_cut_in(world::Random& random);
+[[nodiscard]] Road draw_ramp_lane(traffic::Random& random);
+[[nodiscard]] Road draw_lane_drop(traffic::Random& random);
+[[nodiscard]] Road draw_curve(traffic::Random& random);
+[[nodiscard]] Road draw_cruise(traffic::Random& random);
+[[nodiscard]] Road draw_overtake(traffic::Random& random);
+[[nodiscard]] Road draw_cut_in(traffic::Random& random);
 
 }  // namespace s4tp::roads

@@ -9,9 +9,9 @@
 namespace s4tp::roads {
 namespace {
 
-using world::format;
-using world::LaneId;
-using world::NetworkLane;
+using map::Lane;
+using map::LaneId;
+using scenario::format;
 
 constexpr double kFirstStart_m = 5.0;
 constexpr double kLatestStart_m = 15.0;
@@ -19,12 +19,13 @@ constexpr double kHalfCar_m = 2.5;
 constexpr double kComfort_mps2 = 2.0;
 
 /// A way as streams: one for each lane that leads on without a change.
-std::vector<world::TrafficRoute> streams_of(const world::TrafficRoute& way, const world::Network& network) {
+std::vector<scenario::TrafficRoute> streams_of(const scenario::TrafficRoute& way,
+                                               const map::Network& network) {
   if (way.start_lane >= 0) {
     return {way};
   }
-  std::vector<world::TrafficRoute> streams;
-  const world::RouteGuide guide(network, way.edges, world::kNoLane, 0.0);
+  std::vector<scenario::TrafficRoute> streams;
+  const map::RouteGuide guide(network, way.edges, map::kNoLane, 0.0);
   for (const LaneId lane : network.lanes_of(way.edges.front())) {
     if (guide.advice(lane).changes_needed == 0) {
       streams.push_back({way.edges, network.lanes[static_cast<std::size_t>(lane)].index, way.end_lane});
@@ -33,10 +34,10 @@ std::vector<world::TrafficRoute> streams_of(const world::TrafficRoute& way, cons
   return streams;
 }
 
-std::string flow_toml(const Streams& streams, const world::Network& network) {
-  std::vector<world::TrafficRoute> all;
-  for (const world::TrafficRoute& way : streams.ways) {
-    for (const world::TrafficRoute& stream : streams_of(way, network)) {
+std::string flow_toml(const Streams& streams, const map::Network& network) {
+  std::vector<scenario::TrafficRoute> all;
+  for (const scenario::TrafficRoute& way : streams.ways) {
+    for (const scenario::TrafficRoute& stream : streams_of(way, network)) {
       all.push_back(stream);
     }
   }
@@ -50,7 +51,7 @@ std::string flow_toml(const Streams& streams, const world::Network& network) {
     toml += "driver = { " + streams.driver + " }, ";
   }
   toml += "routes = [\n";
-  for (const world::TrafficRoute& stream : all) {
+  for (const scenario::TrafficRoute& stream : all) {
     toml += "  { edges = [";
     for (std::size_t i = 0; i < stream.edges.size(); ++i) {
       toml += (i > 0 ? ", \"" : "\"") + stream.edges[i] + '"';
@@ -60,7 +61,7 @@ std::string flow_toml(const Streams& streams, const world::Network& network) {
   return toml + "] }";
 }
 
-std::string traffic_toml(const RoadTraffic& traffic, const world::Network& network) {
+std::string traffic_toml(const RoadTraffic& traffic, const map::Network& network) {
   std::string toml;
   if (!traffic.mix.empty()) {
     toml += "mix = " + traffic.mix + '\n';
@@ -75,12 +76,12 @@ std::string traffic_toml(const RoadTraffic& traffic, const world::Network& netwo
   return toml + "]\n";
 }
 
-std::string mission_toml(const RoadMission& mission, const world::Network& network) {
+std::string mission_toml(const RoadMission& mission, const map::Network& network) {
   const LaneId id = network.lane_of(mission.start_edge, mission.start_lane);
-  if (id == world::kNoLane) {
+  if (id == map::kNoLane) {
     throw std::runtime_error("no lane to start in");
   }
-  const NetworkLane& lane = network.lanes[static_cast<std::size_t>(id)];
+  const Lane& lane = network.lanes[static_cast<std::size_t>(id)];
   const double room_m =
       std::clamp(lane.centre.length_m() - kShortestArm_m, 0.0, kLatestStart_m - kFirstStart_m);
   const double start_m = kFirstStart_m + mission.start_share * room_m;
@@ -96,7 +97,7 @@ std::string mission_toml(const RoadMission& mission, const world::Network& netwo
 
 }  // namespace
 
-std::string scenario_toml(const Road& road, const world::Network& network, const std::string& family) {
+std::string scenario_toml(const Road& road, const map::Network& network, const std::string& family) {
   return "# Drawn by ./s4tp roads, family " + family + ".\n[network]\nfile = \"network.net.xml\"\n\n" +
          mission_toml(road.mission, network) + "\n[traffic]\n" + traffic_toml(road.smarts, network) +
          "\n[flavour.social.traffic]\n" + traffic_toml(road.social, network);

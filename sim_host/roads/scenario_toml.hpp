@@ -10,7 +10,7 @@ namespace s4tp::roads {
 
 /// \param network  what netconvert made of it  \param family  for its first line
 /// \throws std::runtime_error when a way does not lead through the network
-[[nodiscard]] std::string scenario_toml(const Road& road, const world::Network& network,
+[[nodiscard]] std::string scenario_toml(const Road& road, const map::Network& network,
                                         const std::string& family);
 
 }  // namespace s4tp::roads

@@ -5,19 +5,19 @@
 
 #include "sim_host/world/traffic/box.hpp"
 
-namespace s4tp::world {
+namespace s4tp::sumo {
 namespace {
 
 constexpr double kStands_mps = 0.1;
 constexpr double kClearHeadway_s = 1.5;
 
-void advance_to_entry(SumoTraffic& traffic, const Scenario& scenario) {
-  const Mission& mission = scenario.mission;
-  const long ticks = std::lround(mission.entry_time_s / kTick_s);
+void advance_to_entry(Traffic& traffic, const scenario::Scenario& scenario) {
+  const scenario::Mission& mission = scenario.mission;
+  const long ticks = std::lround(mission.entry_time_s / traffic::kTick_s);
   for (long i = 0; i < ticks; ++i) {
     traffic.step(nullptr);
   }
-  const double half_m = 0.5 * CarState{}.length_m;
+  const double half_m = 0.5 * traffic::CarState{}.length_m;
   const double limit_mps =
       scenario.network.lanes[static_cast<std::size_t>(mission.start_lane)].speed_limit_mps;
   traffic.clear(mission.start_lane,
@@ -25,30 +25,32 @@ void advance_to_entry(SumoTraffic& traffic, const Scenario& scenario) {
                 mission.start_s_m + half_m + kClearHeadway_s * mission.start_speed_mps);
 }
 
-bool touches(const CarState& ego, const std::vector<CarState>& others) {
-  return std::any_of(others.begin(), others.end(),
-                     [&](const CarState& car) { return overlap(box_of(ego), box_of(car)); });
+bool touches(const traffic::CarState& ego, const std::vector<traffic::CarState>& others) {
+  return std::any_of(others.begin(), others.end(), [&](const traffic::CarState& car) {
+    return traffic::overlap(traffic::box_of(ego), traffic::box_of(car));
+  });
 }
 
 }  // namespace
 
-SumoDrive sumo_drive(const Scenario& scenario, std::uint64_t seed, const std::string& driver) {
-  EngineOptions options;
-  options.engine = Engine::kSumo;
+Drive sumo_drive(const scenario::Scenario& scenario, std::uint64_t seed, const std::string& driver) {
+  traffic::EngineOptions options;
+  options.engine = scenario::Engine::kSumo;
   options.seed = options.episode = seed;
-  options.ego = DrivenBy::kEngine;
+  options.ego = traffic::DrivenBy::kEngine;
   EgoCoupling as;
   as.driver = driver;
-  SumoTraffic traffic(scenario, options, as);
+  Traffic traffic(scenario, options, as);
   advance_to_entry(traffic, scenario);
-  const Polyline& goal = scenario.network.lanes[static_cast<std::size_t>(scenario.mission.goal_lane)].centre;
-  SumoDrive drive;
-  const long ticks = std::lround(scenario.mission.time_limit_s / kTick_s);
+  const map::Polyline& goal =
+      scenario.network.lanes[static_cast<std::size_t>(scenario.mission.goal_lane)].centre;
+  Drive drive;
+  const long ticks = std::lround(scenario.mission.time_limit_s / traffic::kTick_s);
   for (long i = 0; i < ticks && !drive.arrived; ++i) {
     traffic.step(nullptr);
     drive.ego.push_back(traffic.driven_ego().value());
     drive.others.push_back(traffic.cars());
-    const CarState& ego = drive.ego.back();
+    const traffic::CarState& ego = drive.ego.back();
     drive.touched = drive.touched || touches(ego, drive.others.back());
     drive.arrived =
         ego.lane == scenario.mission.goal_lane && goal.project(ego.centre).s_m >= scenario.mission.goal_s_m;
@@ -56,32 +58,32 @@ SumoDrive sumo_drive(const Scenario& scenario, std::uint64_t seed, const std::st
   return drive;
 }
 
-Replay replay(const Scenario& scenario, std::uint64_t seed, const SumoDrive& drive,
+Replay replay(const scenario::Scenario& scenario, std::uint64_t seed, const Drive& drive,
               const EgoCoupling& coupling) {
-  EngineOptions options;
-  options.engine = Engine::kSumo;
+  traffic::EngineOptions options;
+  options.engine = scenario::Engine::kSumo;
   options.seed = options.episode = seed;
-  SumoTraffic traffic(scenario, options, coupling);
+  Traffic traffic(scenario, options, coupling);
   advance_to_entry(traffic, scenario);
   Replay result;
   for (std::size_t i = 0; i + 1 < drive.ego.size() && !result.touched; ++i) {
-    const EgoSeen seen{drive.ego[i], {}};
+    const traffic::EgoSeen seen{drive.ego[i], {}};
     if (i > 0) {
       traffic.step(&seen);
     } else {
-      EgoSeen first = seen;  // one tick back
-      first.car.centre.x -= kTick_s * first.car.speed_mps * std::cos(first.car.heading_rad);
-      first.car.centre.y -= kTick_s * first.car.speed_mps * std::sin(first.car.heading_rad);
+      traffic::EgoSeen first = seen;  // one tick back
+      first.car.centre.x -= traffic::kTick_s * first.car.speed_mps * std::cos(first.car.heading_rad);
+      first.car.centre.y -= traffic::kTick_s * first.car.speed_mps * std::sin(first.car.heading_rad);
       traffic.step(&first);
     }
-    const std::vector<CarState> others = traffic.cars();
+    const std::vector<traffic::CarState> others = traffic.cars();
     if (touches(drive.ego[i], others)) {
       result.touched = true;
       result.stood = drive.ego[i].speed_mps < kStands_mps;
-      result.touched_s = static_cast<double>(i + 1) * kTick_s;
+      result.touched_s = static_cast<double>(i + 1) * traffic::kTick_s;
     }
-    for (const CarState& car : others) {
-      for (const CarState& original : drive.others[i]) {
+    for (const traffic::CarState& car : others) {
+      for (const traffic::CarState& original : drive.others[i]) {
         if (original.id == car.id) {
           result.others_strayed_m =
               std::max(result.others_strayed_m,
@@ -93,4 +95,4 @@ Replay replay(const Scenario& scenario, std::uint64_t seed, const SumoDrive& dri
   return result;
 }
 
-}  // namespace s4tp::world
+}  // namespace s4tp::sumo

@@ -8,19 +8,19 @@
 
 #include "sim_host/sumo/sumo_traffic.hpp"
 
-namespace s4tp::world {
+namespace s4tp::sumo {
 
 /// The ego and everybody else, every 10 ms from entry on.
-struct SumoDrive {
-  std::vector<CarState> ego;
-  std::vector<std::vector<CarState>> others;
+struct Drive {
+  std::vector<traffic::CarState> ego;
+  std::vector<std::vector<traffic::CarState>> others;
   bool touched = false;
   bool arrived = false;
 };
 
 /// SUMO's own driver on the scenario's mission.
-[[nodiscard]] SumoDrive sumo_drive(const Scenario& scenario, std::uint64_t seed,
-                                   const std::string& driver = {});
+[[nodiscard]] Drive sumo_drive(const scenario::Scenario& scenario, std::uint64_t seed,
+                               const std::string& driver = {});
 
 struct Replay {
   bool touched = false;
@@ -30,7 +30,7 @@ struct Replay {
       0.0;  ///< largest distance between one of the others and the same one in the drive
 };
 
-[[nodiscard]] Replay replay(const Scenario& scenario, std::uint64_t seed, const SumoDrive& drive,
+[[nodiscard]] Replay replay(const scenario::Scenario& scenario, std::uint64_t seed, const Drive& drive,
                             const EgoCoupling& coupling);
 
-}  // namespace s4tp::world
+}  // namespace s4tp::sumo

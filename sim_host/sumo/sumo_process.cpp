@@ -18,7 +18,7 @@
 #include <thread>
 #include <utility>
 
-namespace s4tp::world {
+namespace s4tp::sumo {
 namespace {
 
 using namespace std::chrono_literals;
@@ -59,8 +59,8 @@ std::string MemoryFile::content() const {
   return text;
 }
 
-SumoProcess::SumoProcess(const std::string& program, const std::vector<std::string>& arguments,
-                         const std::string& input)
+Process::Process(const std::string& program, const std::vector<std::string>& arguments,
+                 const std::string& input)
     : input_(input) {
   std::vector<char*> argv{const_cast<char*>(program.c_str())};
   for (const std::string& argument : arguments) {
@@ -112,26 +112,26 @@ SumoProcess::SumoProcess(const std::string& program, const std::vector<std::stri
   }
 }
 
-SumoProcess::~SumoProcess() {
+Process::~Process() {
   if (lives()) {
     kill(process_, SIGKILL);
     waitpid(process_, nullptr, 0);
   }
 }
 
-bool SumoProcess::lives() {
+bool Process::lives() {
   ended_ = ended_ || waitpid(process_, nullptr, WNOHANG) != 0;
   return !ended_;
 }
 
-void SumoProcess::wait_for_end() {
+void Process::wait_for_end() {
   const auto end = std::chrono::steady_clock::now() + 2s;
   while (lives() && std::chrono::steady_clock::now() < end) {
     std::this_thread::sleep_for(1ms);
   }
 }
 
-std::string SumoProcess::last_words() const {
+std::string Process::last_words() const {
   std::istringstream text(output_.content());
   std::vector<std::string> lines;
   for (std::string line; std::getline(text, line);) {
@@ -146,4 +146,4 @@ std::string SumoProcess::last_words() const {
   return words.empty() ? "nothing" : words;
 }
 
-}  // namespace s4tp::world
+}  // namespace s4tp::sumo

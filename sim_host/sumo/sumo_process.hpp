@@ -7,7 +7,7 @@
 #include <thread>
 #include <vector>
 
-namespace s4tp::world {
+namespace s4tp::sumo {
 
 /// Files that exist in memory only, so that nothing is left behind however we end.
 class MemoryFile {
@@ -26,15 +26,14 @@ class MemoryFile {
 
 /// SUMO-001 The child ends with this object, and with our process: also when we are killed. Threads may come
 /// and go meanwhile.
-class SumoProcess {
+class Process {
  public:
   /// Starts PROGRAM (found along PATH) with `input` as its standard input.
   /// \throws std::runtime_error saying that it is missing, and where to get it
-  SumoProcess(const std::string& program, const std::vector<std::string>& arguments,
-              const std::string& input);
-  ~SumoProcess();
-  SumoProcess(const SumoProcess&) = delete;
-  SumoProcess& operator=(const SumoProcess&) = delete;
+  Process(const std::string& program, const std::vector<std::string>& arguments, const std::string& input);
+  ~Process();
+  Process(const Process&) = delete;
+  Process& operator=(const Process&) = delete;
 
   [[nodiscard]] bool lives();
   /// Gives it a moment to end by itself.
@@ -51,4 +50,4 @@ class SumoProcess {
   std::jthread parent_;  ///< the kernel takes the thread that forked for the parent: here one that stays
 };
 
-}  // namespace s4tp::world
+}  // namespace s4tp::sumo

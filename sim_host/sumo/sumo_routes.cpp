@@ -7,11 +7,11 @@
 #include "sim_host/world/map/escaped.hpp"
 #include "sim_host/world/traffic/social_value.hpp"
 
-namespace s4tp::world {
+namespace s4tp::sumo {
 namespace {
 
 // A driver of orientation 0 is SUMO's default driver; the others differ from it as they differ from ours.
-const SocialTraits kOrdinary = social_traits(0.0);
+const traffic::SocialTraits kOrdinary = traffic::social_traits(0.0);
 constexpr double kTimegapMinor_s = 1.0;  // SUMO's default
 constexpr double kWait_s = 10.0;         // at a line, of a patient driver: p95 in docs/traffic_tables.md
 
@@ -21,7 +21,7 @@ class Element {
   explicit Element(const char* name) { text_ << std::boolalpha, text_.precision(17), text_ << '<' << name; }
 
   Element& with(const char* attribute, const std::string& value) {
-    text_ << ' ' << attribute << "=\"" << escaped(value) << '"';  // edge ids may hold any character
+    text_ << ' ' << attribute << "=\"" << map::escaped(value) << '"';  // edge ids may hold any character
     return *this;
   }
   Element& with(const char* attribute, const char* value) { return with(attribute, std::string(value)); }
@@ -46,8 +46,8 @@ std::string route_definition(const std::string& id, const std::vector<std::strin
   return Element("route").with("id", id).with("edges", list).closed();
 }
 
-Element driver_definition(const std::string& id, const Departure& departure) {
-  const Driver& driver = departure.driver;
+Element driver_definition(const std::string& id, const traffic::Departure& departure) {
+  const traffic::Driver& driver = departure.driver;
   Element type("vType");
   type.with("id", id)
       .with("length", departure.length_m)
@@ -74,7 +74,7 @@ Element driver_definition(const std::string& id, const Departure& departure) {
   return type;
 }
 
-[[noreturn]] void refuse(const Scenario& scenario, const std::string& edge) {
+[[noreturn]] void refuse(const scenario::Scenario& scenario, const std::string& edge) {
   throw std::runtime_error(scenario.network_file.string() + ": edge \"" + edge +
                            "\": SUMO separates edges by blanks and takes every letter outside ASCII for one, "
                            "so it cannot drive here; the "
@@ -89,7 +89,7 @@ bool is_blank_to_sumo(unsigned char c) {
   return is_blank(c) || c >= 0x80;
 }
 
-void check_route(const Scenario& scenario, const std::vector<std::string>& edges) {
+void check_route(const scenario::Scenario& scenario, const std::vector<std::string>& edges) {
   for (const std::string& edge : edges) {
     if (std::any_of(edge.begin(), edge.end(), is_blank_to_sumo)) refuse(scenario, edge);
   }
@@ -97,13 +97,13 @@ void check_route(const Scenario& scenario, const std::vector<std::string>& edges
 
 }  // namespace
 
-void check_names(const Scenario& scenario) {
-  for (const NetworkLane& lane : scenario.network.lanes) {  // its network files list them at each junction
+void check_names(const scenario::Scenario& scenario) {
+  for (const map::Lane& lane : scenario.network.lanes) {  // its network files list them at each junction
     if (std::any_of(lane.edge.begin(), lane.edge.end(), is_blank)) refuse(scenario, lane.edge);
   }
   check_route(scenario, scenario.mission.edges);
-  for (const FlowGroup& group : scenario.flows) {
-    for (const TrafficRoute& route : group.routes) check_route(scenario, route.edges);
+  for (const scenario::FlowGroup& group : scenario.flows) {
+    for (const scenario::TrafficRoute& route : group.routes) check_route(scenario, route.edges);
   }
 }
 
@@ -114,13 +114,13 @@ std::string ego_definitions(const std::vector<std::string>& edges, double length
   return type.closed(driver) + route_definition(kEgoName, edges);
 }
 
-std::string flow_definitions(const Network& network, const FlowPlan& plan) {
+std::string flow_definitions(const map::Network& network, const traffic::FlowPlan& plan) {
   std::string text;
   for (std::size_t way = 0; way < plan.ways.size(); ++way) {
     text += route_definition("way" + std::to_string(way), plan.ways[way].route.edges);
   }
   for (std::size_t i = 0; i < plan.departures.size(); ++i) {
-    const Departure& departure = plan.departures[i];
+    const traffic::Departure& departure = plan.departures[i];
     const std::string id = "car" + std::to_string(i);
     text += driver_definition(id, departure).closed();
     Element vehicle("vehicle");
@@ -143,4 +143,4 @@ std::string routes_file(const std::string& definitions) {
   return "<routes>\n" + definitions + "</routes>\n";
 }
 
-}  // namespace s4tp::world
+}  // namespace s4tp::sumo

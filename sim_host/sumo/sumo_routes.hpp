@@ -7,13 +7,13 @@
 #include "sim_host/world/scenario/scenario.hpp"
 #include "sim_host/world/traffic/traffic_flow.hpp"
 
-namespace s4tp::world {
+namespace s4tp::sumo {
 
 inline constexpr const char* kEgoName = "ego";  ///< of its vehicle, its type and its route
 
 /// SUMO-004 SUMO separates the names in a list by blanks, and takes every byte outside ASCII for one.
 /// \throws std::runtime_error naming file, edge and reason when a name of the scenario does not survive that
-void check_names(const Scenario& scenario);
+void check_names(const scenario::Scenario& scenario);
 
 /// The ego's type and route: a car of our size, with SUMO's ordinary driver.
 [[nodiscard]] std::string ego_definitions(const std::vector<std::string>& edges, double length_m,
@@ -38,9 +38,9 @@ void check_names(const Scenario& scenario);
 ///   reaction_s               -                SUMO's drivers act in each step
 /// \endcode
 /// Nobody is made to ignore others (jmIgnore...): no driver of ours does.
-[[nodiscard]] std::string flow_definitions(const Network& network, const FlowPlan& plan);
+[[nodiscard]] std::string flow_definitions(const map::Network& network, const traffic::FlowPlan& plan);
 
 /// A file of both parts.
 [[nodiscard]] std::string routes_file(const std::string& definitions);
 
-}  // namespace s4tp::world
+}  // namespace s4tp::sumo

@@ -13,7 +13,7 @@
 #include "sim_host/sumo/sumo_routes.hpp"
 #include "sim_host/world/traffic/traffic_flow.hpp"
 
-namespace s4tp::world {
+namespace s4tp::sumo {
 namespace {
 
 using namespace std::chrono_literals;
@@ -63,7 +63,8 @@ int connect_to(int port) {
   return connection;
 }
 
-std::vector<std::string> arguments(const Scenario& scenario, const EngineOptions& options) {
+std::vector<std::string> arguments(const scenario::Scenario& scenario,
+                                   const traffic::EngineOptions& options) {
   std::vector<std::string> all{"--net-file", scenario.network_file.string()};
   if (scenario.route_files.empty()) {
     all.insert(all.end(), {"--route-files", "/dev/stdin"});
@@ -72,7 +73,7 @@ std::vector<std::string> arguments(const Scenario& scenario, const EngineOptions
     all.insert(all.end(),
                {"--route-files", scenario.route_files[file].string(), "--additional-files", "/dev/stdin"});
   }
-  const std::uint64_t seed = next_seed(options.seed ^ 0x5030) & 0x7FFFFFFFU;
+  const std::uint64_t seed = traffic::next_seed(options.seed ^ 0x5030) & 0x7FFFFFFFU;
   all.insert(all.end(), {"--seed",
                          std::to_string(seed),
                          "--step-length",
@@ -102,21 +103,22 @@ std::vector<std::string> arguments(const Scenario& scenario, const EngineOptions
   return all;
 }
 
-std::string definitions(const Scenario& scenario, std::uint64_t seed, const std::string& driver) {
+std::string definitions(const scenario::Scenario& scenario, std::uint64_t seed, const std::string& driver) {
   check_names(scenario);
-  const CarState car;
+  const traffic::CarState car;
   std::string text = ego_definitions(scenario.mission.edges, car.length_m, car.width_m, driver);
   if (scenario.route_files.empty()) {
-    Random random(seed);
-    text += flow_definitions(scenario.network,
-                             draw_flows(scenario.network, scenario.flows, kDrawnUntil_s, random));
+    traffic::Random random(seed);
+    text += flow_definitions(scenario.network, traffic::draw_flows(scenario.network, scenario.flows,
+                                                                   traffic::kDrawnUntil_s, random));
   }
   return routes_file(text);
 }
 
 }  // namespace
 
-SumoSession start_sumo(const Scenario& scenario, const EngineOptions& options, const std::string& driver) {
+Session start_sumo(const scenario::Scenario& scenario, const traffic::EngineOptions& options,
+                   const std::string& driver) {
   const std::vector<std::string> asked = arguments(scenario, options);
   const std::string input = definitions(scenario, options.seed, driver);
   std::string words;
@@ -124,8 +126,8 @@ SumoSession start_sumo(const Scenario& scenario, const EngineOptions& options, c
     const ReservedPort port;
     std::vector<std::string> all = asked;
     all.insert(all.end(), {"--remote-port", std::to_string(port.number()), "--num-clients", "1"});
-    SumoSession session;
-    session.process = std::make_unique<SumoProcess>("sumo", all, input);
+    Session session;
+    session.process = std::make_unique<Process>("sumo", all, input);
     const auto end = steady_clock::now() + kPatience;
     int connection = -1;
     while (connection < 0 && session.process->lives() && steady_clock::now() < end) {
@@ -146,4 +148,4 @@ SumoSession start_sumo(const Scenario& scenario, const EngineOptions& options, c
   throw std::runtime_error("SUMO does not come up; its last words: " + words);
 }
 
-}  // namespace s4tp::world
+}  // namespace s4tp::sumo

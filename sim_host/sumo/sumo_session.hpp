@@ -9,17 +9,17 @@
 #include "sim_host/world/scenario/scenario.hpp"
 #include "sim_host/world/traffic/traffic_engine.hpp"
 
-namespace s4tp::world {
+namespace s4tp::sumo {
 
 /// A SUMO that has loaded network and routes and waits for its first step.
-struct SumoSession {
-  std::unique_ptr<SumoProcess> process;
+struct Session {
+  std::unique_ptr<Process> process;
   std::unique_ptr<traci::Client> client;
 };
 
 /// SUMO-003 \throws std::runtime_error with SUMO's own words when it does not come up
 /// \param driver  further attributes of the ego's vehicle type, as XML
-[[nodiscard]] SumoSession start_sumo(const Scenario& scenario, const EngineOptions& options,
-                                     const std::string& driver);
+[[nodiscard]] Session start_sumo(const scenario::Scenario& scenario, const traffic::EngineOptions& options,
+                                 const std::string& driver);
 
-}  // namespace s4tp::world
+}  // namespace s4tp::sumo

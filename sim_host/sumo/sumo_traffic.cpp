@@ -9,11 +9,13 @@
 #include "sim_host/sumo/sumo_routes.hpp"
 #include "sim_host/world/traffic/box.hpp"
 
-namespace s4tp::world {
+namespace s4tp::sumo {
 namespace {
 
 using traci::Domain;
 using traci::Writer;
+using traffic::CarState;
+using traffic::DrivenBy;
 
 constexpr double kStep_s = 0.1;
 constexpr int kTicksPerStep = 10;
@@ -32,7 +34,7 @@ double compass_deg(double heading_rad) {
   return 90.0 - heading_rad * 180.0 / std::numbers::pi;
 }
 
-Vec2 ahead_of(const CarState& car, double distance_m) {
+map::Vec2 ahead_of(const CarState& car, double distance_m) {
   return {car.centre.x + distance_m * std::cos(car.heading_rad),
           car.centre.y + distance_m * std::sin(car.heading_rad)};
 }
@@ -45,7 +47,7 @@ CarState after(const CarState& car, double time_s) {
   CarState later = car;
   later.heading_rad = car.heading_rad + 0.5 * car.yaw_rate_radps * until_stop_s;
   later.centre = ahead_of(later, way_m);
-  later.heading_rad = wrap_angle(car.heading_rad + car.yaw_rate_radps * until_stop_s);
+  later.heading_rad = map::wrap_angle(car.heading_rad + car.yaw_rate_radps * until_stop_s);
   later.speed_mps = std::max(0.0, car.speed_mps + car.acceleration_mps2 * until_stop_s);
   return later;
 }
@@ -63,15 +65,16 @@ const std::vector<std::string>& ids(const traci::Variables& variables, int varia
 
 }  // namespace
 
-SumoTraffic::SumoTraffic(const Scenario& scenario, const EngineOptions& options, const EgoCoupling& coupling)
+Traffic::Traffic(const scenario::Scenario& scenario, const traffic::EngineOptions& options,
+                 const EgoCoupling& coupling)
     : scenario_(scenario),
       options_(options),
       coupling_(coupling),
       sumo_(start_sumo(scenario, options, coupling.driver)) {
   for (std::size_t i = 0; i < scenario.network.lanes.size(); ++i) {
-    lane_of_[scenario.network.lanes[i].name] = static_cast<LaneId>(i);
+    lane_of_[scenario.network.lanes[i].name] = static_cast<map::LaneId>(i);
   }
-  const std::int64_t entry = std::llround(scenario.mission.entry_time_s / kTick_s);
+  const std::int64_t entry = std::llround(scenario.mission.entry_time_s / traffic::kTick_s);
   if (options.ego == DrivenBy::kEngine && (entry <= 0 || entry % kTicksPerStep != 0)) {
     throw std::runtime_error("SUMO's driver enters at a multiple of 0.1 s, at least 0.1 s; entry_time_s is " +
                              std::to_string(scenario.mission.entry_time_s));
@@ -83,19 +86,19 @@ SumoTraffic::SumoTraffic(const Scenario& scenario, const EngineOptions& options,
   }
 }
 
-SumoTraffic::~SumoTraffic() {
+Traffic::~Traffic() {
   sumo_.client->close();
   sumo_.process->wait_for_end();
 }
 
-void SumoTraffic::fail(const traci::Error& error) {
+void Traffic::fail(const traci::Error& error) {
   sumo_.process->wait_for_end();
   throw std::runtime_error("SUMO's traffic at " + std::to_string(time_s()) + " s: " + error.what() +
                            (sumo_.process->lives() ? "" : "; it has ended") +
                            "; SUMO's last words: " + sumo_.process->last_words());
 }
 
-void SumoTraffic::step(const EgoSeen* ego) {
+void Traffic::step(const traffic::EgoSeen* ego) {
   if (ticks_ % kTicksPerStep == 0) {
     try {
       sumo_step(ego);
@@ -106,9 +109,8 @@ void SumoTraffic::step(const EgoSeen* ego) {
   ++ticks_;
 }
 
-void SumoTraffic::add_ego() {
-  const NetworkLane& goal_lane =
-      scenario_.network.lanes[static_cast<std::size_t>(scenario_.mission.goal_lane)];
+void Traffic::add_ego() {
+  const map::Lane& goal_lane = scenario_.network.lanes[static_cast<std::size_t>(scenario_.mission.goal_lane)];
   Writer value;  // route, type, depart, lane, position, speed; arrival lane, position, speed; the rest unused
   value.compound(14).typed_text(kEgoName).typed_text(kEgoName).typed_text("now");
   value.typed_text("first").typed_text("base").typed_text("0");
@@ -128,11 +130,11 @@ void SumoTraffic::add_ego() {
 
 /// The ego stands at the mission's start when the step that ends at entry is over, so that everybody sees it
 /// from entry on, and nobody before.
-void SumoTraffic::enter_ego() {
-  const Mission& mission = scenario_.mission;
-  const std::int64_t entry = std::llround(mission.entry_time_s / kTick_s);
+void Traffic::enter_ego() {
+  const scenario::Mission& mission = scenario_.mission;
+  const std::int64_t entry = std::llround(mission.entry_time_s / traffic::kTick_s);
   if (ticks_ + kTicksPerStep == entry) {
-    const PolylinePose pose =
+    const map::PolylinePose pose =
         scenario_.network.lanes[static_cast<std::size_t>(mission.start_lane)].centre.at(mission.start_s_m);
     CarState start;
     start.centre = pose.point;
@@ -148,10 +150,10 @@ void SumoTraffic::enter_ego() {
 
 /// In a junction many ways overlap, and moveToXY takes the nearest: others then take a car that turns for one
 /// on another way, and give way to it, or not, as to that one. So it is looked for on its route first.
-void SumoTraffic::put_ego(const CarState& place) {
+void Traffic::put_ego(const CarState& place) {
   const auto known = cars_.find(kEgoName);
   const bool lost = known != cars_.end() && known->second.lanes.empty();
-  const Vec2 bumper = ahead_of(place, 0.5 * place.length_m);
+  const map::Vec2 bumper = ahead_of(place, 0.5 * place.length_m);
   Writer value;
   value.compound(6).typed_text("").typed_integer(-1).typed_real(bumper.x).typed_real(bumper.y);
   value.typed_real(compass_deg(place.heading_rad))
@@ -159,7 +161,7 @@ void SumoTraffic::put_ego(const CarState& place) {
   sumo_.client->set(Domain::kVehicle, traci::kMoveToXy, kEgoName, value);
 }
 
-void SumoTraffic::sumo_step(const EgoSeen* ego) {
+void Traffic::sumo_step(const traffic::EgoSeen* ego) {
   for (auto entry = cars_.begin(); entry != cars_.end();) {
     Car& car = entry->second;
     car.before = car.after;
@@ -205,34 +207,34 @@ void SumoTraffic::sumo_step(const EgoSeen* ego) {
   }
 }
 
-void SumoTraffic::observe(Car& car, const traci::Variables& variables) {
+void Traffic::observe(Car& car, const traci::Variables& variables) {
   const auto real = [&](int variable) { return std::get<double>(variables.at(variable)); };
   CarState& state = car.after;
   state.length_m = real(traci::kLength);
   state.width_m = real(traci::kWidth);
   state.speed_mps = real(traci::kSpeed);
   state.acceleration_mps2 = real(traci::kAcceleration);
-  state.heading_rad = wrap_angle((90.0 - real(traci::kAngle)) * std::numbers::pi / 180.0);
-  state.centre = std::get<Vec2>(variables.at(traci::kPosition));
+  state.heading_rad = map::wrap_angle((90.0 - real(traci::kAngle)) * std::numbers::pi / 180.0);
+  state.centre = std::get<map::Vec2>(variables.at(traci::kPosition));
   state.centre = ahead_of(state, -0.5 * state.length_m);
   state.yaw_rate_radps =
-      car.known_before ? wrap_angle(state.heading_rad - car.before.heading_rad) / kStep_s : 0.0;
+      car.known_before ? map::wrap_angle(state.heading_rad - car.before.heading_rad) / kStep_s : 0.0;
   follow_lanes(car, std::get<std::string>(variables.at(traci::kLaneId)));
   car.changing_lane = std::abs(real(traci::kLateralPosition)) > kBesideCentre_m;
 }
 
 /// SUMO says where the front bumper is; a car's lane is that of its box centre, here as everywhere.
-void SumoTraffic::follow_lanes(Car& car, const std::string& bumper_lane) const {
+void Traffic::follow_lanes(Car& car, const std::string& bumper_lane) const {
   const auto known = lane_of_.find(bumper_lane);
   if (known == lane_of_.end()) {
     car.lanes.clear();
-    car.after.lane = kNoLane;
+    car.after.lane = map::kNoLane;
     return;
   }
   if (car.lanes.empty() || car.lanes.back() != known->second) {
     car.lanes.push_back(known->second);
   }
-  const auto begun = [&](LaneId lane) {
+  const auto begun = [&](map::LaneId lane) {
     return scenario_.network.lanes[static_cast<std::size_t>(lane)].centre.project(car.after.centre).s_m >=
            0.0;
   };
@@ -241,20 +243,20 @@ void SumoTraffic::follow_lanes(Car& car, const std::string& bumper_lane) const {
   car.after.lane = car.lanes.front();
 }
 
-CarState SumoTraffic::between(const Car& car) const {
+CarState Traffic::between(const Car& car) const {
   const double part = static_cast<double>((ticks_ + kTicksPerStep - 1) % kTicksPerStep + 1) / kTicksPerStep;
   CarState state = part < 0.5 ? car.before : car.after;
   const auto mix = [part](double from, double to) { return from + part * (to - from); };
   state.centre = {mix(car.before.centre.x, car.after.centre.x), mix(car.before.centre.y, car.after.centre.y)};
-  state.heading_rad =
-      wrap_angle(car.before.heading_rad + part * wrap_angle(car.after.heading_rad - car.before.heading_rad));
+  state.heading_rad = map::wrap_angle(car.before.heading_rad +
+                                      part * map::wrap_angle(car.after.heading_rad - car.before.heading_rad));
   state.speed_mps = mix(car.before.speed_mps, car.after.speed_mps);
   state.acceleration_mps2 = car.after.acceleration_mps2;
   state.yaw_rate_radps = car.after.yaw_rate_radps;
   return state;
 }
 
-std::vector<CarState> SumoTraffic::cars() const {
+std::vector<CarState> Traffic::cars() const {
   std::vector<CarState> states;
   for (const auto& [name, car] : cars_) {
     if (name == kEgoName) {
@@ -270,36 +272,37 @@ std::vector<CarState> SumoTraffic::cars() const {
   return states;
 }
 
-std::vector<CarFlags> SumoTraffic::flags() const {
-  std::vector<CarFlags> all;
+std::vector<traffic::CarFlags> Traffic::flags() const {
+  std::vector<traffic::CarFlags> all;
   for (const auto& [name, car] : cars_) {
     if (name != kEgoName) {
       all.push_back({car.after.id, car.changing_lane, car.after.speed_mps < kStands_mps});
     }
   }
-  std::sort(all.begin(), all.end(), [](const CarFlags& a, const CarFlags& b) { return a.id < b.id; });
+  std::sort(all.begin(), all.end(),
+            [](const traffic::CarFlags& a, const traffic::CarFlags& b) { return a.id < b.id; });
   return all;
 }
 
-std::optional<CarState> SumoTraffic::ego_seen() const {
+std::optional<CarState> Traffic::ego_seen() const {
   const auto ego = cars_.find(kEgoName);
   return ego == cars_.end() || !ego->second.known_before ? std::nullopt : std::optional(between(ego->second));
 }
 
-std::optional<CarState> SumoTraffic::driven_ego() const {
+std::optional<CarState> Traffic::driven_ego() const {
   return options_.ego == DrivenBy::kEngine ? ego_seen() : std::nullopt;
 }
 
-void SumoTraffic::clear(LaneId lane, double from_m, double to_m) {
-  const NetworkLane& cleared = scenario_.network.lanes[static_cast<std::size_t>(lane)];
+void Traffic::clear(map::LaneId lane, double from_m, double to_m) {
+  const map::Lane& cleared = scenario_.network.lanes[static_cast<std::size_t>(lane)];
   std::erase_if(cars_, [&](const auto& entry) {
     const auto& [name, car] = entry;
     const CarState now = car.known_before ? between(car) : car.after;
-    if (name == kEgoName || car.arrived || now.lane == kNoLane ||
+    if (name == kEgoName || car.arrived || now.lane == map::kNoLane ||
         scenario_.network.lanes[static_cast<std::size_t>(now.lane)].edge != cleared.edge) {
       return false;
     }
-    const PolylineProjection at = cleared.centre.project(now.centre);
+    const map::PolylineProjection at = cleared.centre.project(now.centre);
     const bool inside = std::abs(at.d_m) < 0.5 * (cleared.width_m + now.width_m) &&
                         at.s_m + 0.5 * now.length_m > from_m && at.s_m - 0.5 * now.length_m < to_m;
     if (inside) {
@@ -314,4 +317,4 @@ void SumoTraffic::clear(LaneId lane, double from_m, double to_m) {
   });
 }
 
-}  // namespace s4tp::world
+}  // namespace s4tp::sumo

@@ -19,7 +19,7 @@
 #include "sim_host/world/scenario/scenario.hpp"
 #include "sim_host/world/traffic/traffic_engine.hpp"
 
-namespace s4tp::world {
+namespace s4tp::sumo {
 
 /// How SUMO is told of an ego it does not drive. The defaults are those that touch least
 /// (docs/sumo_coupling.md); the others are there to be measured against.
@@ -32,46 +32,47 @@ struct EgoCoupling {
   std::string driver = {};  ///< further attributes of its vehicle type, as XML
 };
 
-class SumoTraffic final : public TrafficEngine {
+class Traffic final : public traffic::TrafficEngine {
  public:
-  SumoTraffic(const Scenario& scenario, const EngineOptions& options, const EgoCoupling& coupling = {});
-  ~SumoTraffic() override;
+  Traffic(const scenario::Scenario& scenario, const traffic::EngineOptions& options,
+          const EgoCoupling& coupling = {});
+  ~Traffic() override;
 
-  void step(const EgoSeen* ego) override;
+  void step(const traffic::EgoSeen* ego) override;
   [[nodiscard]] double time_s() const override { return static_cast<double>(ticks_) * 0.01; }
-  [[nodiscard]] std::vector<CarState> cars() const override;
-  [[nodiscard]] std::vector<CarFlags> flags() const override;
-  void clear(LaneId lane, double from_m, double to_m) override;
+  [[nodiscard]] std::vector<traffic::CarState> cars() const override;
+  [[nodiscard]] std::vector<traffic::CarFlags> flags() const override;
+  void clear(map::LaneId lane, double from_m, double to_m) override;
   [[nodiscard]] int finished() const override { return finished_; }
-  [[nodiscard]] std::optional<CarState> driven_ego() const override;
+  [[nodiscard]] std::optional<traffic::CarState> driven_ego() const override;
   [[nodiscard]] pid_t process() const { return sumo_.process->id(); }
   /// The ego as SUMO has it, however it is driven; none before it is there.
-  [[nodiscard]] std::optional<CarState> ego_seen() const;
+  [[nodiscard]] std::optional<traffic::CarState> ego_seen() const;
 
  private:
   struct Car {
-    CarState before;  ///< at the step's start
-    CarState after;   ///< at its end
+    traffic::CarState before;  ///< at the step's start
+    traffic::CarState after;   ///< at its end
     bool known_before = false;
     bool arrived = false;  ///< within the step
     bool changing_lane = false;
-    std::vector<LaneId> lanes;  ///< its box is on: from the centre's to the one SUMO says, the bumper's
+    std::vector<map::LaneId> lanes;  ///< its box is on: from the centre's to the one SUMO says, the bumper's
   };
 
   [[noreturn]] void fail(const traci::Error& error);
-  void sumo_step(const EgoSeen* ego);
+  void sumo_step(const traffic::EgoSeen* ego);
   void add_ego();
-  void put_ego(const CarState& place);
+  void put_ego(const traffic::CarState& place);
   void enter_ego();
   void observe(Car& car, const traci::Variables& variables);
   void follow_lanes(Car& car, const std::string& bumper_lane) const;
-  [[nodiscard]] CarState between(const Car& car) const;
+  [[nodiscard]] traffic::CarState between(const Car& car) const;
 
-  const Scenario& scenario_;
-  EngineOptions options_;
+  const scenario::Scenario& scenario_;
+  traffic::EngineOptions options_;
   EgoCoupling coupling_;
-  std::unordered_map<std::string, LaneId> lane_of_;
-  SumoSession sumo_;
+  std::unordered_map<std::string, map::LaneId> lane_of_;
+  Session sumo_;
   std::map<std::string, Car> cars_;  ///< by SUMO's id
   bool ego_there_ = false;
   int next_id_ = 1;
@@ -79,4 +80,4 @@ class SumoTraffic final : public TrafficEngine {
   std::int64_t ticks_ = 0;
 };
 
-}  // namespace s4tp::world
+}  // namespace s4tp::sumo

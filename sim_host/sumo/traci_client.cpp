@@ -8,7 +8,7 @@
 #include <cstring>
 #include <sstream>
 
-namespace s4tp::world::traci {
+namespace s4tp::sumo::traci {
 namespace {
 
 constexpr int kGetVersion = 0x00;
@@ -185,4 +185,4 @@ void Client::close() noexcept {
   }
 }
 
-}  // namespace s4tp::world::traci
+}  // namespace s4tp::sumo::traci

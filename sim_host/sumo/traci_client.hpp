@@ -10,7 +10,7 @@
 
 #include "sim_host/sumo/traci_message.hpp"
 
-namespace s4tp::world::traci {
+namespace s4tp::sumo::traci {
 
 /// What variables belong to; the protocol's numbers of get, answer, set, subscribe and event follow from it.
 enum class Domain : int { kVehicleType = 0x05, kRoute = 0x06, kVehicle = 0x04, kSimulation = 0x0B };
@@ -74,4 +74,4 @@ class Client {
   std::vector<std::uint8_t> answer_;
 };
 
-}  // namespace s4tp::world::traci
+}  // namespace s4tp::sumo::traci

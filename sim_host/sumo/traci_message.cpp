@@ -2,7 +2,7 @@
 
 #include <bit>
 
-namespace s4tp::world::traci {
+namespace s4tp::sumo::traci {
 namespace {
 
 // Type bytes.
@@ -143,7 +143,7 @@ Value Reader::typed() {
     }
     case kPosition2d: {
       const double x = real();
-      return Vec2{x, real()};
+      return map::Vec2{x, real()};
     }
     default:
       throw Error("SUMO's answer holds a value of type " + std::to_string(type) + ", which is not expected");
@@ -178,4 +178,4 @@ std::vector<std::uint8_t> message(int command, const Writer& content) {
   return whole.bytes();
 }
 
-}  // namespace s4tp::world::traci
+}  // namespace s4tp::sumo::traci

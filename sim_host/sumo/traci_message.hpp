@@ -12,7 +12,7 @@
 
 #include "sim_host/world/map/polyline.hpp"
 
-namespace s4tp::world::traci {
+namespace s4tp::sumo::traci {
 
 /// SUMO refused something, answered what TraCI does not know, or is gone.
 class Error : public std::runtime_error {
@@ -21,7 +21,7 @@ class Error : public std::runtime_error {
 };
 
 /// What TraCI's typed values become here; anything else is an error.
-using Value = std::variant<int, double, std::string, std::vector<std::string>, Vec2>;
+using Value = std::variant<int, double, std::string, std::vector<std::string>, map::Vec2>;
 
 class Writer {
  public:
@@ -69,4 +69,4 @@ class Reader {
 /// TRACI-001 A message of one command: four bytes of length, then the command with its own length.
 [[nodiscard]] std::vector<std::uint8_t> message(int command, const Writer& content);
 
-}  // namespace s4tp::world::traci
+}  // namespace s4tp::sumo::traci

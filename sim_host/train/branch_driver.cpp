@@ -22,7 +22,7 @@ constexpr double kStanding_mps = 0.3;
 constexpr double kHorizon_s = static_cast<double>(kHorizonSteps) * static_cast<double>(kStepS);
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
-const world::NetworkLane& lane_of(const world::Branch& now, world::LaneId lane) {
+const map::Lane& lane_of(const world::Branch& now, map::LaneId lane) {
   return now.road().scenario.network.lanes[static_cast<std::size_t>(lane)];
 }
 
@@ -33,7 +33,7 @@ double smooth(double p) {
 
 }  // namespace
 
-BranchPlan draw_plan(Intention intention, world::Random& random) {
+BranchPlan draw_plan(Intention intention, traffic::Random& random) {
   BranchPlan plan;
   plan.intention = intention;
   plan.acceleration_mps2 = random.uniform(0.8, 3.2);
@@ -47,9 +47,9 @@ BranchPlan draw_plan(Intention intention, world::Random& random) {
   return plan;
 }
 
-EgoState ego_state_of(const world::Vehicle& vehicle, world::Vec2 origin) {
+EgoState ego_state_of(const nodes::Vehicle& vehicle, map::Vec2 origin) {
   EgoState ego;
-  const world::Vec2 axle = vehicle.rear_axle();
+  const map::Vec2 axle = vehicle.rear_axle();
   ego.rear_axle = {static_cast<float>(axle.x - origin.x), static_cast<float>(axle.y - origin.y),
                    static_cast<float>(vehicle.heading_rad())};
   ego.speed_mps = static_cast<float>(vehicle.speed_mps());
@@ -61,12 +61,12 @@ EgoState ego_state_of(const world::Vehicle& vehicle, world::Vec2 origin) {
 
 void BranchDriver::begin(const world::Branch& now) {
   lane_ = now.place().lane;
-  if (lane_ == world::kNoLane) return;
-  const world::NetworkLane& here = lane_of(now, lane_);
+  if (lane_ == map::kNoLane) return;
+  const map::Lane& here = lane_of(now, lane_);
   const bool changes = plan_.intention == Intention::kLeft || plan_.intention == Intention::kRight;
-  const world::LaneId beside = plan_.intention == Intention::kLeft ? here.left : here.right;
-  if (changes && beside != world::kNoLane) lane_ = beside;
-  const world::PolylineProjection at = lane_of(now, lane_).centre.project(now.ego().centre);
+  const map::LaneId beside = plan_.intention == Intention::kLeft ? here.left : here.right;
+  if (changes && beside != map::kNoLane) lane_ = beside;
+  const map::PolylineProjection at = lane_of(now, lane_).centre.project(now.ego().centre);
   s_m_ = at.s_m;
   offset_m_ = at.d_m;
   brake_to_mps_ = plan_.slow_share * now.ego().speed_mps;
@@ -75,24 +75,24 @@ void BranchDriver::begin(const world::Branch& now) {
 
 void BranchDriver::advance(const world::Branch& now) {
   s_m_ = lane_of(now, lane_).centre.project(now.ego().centre).s_m;
-  const world::LaneId next = next_of(now, lane_);
-  if (s_m_ >= lane_of(now, lane_).centre.length_m() && next != world::kNoLane) {
+  const map::LaneId next = next_of(now, lane_);
+  if (s_m_ >= lane_of(now, lane_).centre.length_m() && next != map::kNoLane) {
     lane_ = next;
     s_m_ = lane_of(now, lane_).centre.project(now.ego().centre).s_m;
   }
 }
 
-world::LaneId BranchDriver::next_of(const world::Branch& now, world::LaneId lane) const {
-  const world::LaneId next = now.road().guide.advice(lane).next;
-  if (next != world::kNoLane) return next;
+map::LaneId BranchDriver::next_of(const world::Branch& now, map::LaneId lane) const {
+  const map::LaneId next = now.road().guide.advice(lane).next;
+  if (next != map::kNoLane) return next;
   const auto& successors = lane_of(now, lane).successors;
-  return successors.empty() ? world::kNoLane : successors.front();
+  return successors.empty() ? map::kNoLane : successors.front();
 }
 
 std::vector<BranchDriver::Part> BranchDriver::way_ahead(const world::Branch& now) const {
   std::vector<Part> way;
   double start_m = -s_m_;
-  for (world::LaneId lane = lane_; lane != world::kNoLane && start_m < kSight_m && way.size() < 12;
+  for (map::LaneId lane = lane_; lane != map::kNoLane && start_m < kSight_m && way.size() < 12;
        lane = next_of(now, lane)) {
     way.push_back({lane, start_m});
     start_m += lane_of(now, lane).centre.length_m();
@@ -107,7 +107,7 @@ double BranchDriver::wanted_mps(const world::Branch& now, const std::vector<Part
         std::min(wanted, std::sqrt(speed_mps * speed_mps + 2.0 * kSlowing_mps2 * std::max(0.0, ahead_m)));
   };
   for (const Part& part : way) {
-    const world::NetworkLane& lane = lane_of(now, part.lane);
+    const map::Lane& lane = lane_of(now, part.lane);
     slow_for(lane.speed_limit_mps * plan_.limit_share, part.start_m);
     for (double s = std::max(0.0, -part.start_m); s < lane.centre.length_m() && part.start_m + s < 40.0;
          s += 3.0) {
@@ -115,7 +115,7 @@ double BranchDriver::wanted_mps(const world::Branch& now, const std::vector<Part
       slow_for(std::sqrt(kSideways_mps2 / std::max(curvature, 1e-3)), part.start_m + s);
     }
   }
-  const world::NetworkLane& last = lane_of(now, way.back().lane);
+  const map::Lane& last = lane_of(now, way.back().lane);
   const bool dead_end = last.successors.empty() && last.edge != now.road().scenario.mission.edges.back();
   if (dead_end) slow_for(0.0, way.back().start_m + last.centre.length_m() - 5.0);
   return wanted;
@@ -123,22 +123,22 @@ double BranchDriver::wanted_mps(const world::Branch& now, const std::vector<Part
 
 double BranchDriver::behind_leader_mps2(const world::Branch& now, const std::vector<Part>& way,
                                         double wanted) const {
-  world::Driver driver;
+  traffic::Driver driver;
   driver.acceleration_mps2 = plan_.acceleration_mps2;
-  double result = world::free_acceleration_mps2(driver, now.ego().speed_mps, wanted);
+  double result = traffic::free_acceleration_mps2(driver, now.ego().speed_mps, wanted);
   if (plan_.reckless) return result;
-  for (const world::CarState& car : now.others()) {
+  for (const traffic::CarState& car : now.others()) {
     if (std::hypot(car.centre.x - now.ego().centre.x, car.centre.y - now.ego().centre.y) > kSight_m) continue;
     for (const Part& part : way) {
-      const world::Polyline& centre = lane_of(now, part.lane).centre;
-      const world::PolylineProjection at = centre.project(car.centre);
-      const double turned = world::wrap_angle(centre.at(at.s_m).heading_rad - car.heading_rad);
+      const map::Polyline& centre = lane_of(now, part.lane).centre;
+      const map::PolylineProjection at = centre.project(car.centre);
+      const double turned = map::wrap_angle(centre.at(at.s_m).heading_rad - car.heading_rad);
       const double gap_m = part.start_m + at.s_m - 0.5 * (car.length_m + now.ego().length_m);
       const bool on_it = at.s_m >= 0.0 && at.s_m <= centre.length_m() && std::abs(turned) < 0.8 &&
                          std::abs(at.d_m) < 0.5 * (car.width_m + now.ego().width_m) + kBeside_m;
       if (!on_it || gap_m < -0.5 * now.ego().length_m) continue;
-      result = std::min(result, world::following_acceleration_mps2(driver, now.ego().speed_mps, wanted, gap_m,
-                                                                   car.speed_mps));
+      result = std::min(result, traffic::following_acceleration_mps2(driver, now.ego().speed_mps, wanted,
+                                                                     gap_m, car.speed_mps));
     }
   }
   return result;
@@ -147,7 +147,7 @@ double BranchDriver::behind_leader_mps2(const world::Branch& now, const std::vec
 BranchDriver::Zone BranchDriver::next_zone(const world::Branch& now, const std::vector<Part>& way) {
   Zone nearest;
   for (const Part& part : way) {
-    for (const world::NetworkConflict& conflict : now.road().scenario.network.conflicts) {
+    for (const map::Conflict& conflict : now.road().scenario.network.conflicts) {
       const bool first = conflict.first == part.lane;
       if (!first && conflict.second != part.lane) continue;
       const double entry_m = part.start_m + (first ? conflict.first_entry_m : conflict.second_entry_m);
@@ -170,7 +170,7 @@ double BranchDriver::choose_mps2(const world::Branch& now, const std::vector<Par
   switch (plan_.intention) {
     case Intention::kYield:
       if (!waits) break;
-      limit = world::stopping_acceleration_mps2({}, speed, wanted, zone.wait_m);
+      limit = traffic::stopping_acceleration_mps2({}, speed, wanted, zone.wait_m);
       stood_s_ += speed < kStanding_mps ? kTick_s * kDecisionTicks : 0.0;
       released_ = stood_s_ > plan_.wait_s;
       break;
@@ -194,24 +194,24 @@ double BranchDriver::choose_mps2(const world::Branch& now, const std::vector<Par
 
 /// Pure pursuit of the lane, from the offset it began with.
 double BranchDriver::steer(const world::Branch& now, double plan_s) const {
-  const world::Vehicle& car = now.vehicle();
+  const nodes::Vehicle& car = now.vehicle();
   const double ahead_m = std::clamp(2.5 + 0.8 * car.speed_mps(), 4.0, 20.0);
   const double axle_to_centre_m = 0.5 * car.parameters().length_m - car.parameters().rear_overhang_m;
-  world::LaneId lane = lane_;
+  map::LaneId lane = lane_;
   double s = s_m_ - axle_to_centre_m + ahead_m;
   for (int i = 0; i < 6 && s > lane_of(now, lane).centre.length_m(); ++i) {
-    const world::LaneId next = next_of(now, lane);
-    if (next == world::kNoLane) break;
+    const map::LaneId next = next_of(now, lane);
+    if (next == map::kNoLane) break;
     s -= lane_of(now, lane).centre.length_m();
     lane = next;
   }
-  const world::PolylinePose at = lane_of(now, lane).centre.at(s);
+  const map::PolylinePose at = lane_of(now, lane).centre.at(s);
   const double left_m = offset_m_ * (1.0 - smooth((plan_s + 0.5) / plan_.change_s));
-  const world::Vec2 target{at.point.x - left_m * std::sin(at.heading_rad),
-                           at.point.y + left_m * std::cos(at.heading_rad)};
-  const world::Vec2 axle = car.rear_axle();
+  const map::Vec2 target{at.point.x - left_m * std::sin(at.heading_rad),
+                         at.point.y + left_m * std::cos(at.heading_rad)};
+  const map::Vec2 axle = car.rear_axle();
   const double bearing =
-      world::wrap_angle(std::atan2(target.y - axle.y, target.x - axle.x) - car.heading_rad());
+      map::wrap_angle(std::atan2(target.y - axle.y, target.x - axle.x) - car.heading_rad());
   const double distance_m = std::max(2.0, std::hypot(target.x - axle.x, target.y - axle.y));
   return std::atan(2.0 * car.parameters().wheelbase_m * std::sin(bearing) / distance_m);
 }
@@ -221,7 +221,7 @@ world::EgoCommand BranchDriver::drive(const world::Branch& now) {
   const std::int64_t tick = ticks_++;
   if (tick == 0) begin(now);
   if (plan_s < -1e-9) return command_ = fork_.held;
-  if (lane_ == world::kNoLane) return command_ = {-plan_.braking_mps2, 0.0};  // nothing to follow: stops
+  if (lane_ == map::kNoLane) return command_ = {-plan_.braking_mps2, 0.0};  // nothing to follow: stops
   advance(now);
   if (plan_.intention == Intention::kCandidate && plan_s < kHorizon_s) {
     Plan plan;
@@ -236,7 +236,7 @@ world::EgoCommand BranchDriver::drive(const world::Branch& now) {
   }
   const bool goes_on = plan_.intention == Intention::kCandidate;
   if (goes_on && tick % kDecisionTicks == 0 && plan_s < kHorizon_s + kTick_s * kDecisionTicks) begin(now);
-  if (lane_ == world::kNoLane) return command_ = {-plan_.braking_mps2, 0.0};  // nothing to follow: stops
+  if (lane_ == map::kNoLane) return command_ = {-plan_.braking_mps2, 0.0};  // nothing to follow: stops
   const double since_s = goes_on ? plan_s - kHorizon_s : plan_s;
   if (tick % kDecisionTicks == 0) {
     const std::vector<Part> way = way_ahead(now);

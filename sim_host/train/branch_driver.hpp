@@ -41,10 +41,10 @@ struct BranchPlan {
 };
 
 /// Draws the values of an intention; `candidate` and `start_ms` stay.
-[[nodiscard]] BranchPlan draw_plan(Intention intention, world::Random& random);
+[[nodiscard]] BranchPlan draw_plan(Intention intention, traffic::Random& random);
 
 /// The ego as the firmware's inputs would have it, without their errors.
-[[nodiscard]] EgoState ego_state_of(const world::Vehicle& vehicle, world::Vec2 origin);
+[[nodiscard]] EgoState ego_state_of(const nodes::Vehicle& vehicle, map::Vec2 origin);
 
 class BranchDriver final : public world::EgoDriver {
  public:
@@ -53,7 +53,7 @@ class BranchDriver final : public world::EgoDriver {
     world::EgoCommand held;     ///< what the car does until the plan begins
     double lead_s = 0.1;        ///< until then
     std::uint32_t time_ms = 0;  ///< vehicle time of the fork
-    world::Vec2 origin;         ///< of the odometry frame
+    map::Vec2 origin;           ///< of the odometry frame
     const Parameters* parameters = nullptr;
   };
   BranchDriver(const Fork& fork, const BranchPlan& plan) : fork_(fork), plan_(plan) {}
@@ -62,14 +62,14 @@ class BranchDriver final : public world::EgoDriver {
 
  private:
   struct Part {
-    world::LaneId lane = world::kNoLane;
+    map::LaneId lane = map::kNoLane;
     double start_m = 0.0;  ///< from our box centre
   };
 
   void begin(const world::Branch& now);
   void advance(const world::Branch& now);
   [[nodiscard]] std::vector<Part> way_ahead(const world::Branch& now) const;
-  [[nodiscard]] world::LaneId next_of(const world::Branch& now, world::LaneId lane) const;
+  [[nodiscard]] map::LaneId next_of(const world::Branch& now, map::LaneId lane) const;
   [[nodiscard]] double wanted_mps(const world::Branch& now, const std::vector<Part>& way) const;
   [[nodiscard]] double behind_leader_mps2(const world::Branch& now, const std::vector<Part>& way,
                                           double wanted) const;
@@ -86,9 +86,9 @@ class BranchDriver final : public world::EgoDriver {
   BranchPlan plan_;
   ecu::Tracker tracker_;
   std::int64_t ticks_ = 0;
-  world::LaneId lane_ = world::kNoLane;  ///< that it follows
-  double s_m_ = 0.0;                     ///< of the box centre along it
-  double offset_m_ = 0.0;                ///< from it when the plan began, left positive
+  map::LaneId lane_ = map::kNoLane;  ///< that it follows
+  double s_m_ = 0.0;                 ///< of the box centre along it
+  double offset_m_ = 0.0;            ///< from it when the plan began, left positive
   double brake_to_mps_ = 0.0;
   double stood_s_ = 0.0;
   bool released_ = false;  ///< waits no more

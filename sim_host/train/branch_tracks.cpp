@@ -10,9 +10,9 @@ constexpr double kRange_m = 150.0;  // as the perception node's
 
 }  // namespace
 
-void BranchTracks::adopt(const scene::Scene& scene, const std::vector<world::CarState>& cars) {
+void BranchTracks::adopt(const scene::Scene& scene, const std::vector<traffic::CarState>& cars) {
   for (const scene::Agent& agent : scene.agents) {
-    for (const world::CarState& car : cars) {
+    for (const traffic::CarState& car : cars) {
       const double off_m = std::hypot(car.centre.x - origin_.x - static_cast<double>(agent.track.centre.x_m),
                                       car.centre.y - origin_.y - static_cast<double>(agent.track.centre.y_m));
       if (off_m < 1.5) ids_.try_emplace(car.id, agent.track.id);
@@ -21,15 +21,16 @@ void BranchTracks::adopt(const scene::Scene& scene, const std::vector<world::Car
   }
 }
 
-TrackList BranchTracks::of(const world::CarState& ego, std::vector<world::CarState> cars) {
-  const auto away_m = [&](const world::CarState& car) {
+TrackList BranchTracks::of(const traffic::CarState& ego, std::vector<traffic::CarState> cars) {
+  const auto away_m = [&](const traffic::CarState& car) {
     return std::hypot(car.centre.x - ego.centre.x, car.centre.y - ego.centre.y);
   };
-  std::erase_if(cars, [&](const world::CarState& car) { return away_m(car) > kRange_m; });
-  std::stable_sort(cars.begin(), cars.end(),
-                   [&](const world::CarState& a, const world::CarState& b) { return away_m(a) < away_m(b); });
+  std::erase_if(cars, [&](const traffic::CarState& car) { return away_m(car) > kRange_m; });
+  std::stable_sort(cars.begin(), cars.end(), [&](const traffic::CarState& a, const traffic::CarState& b) {
+    return away_m(a) < away_m(b);
+  });
   TrackList list;
-  for (const world::CarState& car : cars) {
+  for (const traffic::CarState& car : cars) {
     if (list.full()) break;
     if (errors_.dropout > 0.0 && random_.uniform() < errors_.dropout) continue;
     (void)list.push(track_of(car));
@@ -41,7 +42,7 @@ double BranchTracks::noisy(double value, double deviation) {
   return deviation > 0.0 ? random_.normal(value, deviation) : value;
 }
 
-Track BranchTracks::track_of(const world::CarState& car) {
+Track BranchTracks::track_of(const traffic::CarState& car) {
   const auto [known, fresh] = ids_.try_emplace(car.id, static_cast<std::uint8_t>(last_id_ % 254 + 1));
   if (fresh) last_id_ = known->second;
   Track track;

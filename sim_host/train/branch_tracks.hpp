@@ -14,20 +14,20 @@ namespace s4tp::train {
 /// The nearest in range, under lasting ids, with the errors of a perception.
 class BranchTracks {
  public:
-  BranchTracks(const world::PerceptionOptions& errors, world::Vec2 origin, std::uint64_t seed)
+  BranchTracks(const scenario::PerceptionOptions& errors, map::Vec2 origin, std::uint64_t seed)
       : errors_(errors), origin_(origin), random_(seed) {}
 
   /// Takes over the ids of a scene. \param cars  as they are at its time
-  void adopt(const scene::Scene& scene, const std::vector<world::CarState>& cars);
-  [[nodiscard]] TrackList of(const world::CarState& ego, std::vector<world::CarState> cars);
+  void adopt(const scene::Scene& scene, const std::vector<traffic::CarState>& cars);
+  [[nodiscard]] TrackList of(const traffic::CarState& ego, std::vector<traffic::CarState> cars);
 
  private:
   double noisy(double value, double deviation);
-  Track track_of(const world::CarState& car);
+  Track track_of(const traffic::CarState& car);
 
-  world::PerceptionOptions errors_;
-  world::Vec2 origin_;
-  world::Random random_;
+  scenario::PerceptionOptions errors_;
+  map::Vec2 origin_;
+  traffic::Random random_;
   std::map<int, std::uint8_t> ids_;
   int last_id_ = 0;
 };

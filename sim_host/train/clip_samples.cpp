@@ -54,7 +54,7 @@ void make_clip_samples(const clips::Clip& clip, clips::Windows& windows, const P
     if (clips::kept_for_judging(family, vehicle.id)) continue;
     LaneMap map;
     const auto scene = std::make_unique<scene::Scene>();
-    const world::Vec2 origin = clips::see(clip, window.vehicle, window.step, parameters, map, *scene);
+    const map::Vec2 origin = clips::see(clip, window.vehicle, window.step, parameters, map, *scene);
     const int asked = index_of(*scene);
     if (asked < 0) continue;
     const auto sample = std::make_unique<Sample>();

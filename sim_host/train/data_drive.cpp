@@ -23,8 +23,8 @@ constexpr double kQuiet_s = 4.0;  // and elsewhere
 constexpr float kNearM = 30.0F;
 constexpr double kLongest_s = 45.0;  // of an episode
 
-world::Snapshot snapshot_of(const world::Branch& branch) {
-  world::Snapshot snapshot;
+traffic::Snapshot snapshot_of(const world::Branch& branch) {
+  traffic::Snapshot snapshot;
   snapshot.time_s = branch.time_s();
   snapshot.ego = branch.ego();
   snapshot.ego_steering_rad = branch.vehicle().steering_rad();
@@ -33,7 +33,7 @@ world::Snapshot snapshot_of(const world::Branch& branch) {
 }
 
 /// One of the planner's own candidates from here; false: it has none.
-bool draw_candidate(const scene::Scene& scene, const Parameters& parameters, world::Random& random,
+bool draw_candidate(const scene::Scene& scene, const Parameters& parameters, traffic::Random& random,
                     BranchPlan& plan) {
   plan.start_ms = scene.time_ms + kLeadMs;
   const TrajectoryPoint start =
@@ -55,17 +55,17 @@ constexpr double kOnTheRoad[kIntentions] = {2.0, 0.0, 0.0, 3.0, 2.0, 2.0, 2.0};
 
 class DataDrive {
  public:
-  DataDrive(const world::Scenario& scenario, const DriveOptions& options,
+  DataDrive(const scenario::Scenario& scenario, const DriveOptions& options,
             const std::function<void(const Sample&)>& sink)
       : scenario_(scenario),
         options_(options),
         sink_(sink),
-        guide_(world::mission_guide(scenario)),
+        guide_(scenario::mission_guide(scenario)),
         world_(scenario, world_options(options)),
         driver_(
             campaign::make_driver(options.planner, options.guarded, options.parameters, nullptr, nullptr)),
         observer_(options.parameters),
-        random_(world::next_seed(options.seed ^ 0xDA7A)) {}
+        random_(traffic::next_seed(options.seed ^ 0xDA7A)) {}
 
   DriveCounts run();
 
@@ -78,7 +78,7 @@ class DataDrive {
   static world::WorldOptions world_options(const DriveOptions& options) {
     world::WorldOptions result;
     result.seed = options.seed;
-    if (options.noisy) result.perception = world::perception_preset("real");
+    if (options.noisy) result.perception = scenario::perception_preset("real");
     return result;
   }
 
@@ -91,14 +91,14 @@ class DataDrive {
   void label(Instant& instant, bool forked);
   void emit(const Sample& sample, bool forked);
 
-  const world::Scenario& scenario_;
+  const scenario::Scenario& scenario_;
   const DriveOptions& options_;
   const std::function<void(const Sample&)>& sink_;
-  world::RouteGuide guide_;
+  map::RouteGuide guide_;
   world::World world_;
   std::unique_ptr<campaign::Driver> driver_;
   Observer observer_;
-  world::Random random_;
+  traffic::Random random_;
   std::shared_ptr<const LaneMap> map_;
   std::uint32_t map_revision_ = 0;
   world::EgoCommand command_;  ///< the ECU's last
@@ -190,13 +190,13 @@ void DataDrive::branch(Instant instant, int number, const BranchPlan& plan) {
   tracks.adopt(observer.scene(), branch->others());
   const std::size_t later[] = {static_cast<std::size_t>(random_.integer(8, 24)),
                                static_cast<std::size_t>(random_.integer(25, 48))};
-  std::vector<world::Snapshot> drive{snapshot_of(*branch)};
+  std::vector<traffic::Snapshot> drive{snapshot_of(*branch)};
   std::vector<Pending> instants;
   while (drive.size() < kSettledSnapshots) {
     for (int tick = 0; tick < kTicksPerSnapshot; ++tick) branch->step();
     drive.push_back(snapshot_of(*branch));
     const std::size_t index = drive.size() - 1;
-    if (index > later[1] || branch->touched() != world::kNoCar) continue;  // who has touched is no example
+    if (index > later[1] || branch->touched() != traffic::kNoCar) continue;  // who has touched is no example
     const bool seen = observer.look(instant.scene.time_ms + static_cast<std::uint32_t>(100 * index),
                                     ego_state_of(branch->vehicle(), world_.origin()),
                                     tracks.of(branch->ego(), branch->others()),
@@ -207,7 +207,7 @@ void DataDrive::branch(Instant instant, int number, const BranchPlan& plan) {
   }
   counts_.driven_s += 0.1 * static_cast<double>(kSettledSnapshots);
   ++counts_.branches;
-  counts_.collided += branch->touched() != world::kNoCar ? 1 : 0;
+  counts_.collided += branch->touched() != traffic::kNoCar ? 1 : 0;
   label(instant, true);
   instant.sample.branch = static_cast<std::uint8_t>(number);
   complete(instant, scenario_, guide_, drive, branch->touched(), world_.origin(), options_.parameters);
@@ -268,15 +268,15 @@ DriveCounts DataDrive::run() {
             world_.recording().snapshots.size() < pending_.back().snapshot + kSettledSnapshots;
   }
   counts_.driven_s += world_.time_s();
-  const world::Recording& recording = world_.recording();
-  const int touched = recording.collisions.empty() ? world::kNoCar : recording.collisions.front().other;
+  const traffic::Recording& recording = world_.recording();
+  const int touched = recording.collisions.empty() ? traffic::kNoCar : recording.collisions.front().other;
   for (Pending& one : pending_) {
-    const std::span<const world::Snapshot> drive = std::span(recording.snapshots).subspan(one.snapshot);
+    const std::span<const traffic::Snapshot> drive = std::span(recording.snapshots).subspan(one.snapshot);
     if (drive.size() < kSampleSnapshots) continue;
     const bool in_time =
-        touched != world::kNoCar &&
+        touched != traffic::kNoCar &&
         recording.collisions.front().time_s <= drive[std::min(drive.size(), kSettledSnapshots) - 1].time_s;
-    complete(one.instant, scenario_, guide_, drive, in_time ? touched : world::kNoCar, world_.origin(),
+    complete(one.instant, scenario_, guide_, drive, in_time ? touched : traffic::kNoCar, world_.origin(),
              options_.parameters);
     emit(one.instant.sample, true);
   }
@@ -295,7 +295,7 @@ DriveCounts& DriveCounts::operator+=(const DriveCounts& other) {
   return *this;
 }
 
-DriveCounts make_samples(const world::Scenario& scenario, const DriveOptions& options,
+DriveCounts make_samples(const scenario::Scenario& scenario, const DriveOptions& options,
                          const std::function<void(const Sample&)>& sink) {
   return DataDrive(scenario, options, sink).run();
 }

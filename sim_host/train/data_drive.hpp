@@ -46,7 +46,7 @@ struct DriveCounts {
 /// TRAIN-011 The same scenario and options give the same samples to the bit. TRAIN-012 All samples of a fork
 /// have the same input; branch 0 is the drive itself, and is left out where the episode ended within 3 s.
 /// \throws as campaign::make_driver() and world::World
-DriveCounts make_samples(const world::Scenario& scenario, const DriveOptions& options,
+DriveCounts make_samples(const scenario::Scenario& scenario, const DriveOptions& options,
                          const std::function<void(const Sample&)>& sink);
 
 }  // namespace s4tp::train

@@ -17,22 +17,22 @@ constexpr double kStands_mps = 0.5;
 constexpr float kOnPathM = 2.0F;
 constexpr float kHorizonS = static_cast<float>(kHorizonSteps) * kStepS;
 
-Pose odometry(const world::CarState& car, world::Vec2 origin) {
+Pose odometry(const traffic::CarState& car, map::Vec2 origin) {
   return {static_cast<float>(car.centre.x - origin.x), static_cast<float>(car.centre.y - origin.y),
           static_cast<float>(car.heading_rad)};
 }
 
-const world::CarState* find(const std::vector<world::CarState>& cars, int id) {
+const traffic::CarState* find(const std::vector<traffic::CarState>& cars, int id) {
   const auto car =
-      std::find_if(cars.begin(), cars.end(), [&](const world::CarState& one) { return one.id == id; });
+      std::find_if(cars.begin(), cars.end(), [&](const traffic::CarState& one) { return one.id == id; });
   return car == cars.end() ? nullptr : &*car;
 }
 
-Trajectory driven(std::span<const world::Snapshot> drive, world::Vec2 origin, const Parameters& parameters) {
+Trajectory driven(std::span<const traffic::Snapshot> drive, map::Vec2 origin, const Parameters& parameters) {
   Trajectory plan;
   const float to_centre_m = 0.5F * parameters.vehicle.length_m - parameters.vehicle.rear_overhang_m;
   for (int i = 0; i < kTrajectoryPoints; ++i) {
-    const world::Snapshot& snapshot = drive[kLeadSnapshots + static_cast<std::size_t>(i)];
+    const traffic::Snapshot& snapshot = drive[kLeadSnapshots + static_cast<std::size_t>(i)];
     plan.points[i].rear_axle = shift_ahead(odometry(snapshot.ego, origin), -to_centre_m);
     plan.points[i].speed_mps = static_cast<float>(snapshot.ego.speed_mps);
     plan.points[i].acceleration_mps2 = static_cast<float>(snapshot.ego.acceleration_mps2);
@@ -59,11 +59,11 @@ std::int8_t route_of(const Instant& instant, int agent, const Pose& at_horizon) 
 }
 
 /// Whether the ego came to the zone soon and without waiting.
-bool went(std::span<const world::Snapshot> drive, double entry_s) {
+bool went(std::span<const traffic::Snapshot> drive, double entry_s) {
   const double start_s = drive[kLeadSnapshots].time_s;
   if (entry_s > start_s + kGoesWithin_s) return false;
   bool has_moved = false;
-  for (const world::Snapshot& snapshot : drive.subspan(kLeadSnapshots)) {
+  for (const traffic::Snapshot& snapshot : drive.subspan(kLeadSnapshots)) {
     if (snapshot.time_s > entry_s) break;
     if (has_moved && snapshot.ego.speed_mps < kStands_mps) return false;
     has_moved = has_moved || snapshot.ego.speed_mps >= kStands_mps;
@@ -74,7 +74,7 @@ bool went(std::span<const world::Snapshot> drive, double entry_s) {
 }  // namespace
 
 Instant capture(const Observer& observer, const Parameters& parameters, std::shared_ptr<const LaneMap> map,
-                const std::vector<world::CarState>& others, world::Vec2 origin) {
+                const std::vector<traffic::CarState>& others, map::Vec2 origin) {
   Instant instant;
   instant.map = std::move(map);
   instant.scene = observer.scene();
@@ -83,11 +83,11 @@ Instant capture(const Observer& observer, const Parameters& parameters, std::sha
   satp::build_network_input(instant.scene, parameters, kLeadS, instant.sample.input);
   observer.expect(instant.sample.input, instant.sample.kinematic);
   for (int i = 0; i < kMaxAgents; ++i) {
-    instant.car[i] = world::kNoCar;
+    instant.car[i] = traffic::kNoCar;
     if (i >= instant.scene.watched) continue;
     const Pose& seen = instant.scene.agents[i].track.centre;
     double nearest_m = kSame_m;
-    for (const world::CarState& car : others) {
+    for (const traffic::CarState& car : others) {
       const Pose there = odometry(car, origin);
       const double distance_m = std::hypot(there.x_m - seen.x_m, there.y_m - seen.y_m);
       if (distance_m >= nearest_m) continue;
@@ -98,8 +98,8 @@ Instant capture(const Observer& observer, const Parameters& parameters, std::sha
   return instant;
 }
 
-void complete(Instant& instant, const world::Scenario& scenario, const world::RouteGuide& guide,
-              std::span<const world::Snapshot> drive, int touched, world::Vec2 origin,
+void complete(Instant& instant, const scenario::Scenario& scenario, const map::RouteGuide& guide,
+              std::span<const traffic::Snapshot> drive, int touched, map::Vec2 origin,
               const Parameters& parameters) {
   drive = drive.first(std::min(drive.size(), kSettledSnapshots));
   Sample& sample = instant.sample;
@@ -109,9 +109,9 @@ void complete(Instant& instant, const world::Scenario& scenario, const world::Ro
   double entry_s = std::numeric_limits<double>::infinity();
   for (int i = 0; i < kMaxAgents; ++i) {
     sample.yields[i] = sample.route[i] = -1;
-    if (instant.car[i] == world::kNoCar) continue;
+    if (instant.car[i] == traffic::kNoCar) continue;
     for (int step = 0; step < kHorizonSteps; ++step) {
-      const world::CarState* car =
+      const traffic::CarState* car =
           find(drive[kLeadSnapshots + 1 + static_cast<std::size_t>(step)].others, instant.car[i]);
       if (car == nullptr) break;  // who has left the network does not come back
       const Pose truth = odometry(*car, origin);
@@ -130,7 +130,7 @@ void complete(Instant& instant, const world::Scenario& scenario, const world::Ro
     entry_s = std::min(entry_s, meeting.entry_s);
   }
   sample.flags =
-      static_cast<std::uint8_t>((sample.flags & kForked) | (touched != world::kNoCar ? kCollided : 0) |
+      static_cast<std::uint8_t>((sample.flags & kForked) | (touched != traffic::kNoCar ? kCollided : 0) |
                                 (unsettled ? kUnsettled : 0) | (went(drive, entry_s) ? kEgoGoes : 0));
 }
 

@@ -25,13 +25,13 @@ struct Instant {
 
 /// \param others  as they are at the scene's time  \param origin  of the odometry frame
 [[nodiscard]] Instant capture(const Observer& observer, const Parameters& parameters,
-                              std::shared_ptr<const LaneMap> map, const std::vector<world::CarState>& others,
-                              world::Vec2 origin);
+                              std::shared_ptr<const LaneMap> map,
+                              const std::vector<traffic::CarState>& others, map::Vec2 origin);
 
 /// Fills in plan, targets and labels. \param drive  snapshots every 0.1 s from the instant on, at least
 /// kSampleSnapshots, at most kSettledSnapshots are read  \param touched  id of the car the ego touched in it
-void complete(Instant& instant, const world::Scenario& scenario, const world::RouteGuide& guide,
-              std::span<const world::Snapshot> drive, int touched, world::Vec2 origin,
+void complete(Instant& instant, const scenario::Scenario& scenario, const map::RouteGuide& guide,
+              std::span<const traffic::Snapshot> drive, int touched, map::Vec2 origin,
               const Parameters& parameters);
 
 }  // namespace s4tp::train

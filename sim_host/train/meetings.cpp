@@ -18,19 +18,19 @@ struct Zone {
   double car_exit_m = 0.0;
 };
 
-bool lead_into_one(const world::NetworkLane& a, const world::NetworkLane& b) {
-  return std::any_of(a.successors.begin(), a.successors.end(), [&](world::LaneId next) {
+bool lead_into_one(const map::Lane& a, const map::Lane& b) {
+  return std::any_of(a.successors.begin(), a.successors.end(), [&](map::LaneId next) {
     return std::find(b.successors.begin(), b.successors.end(), next) != b.successors.end();
   });
 }
 
-SampleRule rule_of(world::Rule rule, bool ego_first) {
-  if (rule == world::Rule::kFirstCome) return SampleRule::kFirstCome;
-  return (rule == world::Rule::kFirstYields) == ego_first ? SampleRule::kHasPriority : SampleRule::kYields;
+SampleRule rule_of(map::Rule rule, bool ego_first) {
+  if (rule == map::Rule::kFirstCome) return SampleRule::kFirstCome;
+  return (rule == map::Rule::kFirstYields) == ego_first ? SampleRule::kHasPriority : SampleRule::kYields;
 }
 
 /// 1: the car came after the ego, 0: before it, -1: not settled.
-std::int8_t order_of(const world::Journey& ego, const world::Journey& car, const Zone& zone) {
+std::int8_t order_of(const judge::Journey& ego, const judge::Journey& car, const Zone& zone) {
   const double ego_in_s = ego.time_at(zone.ego_entry_m);
   const double ego_out_s = ego.time_at(zone.ego_exit_m);
   const double car_in_s = car.time_at(zone.car_entry_m);
@@ -44,13 +44,13 @@ std::int8_t order_of(const world::Journey& ego, const world::Journey& car, const
 
 }  // namespace
 
-Meetings::Meetings(const world::Network& network, const world::RouteGuide& guide,
-                   std::span<const world::Snapshot> drive)
-    : network_(network), journeys_(world::journeys_of(network, drive, true)), ego_(journeys_.size()) {
+Meetings::Meetings(const map::Network& network, const map::RouteGuide& guide,
+                   std::span<const traffic::Snapshot> drive)
+    : network_(network), journeys_(judge::journeys_of(network, drive, true)), ego_(journeys_.size()) {
   for (std::size_t i = 0; i < journeys_.size(); ++i) {
     const bool ego = journeys_[i].id == 0;
     if (ego) ego_ = i;
-    world::extend(network, ego ? &guide : nullptr, journeys_[i]);
+    judge::extend(network, ego ? &guide : nullptr, journeys_[i]);
   }
 }
 
@@ -58,14 +58,14 @@ Meeting Meetings::with(int id) const {
   Meeting meeting;
   meeting.entry_s = kNever;
   const auto car = std::find_if(journeys_.begin(), journeys_.end(),
-                                [&](const world::Journey& journey) { return journey.id == id; });
+                                [&](const judge::Journey& journey) { return journey.id == id; });
   if (ego_ == journeys_.size() || car == journeys_.end()) return meeting;
-  const world::Journey& ego = journeys_[ego_];
+  const judge::Journey& ego = journeys_[ego_];
   Zone nearest;
-  for (const world::Stretch& ours : ego.stretches) {
-    for (const world::Stretch& theirs : car->stretches) {
+  for (const judge::Stretch& ours : ego.stretches) {
+    for (const judge::Stretch& theirs : car->stretches) {
       meeting.shares = meeting.shares || ours.lane == theirs.lane;
-      for (const world::NetworkConflict& conflict : network_.conflicts) {
+      for (const map::Conflict& conflict : network_.conflicts) {
         const bool ego_first = conflict.first == ours.lane && conflict.second == theirs.lane;
         if (!ego_first && (conflict.second != ours.lane || conflict.first != theirs.lane)) continue;
         Zone zone;

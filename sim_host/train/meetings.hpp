@@ -26,13 +26,13 @@ struct Meeting {
 class Meetings {
  public:
   /// \param drive  snapshots from the sample's instant on, at least one  \param guide  the ego's
-  Meetings(const world::Network& network, const world::RouteGuide& guide,
-           std::span<const world::Snapshot> drive);
+  Meetings(const map::Network& network, const map::RouteGuide& guide,
+           std::span<const traffic::Snapshot> drive);
   [[nodiscard]] Meeting with(int car) const;
 
  private:
-  const world::Network& network_;
-  std::vector<world::Journey> journeys_;
+  const map::Network& network_;
+  std::vector<judge::Journey> journeys_;
   std::size_t ego_ = 0;  ///< index; beyond the last: off the network
 };
 

@@ -75,7 +75,7 @@ std::string box_mark(const CellResult& cell, const std::vector<double>& values, 
 std::vector<double> goal_times(const CellResult& cell) {
   std::vector<double> values;
   for (const EpisodeMetrics& episode : cell.episodes) {
-    if (episode.ending == world::Ending::kGoal) values.push_back(episode.duration_s);
+    if (episode.ending == traffic::Ending::kGoal) values.push_back(episode.duration_s);
   }
   return values;
 }

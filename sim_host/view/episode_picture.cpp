@@ -14,7 +14,7 @@ namespace {
 
 using campaign::CycleTrace;
 using campaign::EpisodeResult;
-using world::Vec2;
+using map::Vec2;
 
 constexpr double kPixelsPerMetre = 8.0;
 constexpr double kChartHeightPx = 150.0;
@@ -34,7 +34,7 @@ double obstacle_peak(const CycleTrace& cycle) {
 const CycleTrace* tensest(const EpisodeResult& result, double entry_ms) {
   const std::vector<CycleTrace>& cycles = result.trace->cycles;
   if (cycles.empty()) return nullptr;
-  if (result.recording.ending == world::Ending::kCollision) return &cycles.back();
+  if (result.recording.ending == traffic::Ending::kCollision) return &cycles.back();
   const CycleTrace* best = &cycles[cycles.size() / 2];
   for (const CycleTrace& cycle : cycles) {
     if (cycle.record.plan.start_ms >= entry_ms && obstacle_peak(cycle) > obstacle_peak(*best)) best = &cycle;
@@ -42,11 +42,11 @@ const CycleTrace* tensest(const EpisodeResult& result, double entry_ms) {
   return best;
 }
 
-void draw_road(Svg& svg, const world::Network& network) {
-  for (const world::NetworkLane& lane : network.lanes) {
+void draw_road(Svg& svg, const map::Network& network) {
+  for (const map::Lane& lane : network.lanes) {
     svg.line(lane.centre.points(), {.colour = "#cfcfca", .width_m = lane.width_m + 0.3});
   }
-  for (const world::NetworkLane& lane : network.lanes) {
+  for (const map::Lane& lane : network.lanes) {
     svg.line(lane.centre.points(), {.colour = "#e4e4df", .width_m = lane.width_m - 0.15});
   }
 }
@@ -59,7 +59,7 @@ std::string heat_colour(double value) {
 }
 
 /// The other drivers' fields at the moment shown.
-void draw_fields(Svg& svg, const world::Snapshot& now, Vec2 origin, Vec2 low, Vec2 high) {
+void draw_fields(Svg& svg, const traffic::Snapshot& now, Vec2 origin, Vec2 low, Vec2 high) {
   const Haze haze(now.others, origin);
   for (double x = std::floor(low.x); x < high.x; x += kCellM) {
     for (double y = std::floor(low.y); y < high.y; y += kCellM) {
@@ -86,11 +86,11 @@ void draw_thoughts(Svg& svg, const CycleTrace& cycle, Vec2 origin) {
   svg.line(plan, {.colour = kPlanColour, .width_m = 0.6, .opacity = 0.95});
 }
 
-void draw_cars(Svg& svg, const world::Recording& recording, const world::Snapshot& now) {
+void draw_cars(Svg& svg, const traffic::Recording& recording, const traffic::Snapshot& now) {
   std::vector<Vec2> way;
-  for (const world::Snapshot& snapshot : recording.snapshots) way.push_back(snapshot.ego.centre);
+  for (const traffic::Snapshot& snapshot : recording.snapshots) way.push_back(snapshot.ego.centre);
   svg.line(way, {.colour = kEgoColour, .width_m = 0.25, .opacity = 0.6, .dashed = true});
-  for (const world::CarState& car : now.others) {
+  for (const traffic::CarState& car : now.others) {
     svg.box(car.centre, car.heading_rad, car.length_m, car.width_m, kOtherColour, 0.95);
     char speed[16];
     std::snprintf(speed, sizeof speed, "%.0f", car.speed_mps);
@@ -116,9 +116,9 @@ void draw_curve(Svg& svg, double top_px, double height_px, const std::vector<dou
 
 }  // namespace
 
-void draw_episode(const world::Scenario& scenario, const EpisodeResult& result,
+void draw_episode(const scenario::Scenario& scenario, const EpisodeResult& result,
                   const std::filesystem::path& file) {
-  const world::Recording& recording = result.recording;
+  const traffic::Recording& recording = result.recording;
   if (recording.snapshots.empty()) return;
   // Vehicle time starts with the pre-roll, the recording's time at entry.
   const double pre_roll_s = -recording.snapshots.front().time_s;
@@ -149,7 +149,7 @@ void draw_episode(const world::Scenario& scenario, const EpisodeResult& result,
               "#555");
 
   std::vector<double> speeds;
-  for (const world::Snapshot& snapshot : recording.snapshots) speeds.push_back(snapshot.ego.speed_mps);
+  for (const traffic::Snapshot& snapshot : recording.snapshots) speeds.push_back(snapshot.ego.speed_mps);
   std::vector<double> risks;
   for (const CycleTrace& one : result.trace->cycles) risks.push_back(obstacle_peak(one));
   const double chart_px = svg.map_height_px();

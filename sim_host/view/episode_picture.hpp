@@ -11,7 +11,7 @@ namespace s4tp::view {
 
 /// \pre result.trace is there (EpisodeOptions::trace)
 /// \throws std::runtime_error when the file cannot be written
-void draw_episode(const world::Scenario& scenario, const campaign::EpisodeResult& result,
+void draw_episode(const scenario::Scenario& scenario, const campaign::EpisodeResult& result,
                   const std::filesystem::path& file);
 
 }  // namespace s4tp::view

@@ -17,7 +17,7 @@ using metrics::EpisodeMetrics;
 std::vector<const EpisodeMetrics*> chosen(const campaign::CellResult& cell, std::size_t most) {
   std::vector<const EpisodeMetrics*> failures;
   for (const EpisodeMetrics& episode : cell.episodes) {
-    if (episode.ending != world::Ending::kGoal) failures.push_back(&episode);
+    if (episode.ending != traffic::Ending::kGoal) failures.push_back(&episode);
   }
   std::stable_sort(failures.begin(), failures.end(), [](const auto* a, const auto* b) {
     return (a->collisions_at_fault > 0) > (b->collisions_at_fault > 0);

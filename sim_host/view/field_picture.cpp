@@ -13,7 +13,7 @@
 namespace s4tp::view {
 namespace {
 
-using world::Vec2;
+using map::Vec2;
 
 constexpr float kWheelbaseM = 2.9F;
 constexpr float kWidthM = 1.8F;

@@ -10,7 +10,7 @@ constexpr double kFullRisk = 12.0;     // painted deepest
 constexpr double kFaintest = 0.08;     // below it nothing is painted
 constexpr float kMaxCurvature = 0.2F;  // 1/m
 
-sadrf::Field field_of(const world::CarState& car, world::Vec2 origin) {
+sadrf::Field field_of(const traffic::CarState& car, map::Vec2 origin) {
   const auto length_m = static_cast<float>(car.length_m);
   const auto speed_mps = static_cast<float>(car.speed_mps);
   const float wheelbase_m = 0.6F * length_m;
@@ -25,11 +25,11 @@ sadrf::Field field_of(const world::CarState& car, world::Vec2 origin) {
 
 }  // namespace
 
-Haze::Haze(const std::vector<world::CarState>& cars, world::Vec2 origin) : origin_(origin) {
-  for (const world::CarState& car : cars) fields_.push_back(field_of(car, origin));
+Haze::Haze(const std::vector<traffic::CarState>& cars, map::Vec2 origin) : origin_(origin) {
+  for (const traffic::CarState& car : cars) fields_.push_back(field_of(car, origin));
 }
 
-double Haze::at(world::Vec2 point) const {
+double Haze::at(map::Vec2 point) const {
   const Point local{static_cast<float>(point.x - origin_.x), static_cast<float>(point.y - origin_.y)};
   float risk = 0.0F;
   for (const sadrf::Field& field : fields_) {
@@ -39,7 +39,7 @@ double Haze::at(world::Vec2 point) const {
   return shown > kFaintest ? shown : 0.0;
 }
 
-std::string Haze::grid(world::Vec2 low, world::Vec2 high, double cell_m) const {
+std::string Haze::grid(map::Vec2 low, map::Vec2 high, double cell_m) const {
   const auto columns = static_cast<int>(std::ceil((high.x - low.x) / cell_m));
   const auto rows = static_cast<int>(std::ceil((high.y - low.y) / cell_m));
   std::string letters;

@@ -18,16 +18,16 @@ inline constexpr int kDeepest = 15;
 class Haze {
  public:
   /// \param origin  near the cars, network coordinates
-  Haze(const std::vector<world::CarState>& cars, world::Vec2 origin);
+  Haze(const std::vector<traffic::CarState>& cars, map::Vec2 origin);
 
   /// How deep to paint a place: 0 nothing .. 1, the root of the risk so that faint parts show.
-  [[nodiscard]] double at(world::Vec2 point) const;
+  [[nodiscard]] double at(map::Vec2 point) const;
 
   /// The same on a grid of square cells as text: in_runs(), row by row from the lowest.
-  [[nodiscard]] std::string grid(world::Vec2 low, world::Vec2 high, double cell_m) const;
+  [[nodiscard]] std::string grid(map::Vec2 low, map::Vec2 high, double cell_m) const;
 
  private:
-  world::Vec2 origin_;
+  map::Vec2 origin_;
   std::vector<sadrf::Field> fields_;
 };
 

@@ -22,8 +22,8 @@ extern const char* const kReplayJs;
 extern const char* const kLiveHtml;
 extern const char* const kLiveJs;
 
-using world::escaped;
-using world::format;
+using map::escaped;
+using scenario::format;
 
 /// Deflated (zlib's format), then base64: what a browser's DecompressionStream takes.
 [[nodiscard]] std::string packed(const std::string& text);

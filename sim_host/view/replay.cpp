@@ -16,10 +16,10 @@ namespace s4tp::view {
 namespace {
 
 using campaign::CycleTrace;
+using map::Vec2;
 using nlohmann::ordered_json;
-using world::CarState;
-using world::Snapshot;
-using world::Vec2;
+using traffic::CarState;
+using traffic::Snapshot;
 
 constexpr double kUnitM = 0.05;
 constexpr double kRoadReachM = 100.0;  // around the ego's way
@@ -57,7 +57,7 @@ class Units {
   Vec2 origin_;
 };
 
-ordered_json road(const world::Network& network, const world::Recording& recording, const Units& units) {
+ordered_json road(const map::Network& network, const traffic::Recording& recording, const Units& units) {
   Vec2 low = recording.snapshots.front().ego.centre;
   Vec2 high = low;
   for (const Snapshot& snapshot : recording.snapshots) {
@@ -65,7 +65,7 @@ ordered_json road(const world::Network& network, const world::Recording& recordi
     high = {std::max(high.x, snapshot.ego.centre.x), std::max(high.y, snapshot.ego.centre.y)};
   }
   ordered_json lanes = ordered_json::array();
-  for (const world::NetworkLane& lane : network.lanes) {
+  for (const map::Lane& lane : network.lanes) {
     const auto& points = lane.centre.points();
     const auto [left, right] =
         std::minmax_element(points.begin(), points.end(), [](Vec2 a, Vec2 b) { return a.x < b.x; });
@@ -85,7 +85,7 @@ ordered_json road(const world::Network& network, const world::Recording& recordi
 double gap_m(const Snapshot& now) {
   double gap = -1.0;
   for (const CarState& car : now.others) {
-    const double one = world::distance_m(world::box_of(now.ego), world::box_of(car));
+    const double one = traffic::distance_m(traffic::box_of(now.ego), traffic::box_of(car));
     if (gap < 0.0 || one < gap) gap = one;
   }
   return gap;
@@ -216,7 +216,7 @@ std::string changed(const campaign::EpisodeRow& recorded, const campaign::Episod
 }
 
 ordered_json replay_data(const Replayed& episode) {
-  const world::Recording& recording = episode.result.recording;
+  const traffic::Recording& recording = episode.result.recording;
   const metrics::EpisodeMetrics& metrics = episode.row.metrics;
   const Vec2 origin = episode.result.origin;
   const Units units(origin);
@@ -278,10 +278,10 @@ ordered_json replay_data(const Replayed& episode) {
   }
   data["cycles"] = std::move(cycles);
   ordered_json& contacts = data["contacts"] = ordered_json::array();
-  for (const world::Collision& collision : recording.collisions) {
+  for (const traffic::Collision& collision : recording.collisions) {
     contacts.push_back({{"t", thousandths(collision.time_s)},
                         {"car", collision.other},
-                        {"cause", world::cause_words(collision.fault, collision.cause)}});
+                        {"cause", traffic::cause_words(collision.fault, collision.cause)}});
   }
   return data;
 }

@@ -15,7 +15,7 @@ namespace s4tp::view {
 
 /// An episode that was driven with a trace.
 struct Replayed {
-  const world::Scenario& scenario;
+  const scenario::Scenario& scenario;
   const campaign::EpisodeResult& result;  ///< trace is there (EpisodeOptions::trace)
   const campaign::EpisodeRow& row;
   std::string command;                           ///< drives it again

@@ -25,9 +25,9 @@ std::string replay_name(const campaign::Cell& cell, std::uint64_t seed) {
 void write_replay(const Replayed& episode, const std::filesystem::path& file) {
   const metrics::EpisodeMetrics& m = episode.row.metrics;
   const std::string who = campaign::words(episode.row.cell);
-  const bool good = m.ending == world::Ending::kGoal;
+  const bool good = m.ending == traffic::Ending::kGoal;
   std::string ending = metrics::ending_name(m.ending);
-  if (m.ending == world::Ending::kCollision) {
+  if (m.ending == traffic::Ending::kCollision) {
     ending += ": " + m.cause + (m.collisions_at_fault > 0 ? " (our fault)" : " (not our fault)");
   }
   Page page;

@@ -138,7 +138,7 @@ std::string failure_row(const Report& report, const Cell& cell, const EpisodeMet
          std::to_string(m.seed) + "\"><td>" + escaped(cell.scenario) + "</td><td class=\"left\">" +
          escaped(cell.planner) + ", " + guard_words(cell) + "</td><td class=\"left\">" +
          escaped(cell.flavour) + ", " + escaped(cell.traffic) + "</td><td>" + std::to_string(m.seed) +
-         "</td><td class=\"left\">" + escaped(m.ending == world::Ending::kCollision ? m.cause : ending) +
+         "</td><td class=\"left\">" + escaped(m.ending == traffic::Ending::kCollision ? m.cause : ending) +
          (m.collisions_at_fault > 0 ? " <b class=\"bad\">ours</b>" : "") +
          (m.collided_standing ? " (we stood)" : "") + "</td><td>" + format("%.2f", m.duration_s) +
          "</td><td class=\"left\">" + replay + "</td></tr>\n";
@@ -154,7 +154,7 @@ std::string failures(const Report& report) {
   for (const auto& [key, file] : report.replays) same += file.changed.empty() ? 1 : 0;
   for (const ReportedCell& cell : report.records.cells) {
     for (const EpisodeMetrics& episode : cell.result.episodes) {
-      if (episode.ending == world::Ending::kGoal) continue;
+      if (episode.ending == traffic::Ending::kGoal) continue;
       ++count;
       note_value(scenarios, cell.result.cell.scenario);
       note_value(planners, cell.result.cell.planner);
@@ -189,7 +189,7 @@ std::string gallery(const Report& report, const std::filesystem::path& folder) {
       const Cell& who = cell.result.cell;
       const std::string picture = picture_name(who.scenario, who.planner, episode.seed);
       if (!std::filesystem::exists(folder / picture)) continue;
-      const bool good = episode.ending == world::Ending::kGoal;
+      const bool good = episode.ending == traffic::Ending::kGoal;
       pictures += "<figure><a href=\"" + picture + "\"><img loading=\"lazy\" alt=\"\" src=\"" + picture +
                   "\"></a><figcaption>seed " + std::to_string(episode.seed) + ": <span class=\"" +
                   (good ? "good" : "bad") + "\">" + metrics::ending_name(episode.ending) + "</span>" +

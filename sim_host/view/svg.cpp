@@ -9,7 +9,7 @@
 
 namespace s4tp::view {
 
-Svg::Svg(world::Vec2 low, world::Vec2 high, double pixels_per_m, double below_px)
+Svg::Svg(map::Vec2 low, map::Vec2 high, double pixels_per_m, double below_px)
     : low_(low),
       high_(high),
       scale_(pixels_per_m),
@@ -19,26 +19,26 @@ Svg::Svg(world::Vec2 low, world::Vec2 high, double pixels_per_m, double below_px
   body_ << std::fixed << std::setprecision(1);
 }
 
-world::Vec2 Svg::to_px(world::Vec2 point) const {
+map::Vec2 Svg::to_px(map::Vec2 point) const {
   return {(point.x - low_.x) * scale_, (high_.y - point.y) * scale_};
 }
 
-void Svg::line(const std::vector<world::Vec2>& points, const Stroke& stroke) {
+void Svg::line(const std::vector<map::Vec2>& points, const Stroke& stroke) {
   body_
       << "<polyline clip-path='url(#map)' fill='none' stroke-linecap='butt' stroke-linejoin='round' stroke='"
       << stroke.colour << "' stroke-width='" << stroke.width_m * scale_ << "' stroke-opacity='"
       << std::setprecision(2) << stroke.opacity << std::setprecision(1) << "'"
       << (stroke.dashed ? " stroke-dasharray='6 6'" : "") << " points='";
-  for (const world::Vec2& point : points) {
-    const world::Vec2 px = to_px(point);
+  for (const map::Vec2& point : points) {
+    const map::Vec2 px = to_px(point);
     body_ << px.x << ',' << px.y << ' ';
   }
   body_ << "'/>\n";
 }
 
-void Svg::box(world::Vec2 centre, double heading_rad, double length_m, double width_m,
-              const std::string& fill, double opacity) {
-  const world::Vec2 px = to_px(centre);
+void Svg::box(map::Vec2 centre, double heading_rad, double length_m, double width_m, const std::string& fill,
+              double opacity) {
+  const map::Vec2 px = to_px(centre);
   const double length = length_m * scale_;
   const double width = width_m * scale_;
   body_ << "<g clip-path='url(#map)'><rect x='" << -length / 2 << "' y='" << -width / 2 << "' width='"
@@ -48,15 +48,15 @@ void Svg::box(world::Vec2 centre, double heading_rad, double length_m, double wi
         << -heading_rad * 180.0 / std::numbers::pi << ")'/></g>\n";
 }
 
-void Svg::cell(world::Vec2 low, double size_m, const std::string& fill, double opacity) {
-  const world::Vec2 px = to_px({low.x, low.y + size_m});
+void Svg::cell(map::Vec2 low, double size_m, const std::string& fill, double opacity) {
+  const map::Vec2 px = to_px({low.x, low.y + size_m});
   body_ << "<rect x='" << px.x << "' y='" << px.y << "' width='" << size_m * scale_ << "' height='"
         << size_m * scale_ << "' fill='" << fill << "' fill-opacity='" << std::setprecision(2) << opacity
         << std::setprecision(1) << "'/>\n";
 }
 
-void Svg::text(world::Vec2 at, const std::string& text, double size_px, const std::string& colour) {
-  const world::Vec2 px = to_px(at);
+void Svg::text(map::Vec2 at, const std::string& text, double size_px, const std::string& colour) {
+  const map::Vec2 px = to_px(at);
   text_px(px.x, px.y, text, size_px, colour);
 }
 
@@ -75,9 +75,9 @@ void Svg::path_px(const std::string& data, const std::string& colour, double wid
         << std::setprecision(1) << "' d='" << data << "'/>\n";
 }
 
-void Svg::line_px(const std::vector<world::Vec2>& points, const std::string& colour, double width) {
+void Svg::line_px(const std::vector<map::Vec2>& points, const std::string& colour, double width) {
   body_ << "<polyline fill='none' stroke='" << colour << "' stroke-width='" << width << "' points='";
-  for (const world::Vec2& point : points) body_ << point.x << ',' << point.y << ' ';
+  for (const map::Vec2& point : points) body_ << point.x << ',' << point.y << ' ';
   body_ << "'/>\n";
 }
 

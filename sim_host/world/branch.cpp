@@ -18,14 +18,15 @@ Branch::Branch(Start start, EgoDriver& driver) : start_(std::move(start)), drive
 void Branch::look() {
   ego_ = ego_state(start_.vehicle, start_.place);
   others_ = start_.traffic->cars();
-  for (const CarState& car : others_) {
-    if (touched_ == kNoCar && overlap(box_of(ego_), box_of(car))) touched_ = car.id;
+  for (const traffic::CarState& car : others_) {
+    if (touched_ == traffic::kNoCar && traffic::overlap(traffic::box_of(ego_), traffic::box_of(car)))
+      touched_ = car.id;
   }
 }
 
 void Branch::step() {  // in the order of World::tick()
   const EgoCommand command = driver_.drive(*this);
-  const EgoSeen self{ego_, start_.road->locator.actor(ego_, start_.place)};
+  const traffic::EgoSeen self{ego_, start_.road->locator.actor(ego_, start_.place)};
   start_.traffic->step(&self);
   for (int i = 0; i < kMillisecondsPerTick; ++i) {
     start_.vehicle.step(command.acceleration_mps2, command.steering_rad);
@@ -37,7 +38,7 @@ void Branch::step() {  // in the order of World::tick()
 }
 
 double Branch::time_s() const {
-  return start_.time_s + ticks_ * kTick_s;
+  return start_.time_s + ticks_ * traffic::kTick_s;
 }
 
 }  // namespace s4tp::world

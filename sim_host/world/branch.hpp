@@ -40,9 +40,9 @@ class Branch {
   /// The state it begins with; World::fork() fills it in.
   struct Start {
     std::shared_ptr<const EgoRoad> road;
-    std::unique_ptr<TrafficEngine> traffic;
-    Vehicle vehicle;
-    LanePlace place;
+    std::unique_ptr<traffic::TrafficEngine> traffic;
+    nodes::Vehicle vehicle;
+    traffic::LanePlace place;
     double time_s = 0.0;
   };
   /// \param driver  must outlive the branch
@@ -53,10 +53,10 @@ class Branch {
 
   [[nodiscard]] double time_s() const;  ///< since the ECU took over, as the world counts it
   [[nodiscard]] const EgoRoad& road() const { return *start_.road; }
-  [[nodiscard]] const Vehicle& vehicle() const { return start_.vehicle; }
-  [[nodiscard]] const LanePlace& place() const { return start_.place; }
-  [[nodiscard]] const CarState& ego() const { return ego_; }
-  [[nodiscard]] const std::vector<CarState>& others() const { return others_; }
+  [[nodiscard]] const nodes::Vehicle& vehicle() const { return start_.vehicle; }
+  [[nodiscard]] const traffic::LanePlace& place() const { return start_.place; }
+  [[nodiscard]] const traffic::CarState& ego() const { return ego_; }
+  [[nodiscard]] const std::vector<traffic::CarState>& others() const { return others_; }
   /// Id of the first car the ego's box has overlapped so far; kNoCar: none.
   [[nodiscard]] int touched() const { return touched_; }
 
@@ -66,9 +66,9 @@ class Branch {
   Start start_;
   EgoDriver& driver_;
   int ticks_ = 0;
-  CarState ego_;
-  std::vector<CarState> others_;
-  int touched_ = kNoCar;
+  traffic::CarState ego_;
+  std::vector<traffic::CarState> others_;
+  int touched_ = traffic::kNoCar;
 };
 
 }  // namespace s4tp::world

@@ -2,8 +2,8 @@
 
 namespace s4tp::world {
 
-CarState ego_state(const Vehicle& vehicle, const LanePlace& place) {
-  CarState state;
+traffic::CarState ego_state(const nodes::Vehicle& vehicle, const traffic::LanePlace& place) {
+  traffic::CarState state;
   state.centre = vehicle.box_centre();
   state.heading_rad = vehicle.heading_rad();
   state.speed_mps = vehicle.speed_mps();
@@ -11,7 +11,7 @@ CarState ego_state(const Vehicle& vehicle, const LanePlace& place) {
   state.yaw_rate_radps = vehicle.yaw_rate_radps();
   state.length_m = vehicle.parameters().length_m;
   state.width_m = vehicle.parameters().width_m;
-  state.lane = place.inside ? place.lane : kNoLane;
+  state.lane = place.inside ? place.lane : map::kNoLane;
   return state;
 }
 

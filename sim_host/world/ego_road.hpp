@@ -9,17 +9,19 @@ namespace s4tp::world {
 
 struct EgoRoad {
   /// \param with_scenario  must outlive the road
-  explicit EgoRoad(const Scenario& with_scenario)
-      : scenario(with_scenario), guide(mission_guide(with_scenario)), locator(with_scenario.network, guide) {}
+  explicit EgoRoad(const scenario::Scenario& with_scenario)
+      : scenario(with_scenario),
+        guide(scenario::mission_guide(with_scenario)),
+        locator(with_scenario.network, guide) {}
   EgoRoad(const EgoRoad&) = delete;  // the locator refers to the guide beside it
   EgoRoad& operator=(const EgoRoad&) = delete;
 
-  const Scenario& scenario;
-  RouteGuide guide;
-  Locator locator;
+  const scenario::Scenario& scenario;
+  map::RouteGuide guide;
+  traffic::Locator locator;
 };
 
 /// The virtual car as one of the cars, at its place on the network.
-[[nodiscard]] CarState ego_state(const Vehicle& vehicle, const LanePlace& place);
+[[nodiscard]] traffic::CarState ego_state(const nodes::Vehicle& vehicle, const traffic::LanePlace& place);
 
 }  // namespace s4tp::world

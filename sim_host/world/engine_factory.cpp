@@ -8,17 +8,18 @@
 
 namespace s4tp::world {
 
-std::unique_ptr<TrafficEngine> make_engine(const Scenario& scenario, const EngineOptions& options) {
-  if (options.engine == Engine::kSumo) {
-    return std::make_unique<SumoTraffic>(scenario, options);
+std::unique_ptr<traffic::TrafficEngine> make_engine(const scenario::Scenario& scenario,
+                                                    const traffic::EngineOptions& options) {
+  if (options.engine == scenario::Engine::kSumo) {
+    return std::make_unique<sumo::Traffic>(scenario, options);
   }
-  if (options.ego == DrivenBy::kEngine) {
+  if (options.ego == traffic::DrivenBy::kEngine) {
     throw std::invalid_argument("the built-in traffic drives no ego; SUMO does (--traffic sumo)");
   }
-  if (options.engine == Engine::kAdversary) {
-    return std::make_unique<AdversaryTraffic>(scenario, options.episode, options.seed);
+  if (options.engine == scenario::Engine::kAdversary) {
+    return std::make_unique<adversary::Traffic>(scenario, options.episode, options.seed);
   }
-  return std::make_unique<Traffic>(scenario, options.episode, options.seed);
+  return std::make_unique<traffic::Traffic>(scenario, options.episode, options.seed);
 }
 
 }  // namespace s4tp::world

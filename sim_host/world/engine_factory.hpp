@@ -9,7 +9,7 @@
 namespace s4tp::world {
 
 /// \param scenario  must outlive the engine  \throws std::runtime_error when the engine cannot be started
-[[nodiscard]] std::unique_ptr<TrafficEngine> make_engine(const Scenario& scenario,
-                                                         const EngineOptions& options);
+[[nodiscard]] std::unique_ptr<traffic::TrafficEngine> make_engine(const scenario::Scenario& scenario,
+                                                                  const traffic::EngineOptions& options);
 
 }  // namespace s4tp::world

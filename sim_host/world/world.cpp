@@ -22,59 +22,59 @@ constexpr int kDeadTicks = 200;
 constexpr double kAfterTouch_s = 1.0;
 
 /// A cut's world is the one that was recorded.
-WorldOptions as_recorded(WorldOptions options, const Scenario& scenario) {
+WorldOptions as_recorded(WorldOptions options, const scenario::Scenario& scenario) {
   if (!scenario.cut) return options;
   if (options.ego_by_traffic) throw std::invalid_argument("a cut needs an ECU; SUMO's driver is none");
   options.seed = scenario.cut->seed;
-  options.engine = engine_of(scenario.cut->traffic);
-  options.perception = perception_preset(scenario.cut->perception);
+  options.engine = scenario::engine_of(scenario.cut->traffic);
+  options.perception = scenario::perception_preset(scenario.cut->perception);
   return options;
 }
 
-Vec2 rounded(Vec2 point) {  // as MapOrigin can say it
+map::Vec2 rounded(map::Vec2 point) {  // as MapOrigin can say it
   return {std::round(point.x * 10.0) / 10.0, std::round(point.y * 10.0) / 10.0};
 }
 
 }  // namespace
 
 struct World::Impl {
-  Impl(const Scenario& with_scenario, const WorldOptions& with_options);
+  Impl(const scenario::Scenario& with_scenario, const WorldOptions& with_options);
 
   void move_ego();
   void watch();
   void watch_collisions();
-  void note_collisions(std::vector<Collision>& list, Box (*box)(const CarState&));
+  void note_collisions(std::vector<traffic::Collision>& list, traffic::Box (*box)(const traffic::CarState&));
   void judge();
-  void end(Ending ending);
-  [[nodiscard]] Snapshot snapshot() const;
+  void end(traffic::Ending ending);
+  [[nodiscard]] traffic::Snapshot snapshot() const;
   /// Whether the vehicle does in this tick what was recorded.
   [[nodiscard]] bool follows_recording() const {
     return scenario.cut && tick_number <= scenario.cut->start_tick;
   }
 
-  const Scenario& scenario;
-  const Network& network;
-  const Mission& mission;
+  const scenario::Scenario& scenario;
+  const map::Network& network;
+  const scenario::Mission& mission;
   WorldOptions options;
-  LaneId start_lane;
-  LaneId goal_lane;
+  map::LaneId start_lane;
+  map::LaneId goal_lane;
   std::shared_ptr<const EgoRoad> road;
-  const RouteGuide& guide;
-  const Locator& locator;
-  Vec2 origin;
-  std::unique_ptr<TrafficEngine> traffic;       ///< at entry or later
-  std::vector<std::vector<CarState>> pre_roll;  ///< who is shown in each of its ticks
-  VehicleNode vehicle;
-  WorldNodes nodes;
+  const map::RouteGuide& guide;
+  const traffic::Locator& locator;
+  map::Vec2 origin;
+  std::unique_ptr<traffic::TrafficEngine> traffic;       ///< at entry or later
+  std::vector<std::vector<traffic::CarState>> pre_roll;  ///< who is shown in each of its ticks
+  nodes::VehicleNode vehicle;
+  nodes::WorldNodes nodes;
   int entry_tick;
   int tick_number = 0;
-  LanePlace place;
-  CarState ego;
-  std::vector<CarState> others;
-  Recording recording;
+  traffic::LanePlace place;
+  traffic::CarState ego;
+  std::vector<traffic::CarState> others;
+  traffic::Recording recording;
 };
 
-World::Impl::Impl(const Scenario& with_scenario, const WorldOptions& with_options)
+World::Impl::Impl(const scenario::Scenario& with_scenario, const WorldOptions& with_options)
     : scenario(with_scenario),
       network(with_scenario.network),
       mission(with_scenario.mission),
@@ -85,9 +85,9 @@ World::Impl::Impl(const Scenario& with_scenario, const WorldOptions& with_option
       guide(road->guide),
       locator(road->locator),
       origin(rounded(network.lanes[static_cast<std::size_t>(start_lane)].centre.at(mission.start_s_m).point)),
-      vehicle(options.sensors, origin, next_seed(options.seed ^ 0x5E45)),
-      nodes(network, guide, origin, options.perception, next_seed(options.seed ^ 0x9E8C)),
-      entry_tick(static_cast<int>(std::lround(options.pre_roll_s / kTick_s))) {
+      vehicle(options.sensors, origin, traffic::next_seed(options.seed ^ 0x5E45)),
+      nodes(network, guide, origin, options.perception, traffic::next_seed(options.seed ^ 0x9E8C)),
+      entry_tick(static_cast<int>(std::lround(options.pre_roll_s / traffic::kTick_s))) {
   recording.scenario = scenario.name;
   recording.seed = with_options.seed;
   EnteredTraffic entered = draw_entry(scenario, options, locator);
@@ -99,16 +99,17 @@ World::Impl::Impl(const Scenario& with_scenario, const WorldOptions& with_option
 void World::Impl::move_ego() {
   const int since_entry = tick_number - entry_tick;
   if (since_entry <= 0) {
-    const CarState state = ego_at_entry(scenario, since_entry * kTick_s);
+    const traffic::CarState state = ego_at_entry(scenario, since_entry * traffic::kTick_s);
     vehicle.vehicle().place(state.centre, state.heading_rad, state.speed_mps);
     vehicle.idle();
-    place = {start_lane, mission.start_s_m + mission.start_speed_mps * since_entry * kTick_s, 0.0, true};
+    place = {start_lane, mission.start_s_m + mission.start_speed_mps * since_entry * traffic::kTick_s, 0.0,
+             true};
   } else if (options.ego_by_traffic) {
     ego = traffic->driven_ego().value();
     vehicle.vehicle().place(ego.centre, ego.heading_rad, ego.speed_mps);
     vehicle.idle();
     place = locator.locate(ego.centre, ego.heading_rad, place.lane);
-    ego.lane = place.inside ? place.lane : kNoLane;
+    ego.lane = place.inside ? place.lane : map::kNoLane;
     return;
   } else {
     vehicle.drive();
@@ -117,74 +118,75 @@ void World::Impl::move_ego() {
   ego = ego_state(vehicle.vehicle(), place);
 }
 
-Snapshot World::Impl::snapshot() const {
-  Snapshot result;
-  result.time_s = (tick_number - entry_tick) * kTick_s;
+traffic::Snapshot World::Impl::snapshot() const {
+  traffic::Snapshot result;
+  result.time_s = (tick_number - entry_tick) * traffic::kTick_s;
   result.ego = ego;
   result.ego_steering_rad = vehicle.vehicle().steering_rad();
   result.ego_lane_offset_m = place.d_m;
-  if (place.lane != kNoLane) {
+  if (place.lane != map::kNoLane) {
     result.ego_lane_width_m = network.lanes[static_cast<std::size_t>(place.lane)].width_m;
   }
   result.others = others;
   return result;
 }
 
-void World::Impl::note_collisions(std::vector<Collision>& list, Box (*box)(const CarState&)) {
-  for (const CarState& car : others) {
+void World::Impl::note_collisions(std::vector<traffic::Collision>& list,
+                                  traffic::Box (*box)(const traffic::CarState&)) {
+  for (const traffic::CarState& car : others) {
     const bool known =
-        std::any_of(list.begin(), list.end(), [&](const Collision& c) { return c.other == car.id; });
-    if (known || !overlap(box(ego), box(car))) {
+        std::any_of(list.begin(), list.end(), [&](const traffic::Collision& c) { return c.other == car.id; });
+    if (known || !traffic::overlap(box(ego), box(car))) {
       continue;
     }
-    std::vector<Snapshot> history = recording.snapshots;
-    if (history.empty() || history.back().time_s < (tick_number - entry_tick - 0.5) * kTick_s) {
+    std::vector<traffic::Snapshot> history = recording.snapshots;
+    if (history.empty() || history.back().time_s < (tick_number - entry_tick - 0.5) * traffic::kTick_s) {
       history.push_back(snapshot());
     }
-    const Verdict verdict = attribute(network, guide, history, car.id);
+    const judge::Verdict verdict = judge::attribute(network, guide, history, car.id);
     list.push_back({history.back().time_s, car.id, verdict.fault, verdict.cause});
   }
 }
 
 void World::Impl::watch_collisions() {
   const bool touched = !recording.collisions.empty();
-  note_collisions(recording.collisions_competition, competition_box_of);
+  note_collisions(recording.collisions_competition, traffic::competition_box_of);
   if (!touched) {
-    note_collisions(recording.collisions, box_of);
+    note_collisions(recording.collisions, traffic::box_of);
   }
 }
 
-void World::Impl::end(Ending ending) {
+void World::Impl::end(traffic::Ending ending) {
   recording.ending = ending;
-  const Vec2 goal = network.lanes[static_cast<std::size_t>(goal_lane)].centre.at(mission.goal_s_m).point;
+  const map::Vec2 goal = network.lanes[static_cast<std::size_t>(goal_lane)].centre.at(mission.goal_s_m).point;
   recording.goal = goal;
   recording.goal_distance_m = std::abs(goal.x - ego.centre.x) + std::abs(goal.y - ego.centre.y);
 }
 
 void World::Impl::judge() {
-  const double time_s = (tick_number - entry_tick) * kTick_s;
+  const double time_s = (tick_number - entry_tick) * traffic::kTick_s;
   watch_collisions();
   if (!recording.collisions.empty()) {
     if (time_s >= recording.collisions.front().time_s + kAfterTouch_s ||
         !recording.collisions_competition.empty()) {
-      end(Ending::kCollision);
+      end(traffic::Ending::kCollision);
     }
     return;
   }
-  const bool on_last_edge = place.lane != kNoLane &&
+  const bool on_last_edge = place.lane != map::kNoLane &&
                             network.lanes[static_cast<std::size_t>(place.lane)].edge == mission.edges.back();
-  const PolylineProjection at_goal =
+  const map::PolylineProjection at_goal =
       network.lanes[static_cast<std::size_t>(goal_lane)].centre.project(ego.centre);
   if (on_last_edge && at_goal.s_m >= mission.goal_s_m) {
     const double half_lane_m = 0.5 * network.lanes[static_cast<std::size_t>(goal_lane)].width_m;
-    end(std::abs(at_goal.d_m) <= half_lane_m ? Ending::kGoal : Ending::kTimeOut);
+    end(std::abs(at_goal.d_m) <= half_lane_m ? traffic::Ending::kGoal : traffic::Ending::kTimeOut);
   } else if (locator.off_road(ego.centre)) {
-    end(Ending::kOffRoad);
+    end(traffic::Ending::kOffRoad);
   } else if (!options.ego_by_traffic &&
              std::min(vehicle.silent_ticks(), tick_number - entry_tick) >= kDeadTicks) {
-    end(Ending::kDeadEcu);
+    end(traffic::Ending::kDeadEcu);
   } else if (time_s >= mission.time_limit_s) {
-    end(Ending::kTimeOut);
+    end(traffic::Ending::kTimeOut);
   }
 }
 
@@ -193,12 +195,12 @@ void World::Impl::watch() {
   if (tick_number >= entry_tick) {
     judge();
   }
-  if (tick_number % 10 == 0 || recording.ending != Ending::kRunning) {
+  if (tick_number % 10 == 0 || recording.ending != traffic::Ending::kRunning) {
     recording.snapshots.push_back(snapshot());
   }
 }
 
-World::World(const Scenario& scenario, const WorldOptions& options)
+World::World(const scenario::Scenario& scenario, const WorldOptions& options)
     : impl_(std::make_unique<Impl>(scenario, options)) {}
 
 World::~World() = default;
@@ -208,7 +210,7 @@ void World::tick(std::vector<wire::Frame>& frames) {
   ++w.tick_number;
   const int since_entry = w.tick_number - w.entry_tick;
   if (since_entry > 0) {
-    const EgoSeen self{w.ego, w.locator.actor(w.ego, w.place)};
+    const traffic::EgoSeen self{w.ego, w.locator.actor(w.ego, w.place)};
     w.traffic->step(&self);
   }
   w.move_ego();
@@ -227,27 +229,27 @@ void World::receive(const wire::Frame& frame) {
 }
 
 bool World::finished() const {
-  return impl_->recording.ending != Ending::kRunning;
+  return impl_->recording.ending != traffic::Ending::kRunning;
 }
 
 double World::time_s() const {
-  return (impl_->tick_number - impl_->entry_tick) * kTick_s;
+  return (impl_->tick_number - impl_->entry_tick) * traffic::kTick_s;
 }
 
-Vec2 World::origin() const {
+map::Vec2 World::origin() const {
   return impl_->origin;
 }
 
 std::unique_ptr<Branch> World::fork(EgoDriver& driver) const {
   if (impl_->tick_number < impl_->entry_tick) throw std::logic_error("fork: the ECU has not taken over yet");
-  std::unique_ptr<TrafficEngine> traffic = impl_->traffic->clone();
+  std::unique_ptr<traffic::TrafficEngine> traffic = impl_->traffic->clone();
   if (!traffic) throw std::logic_error("fork: this traffic cannot be copied");
   return std::make_unique<Branch>(
       Branch::Start{impl_->road, std::move(traffic), impl_->vehicle.vehicle(), impl_->place, time_s()},
       driver);
 }
 
-const Recording& World::recording() const {
+const traffic::Recording& World::recording() const {
   return impl_->recording;
 }
 

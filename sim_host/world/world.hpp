@@ -17,12 +17,12 @@ namespace s4tp::world {
 
 struct WorldOptions {
   std::uint64_t seed = 0;
-  Engine engine = Engine::kBuiltin;
+  scenario::Engine engine = scenario::Engine::kBuiltin;
   /// WORLD-041 SUMO's own driver drives the ego from entry on; nobody waits for an ECU. SUMO only.
   bool ego_by_traffic = false;
   double pre_roll_s = 3.0;
-  SensorOptions sensors = {};
-  PerceptionOptions perception = {};
+  nodes::SensorOptions sensors = {};
+  scenario::PerceptionOptions perception = {};
 };
 
 /// One episode. In the pre-roll every node publishes while the world itself moves the ego along its lane,
@@ -38,7 +38,7 @@ struct WorldOptions {
 class World {
  public:
   /// \param scenario  must outlive the world
-  World(const Scenario& scenario, const WorldOptions& options);
+  World(const scenario::Scenario& scenario, const WorldOptions& options);
   ~World();
 
   /// Advances 10 ms and appends this tick's frames: motion, steering, pose, track list, map, versions, and
@@ -48,9 +48,9 @@ class World {
   void receive(const wire::Frame& frame);
 
   [[nodiscard]] bool finished() const;
-  [[nodiscard]] double time_s() const;  ///< since the ECU took over
-  [[nodiscard]] Vec2 origin() const;    ///< of the odometry frame, network coordinates
-  [[nodiscard]] const Recording& recording() const;
+  [[nodiscard]] double time_s() const;     ///< since the ECU took over
+  [[nodiscard]] map::Vec2 origin() const;  ///< of the odometry frame, network coordinates
+  [[nodiscard]] const traffic::Recording& recording() const;
 
   /// WORLD-050 A branch that begins as the world is now: the same commands make of it what they make of the
   /// world, to the bit. The world itself does not notice.

@@ -11,24 +11,27 @@
 namespace s4tp::world {
 namespace {
 
+using traffic::CarState;
+
 constexpr double kClearHeadway_s = 1.5;
 constexpr double kUndisturbed_s = 1.0;  // after entry: a touch within it is the draw's fault
 constexpr int kRedrawsMax = 100;
 
-std::unique_ptr<TrafficEngine> traffic_until(const Scenario& scenario, const WorldOptions& options,
-                                             std::uint64_t seed, double traffic_time_s, DrivenBy driven_by) {
-  std::unique_ptr<TrafficEngine> fresh =
+std::unique_ptr<traffic::TrafficEngine> traffic_until(const scenario::Scenario& scenario,
+                                                      const WorldOptions& options, std::uint64_t seed,
+                                                      double traffic_time_s, traffic::DrivenBy driven_by) {
+  std::unique_ptr<traffic::TrafficEngine> fresh =
       make_engine(scenario, {options.engine, seed, options.seed, driven_by});
-  const long ticks = std::lround(traffic_time_s / kTick_s);
+  const long ticks = std::lround(traffic_time_s / traffic::kTick_s);
   for (long i = 0; i < ticks; ++i) {
     fresh->step(nullptr);
   }
   return fresh;
 }
 
-void free_start_zone(const Scenario& scenario, TrafficEngine& traffic) {
-  const Mission& mission = scenario.mission;
-  const double half_m = 0.5 * VehicleParameters{}.length_m;
+void free_start_zone(const scenario::Scenario& scenario, traffic::TrafficEngine& traffic) {
+  const scenario::Mission& mission = scenario.mission;
+  const double half_m = 0.5 * nodes::VehicleParameters{}.length_m;
   const double limit_mps =
       scenario.network.lanes[static_cast<std::size_t>(mission.start_lane)].speed_limit_mps;
   traffic.clear(mission.start_lane,
@@ -38,12 +41,12 @@ void free_start_zone(const Scenario& scenario, TrafficEngine& traffic) {
 
 /// Nothing of it depends on the ego, so it is driven before it is shown: who is taken out of the start zone
 /// at entry has never been there, or the ECU would still believe in it.
-std::vector<std::vector<CarState>> run_pre_roll(const Scenario& scenario, double pre_roll_s,
-                                                TrafficEngine& traffic) {
+std::vector<std::vector<CarState>> run_pre_roll(const scenario::Scenario& scenario, double pre_roll_s,
+                                                traffic::TrafficEngine& traffic) {
   std::vector<std::vector<CarState>> pre_roll;
-  const int entry_tick = static_cast<int>(std::lround(pre_roll_s / kTick_s));
+  const int entry_tick = static_cast<int>(std::lround(pre_roll_s / traffic::kTick_s));
   for (int tick = 1; tick <= entry_tick; ++tick) {
-    if (scenario.mission.entry_time_s + (tick - entry_tick) * kTick_s > 0.5 * kTick_s) {
+    if (scenario.mission.entry_time_s + (tick - entry_tick) * traffic::kTick_s > 0.5 * traffic::kTick_s) {
       traffic.step(nullptr);
     }
     pre_roll.push_back(traffic.cars());
@@ -60,23 +63,23 @@ std::vector<std::vector<CarState>> run_pre_roll(const Scenario& scenario, double
   return pre_roll;
 }
 
-bool touched_at_entry(const Scenario& scenario, const WorldOptions& options, const Locator& locator,
-                      std::uint64_t seed) {
-  const std::unique_ptr<TrafficEngine> trial =
-      traffic_until(scenario, options, seed, scenario.mission.entry_time_s, DrivenBy::kUs);
+bool touched_at_entry(const scenario::Scenario& scenario, const WorldOptions& options,
+                      const traffic::Locator& locator, std::uint64_t seed) {
+  const std::unique_ptr<traffic::TrafficEngine> trial =
+      traffic_until(scenario, options, seed, scenario.mission.entry_time_s, traffic::DrivenBy::kUs);
   free_start_zone(scenario, *trial);
-  const int ticks = static_cast<int>(std::lround(kUndisturbed_s / kTick_s));
-  LaneId before = scenario.mission.start_lane;
+  const int ticks = static_cast<int>(std::lround(kUndisturbed_s / traffic::kTick_s));
+  map::LaneId before = scenario.mission.start_lane;
   for (int i = 0; i <= ticks; ++i) {
-    const CarState self = ego_at_entry(scenario, i * kTick_s);
+    const CarState self = ego_at_entry(scenario, i * traffic::kTick_s);
     if (i > 0) {
-      const LanePlace at = locator.locate(self.centre, self.heading_rad, before);
+      const traffic::LanePlace at = locator.locate(self.centre, self.heading_rad, before);
       before = at.lane;
-      const EgoSeen seen{self, locator.actor(self, at)};
+      const traffic::EgoSeen seen{self, locator.actor(self, at)};
       trial->step(&seen);
     }
     for (const CarState& car : trial->cars()) {
-      if (overlap(box_of(self), box_of(car))) {
+      if (traffic::overlap(traffic::box_of(self), traffic::box_of(car))) {
         return true;
       }
     }
@@ -86,29 +89,32 @@ bool touched_at_entry(const Scenario& scenario, const WorldOptions& options, con
 
 }  // namespace
 
-CarState ego_at_entry(const Scenario& scenario, double time_s) {
-  const Mission& mission = scenario.mission;
-  const PolylinePose pose = scenario.network.lanes[static_cast<std::size_t>(mission.start_lane)].centre.at(
-      mission.start_s_m + mission.start_speed_mps * time_s);
+CarState ego_at_entry(const scenario::Scenario& scenario, double time_s) {
+  const scenario::Mission& mission = scenario.mission;
+  const map::PolylinePose pose =
+      scenario.network.lanes[static_cast<std::size_t>(mission.start_lane)].centre.at(
+          mission.start_s_m + mission.start_speed_mps * time_s);
   CarState state;
   state.centre = pose.point;
   state.heading_rad = pose.heading_rad;
   state.speed_mps = mission.start_speed_mps;
-  state.length_m = VehicleParameters{}.length_m;
-  state.width_m = VehicleParameters{}.width_m;
+  state.length_m = nodes::VehicleParameters{}.length_m;
+  state.width_m = nodes::VehicleParameters{}.width_m;
   state.lane = mission.start_lane;
   return state;
 }
 
-EnteredTraffic draw_entry(const Scenario& scenario, const WorldOptions& options, const Locator& locator) {
+EnteredTraffic draw_entry(const scenario::Scenario& scenario, const WorldOptions& options,
+                          const traffic::Locator& locator) {
   EnteredTraffic entered;
   std::uint64_t seed = options.seed;
   while (entered.redrawn < kRedrawsMax && touched_at_entry(scenario, options, locator, seed)) {
-    seed = next_seed(seed);
+    seed = traffic::next_seed(seed);
     ++entered.redrawn;
   }
-  entered.traffic = traffic_until(scenario, options, seed, scenario.mission.entry_time_s - options.pre_roll_s,
-                                  options.ego_by_traffic ? DrivenBy::kEngine : DrivenBy::kUs);
+  entered.traffic =
+      traffic_until(scenario, options, seed, scenario.mission.entry_time_s - options.pre_roll_s,
+                    options.ego_by_traffic ? traffic::DrivenBy::kEngine : traffic::DrivenBy::kUs);
   entered.pre_roll = run_pre_roll(scenario, options.pre_roll_s, *entered.traffic);
   return entered;
 }

@@ -12,17 +12,17 @@
 namespace s4tp::world {
 
 struct EnteredTraffic {
-  std::unique_ptr<TrafficEngine> traffic;       ///< at entry
-  std::vector<std::vector<CarState>> pre_roll;  ///< who is shown in each of its ticks
-  int redrawn = 0;                              ///< draws in which the ego would have been touched at once
+  std::unique_ptr<traffic::TrafficEngine> traffic;       ///< at entry
+  std::vector<std::vector<traffic::CarState>> pre_roll;  ///< who is shown in each of its ticks
+  int redrawn = 0;  ///< draws in which the ego would have been touched at once
 };
 
 /// \param scenario  must outlive the traffic
-[[nodiscard]] EnteredTraffic draw_entry(const Scenario& scenario, const WorldOptions& options,
-                                        const Locator& locator);
+[[nodiscard]] EnteredTraffic draw_entry(const scenario::Scenario& scenario, const WorldOptions& options,
+                                        const traffic::Locator& locator);
 
 /// The ego under the world's own control: along the start lane at entry speed, straight before its start.
 /// \param time_s  since entry
-[[nodiscard]] CarState ego_at_entry(const Scenario& scenario, double time_s);
+[[nodiscard]] traffic::CarState ego_at_entry(const scenario::Scenario& scenario, double time_s);
 
 }  // namespace s4tp::world

@@ -186,8 +186,8 @@ std::vector<Row> measure(const Options& options, std::uint32_t domain) {
   }
   std::this_thread::sleep_for(std::chrono::seconds(1));  // the other side may learn of its readers later
 
-  world::Scenario scenario =
-      world::load_scenario(fs::path(S4TP_SOURCE_DIR) / "sim_host/scenarios" / options.scenario);
+  scenario::Scenario scenario =
+      scenario::load_scenario(fs::path(S4TP_SOURCE_DIR) / "sim_host/scenarios" / options.scenario);
   scenario.mission.time_limit_s = std::min(scenario.mission.time_limit_s, options.seconds);
   std::atomic<bool> over = false;
   std::exception_ptr failed;

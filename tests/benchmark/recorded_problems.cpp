@@ -60,7 +60,7 @@ RecordedProblems record_problems(int count, int stride, const std::function<void
   int cell = 0;
   for (const char* const name : kScenarios) {
     for (const char* const flavour : kFlavours) {
-      world::Scenario scenario = world::load_scenario(scenarios / name, flavour);
+      scenario::Scenario scenario = scenario::load_scenario(scenarios / name, flavour);
       scenario.mission.time_limit_s = kDriveS;
       const auto wanted = static_cast<std::size_t>(count * ++cell / kCells);
       for (std::uint64_t seed = 0; seed < kSeeds && problems.size() < wanted; ++seed) {

@@ -26,8 +26,8 @@ inline std::string memory_name() {
   return test_memory("dds");
 }
 
-inline world::Scenario shipped(const std::string& name) {
-  return world::load_scenario(std::filesystem::path(S4TP_SOURCE_DIR) / "sim_host/scenarios" / name);
+inline scenario::Scenario shipped(const std::string& name) {
+  return scenario::load_scenario(std::filesystem::path(S4TP_SOURCE_DIR) / "sim_host/scenarios" / name);
 }
 
 /// Of all frames the ECU sent: FNV-1a.
@@ -47,7 +47,7 @@ class FrameDigest {
 /// Seed 3, with an ECU that tells what it does where a tap is given.
 class Drive {
  public:
-  explicit Drive(telemetry::EcuTap* tap, world::Scenario scenario = shipped("left_turn"))
+  explicit Drive(telemetry::EcuTap* tap, scenario::Scenario scenario = shipped("left_turn"))
       : scenario_(std::move(scenario)),
         driver_(campaign::make_driver("s4tp", true, Parameters{}, tap, tap)),
         world_(scenario_, options()) {}
@@ -79,7 +79,7 @@ class Drive {
     return options;
   }
 
-  world::Scenario scenario_;
+  scenario::Scenario scenario_;
   std::unique_ptr<campaign::Driver> driver_;
   world::World world_;
   FrameDigest digest_;

@@ -105,8 +105,8 @@ Driven drive(Perception* perception, int most_ticks) {
     stop = ++ticks >= most_ticks;
     std::this_thread::sleep_until(next = std::max(next + 10ms, std::chrono::steady_clock::now()));
   };
-  const world::Scenario scenario =
-      world::load_scenario(std::filesystem::path(S4TP_SOURCE_DIR) / "sim_host/scenarios/left_turn");
+  const scenario::Scenario scenario =
+      scenario::load_scenario(std::filesystem::path(S4TP_SOURCE_DIR) / "sim_host/scenarios/left_turn");
   driven.world = processes::run_world(scenario, bus.can(), options, std::cout, stop);
   return driven;
 }
@@ -117,7 +117,7 @@ TEST(InputDrive, ReachesTheGoalOnWhatIsToldOverDds) {
   Perception perception;
   const Driven driven = drive(&perception, kTicksMax);
   ASSERT_TRUE(driven.world.met_ecu);
-  EXPECT_EQ(driven.world.recording.ending, world::Ending::kGoal);
+  EXPECT_EQ(driven.world.recording.ending, traffic::Ending::kGoal);
   EXPECT_GT(driven.plans, 60);
   EXPECT_GT(driven.most_vehicles, 1);
   EXPECT_GT(driven.most_lanes, 4);

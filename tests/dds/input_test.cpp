@@ -35,8 +35,8 @@ bool same(const std::vector<wire::Frame>& a, const std::vector<wire::Frame>& b) 
 // TELE-040 What a node on the bus sends of lists and maps, and what comes of the same over DDS: the same frames,
 // tick by tick, and two ECUs that get the one and the other answer the same to the bit, driving.
 TEST(DdsInput, TheSameOverDdsIsTheSameOnTheBus) {
-  const world::Scenario scenario =
-      world::load_scenario(std::filesystem::path(S4TP_SOURCE_DIR) / "sim_host/scenarios/left_turn");
+  const scenario::Scenario scenario =
+      scenario::load_scenario(std::filesystem::path(S4TP_SOURCE_DIR) / "sim_host/scenarios/left_turn");
   world::WorldOptions options;
   options.seed = 3;
   world::World world(scenario, options);

@@ -41,9 +41,9 @@ using tests::wait_for;
 constexpr int kSecond = 100;  ///< ticks
 
 /// A drive of 80 s: the road of cruise at a walk.
-world::Scenario at_a_walk() {
-  world::Scenario scenario = tests::shipped("cruise");
-  for (world::NetworkLane& lane : scenario.network.lanes) lane.speed_limit_mps = 2.0;
+scenario::Scenario at_a_walk() {
+  scenario::Scenario scenario = tests::shipped("cruise");
+  for (map::Lane& lane : scenario.network.lanes) lane.speed_limit_mps = 2.0;
   scenario.mission.start_speed_mps = 2.0;
   return scenario;
 }
@@ -184,7 +184,7 @@ struct Counted {
 
 /// \param telemetry  whether it tells what it does; when not, the name is as long, as arguments move the stack
 /// \param audience   null: nobody looks  \param most_ticks  of the drive
-Counted count(const world::Scenario& scenario, const std::string& port, bool telemetry, Audience* audience,
+Counted count(const scenario::Scenario& scenario, const std::string& port, bool telemetry, Audience* audience,
               int most_ticks) {
   const std::string program = std::string(S4TP_BINARY_DIR) + "/sim_host/s4tp_ecu_process";
   const std::string counts = "counts" + memory_name().substr(1) + ".txt";
@@ -228,7 +228,7 @@ Counted count(const world::Scenario& scenario, const std::string& port, bool tel
 }
 
 /// \param stopped_ticks  for how long the telemetry process stands still
-void expect_no_instruction_more(const world::Scenario& scenario, int stopped_ticks) {
+void expect_no_instruction_more(const scenario::Scenario& scenario, int stopped_ticks) {
   const std::string port = test::free_port();
   constexpr int kWhole = 100'000;
   const Counted alone = count(scenario, port, true, nullptr, kWhole);

@@ -10,7 +10,7 @@
 #include "tests/fuzz/files.hpp"
 
 using namespace s4tp;
-using namespace s4tp::world;
+using namespace s4tp::scenario;
 using fuzz::expect;
 
 namespace {

@@ -11,8 +11,8 @@
 namespace s4tp::fuzz {
 
 /// One folder a process; TMPDIR says where (memory is fastest).
-inline const world::test::Folder& folder() {
-  static const world::test::Folder own;
+inline const test::Folder& folder() {
+  static const test::Folder own;
   return own;
 }
 

@@ -10,7 +10,7 @@
 #include "tests/fuzz/files.hpp"
 
 using namespace s4tp;
-using namespace s4tp::world;
+using namespace s4tp::map;
 using fuzz::expect;
 
 namespace {
@@ -19,7 +19,7 @@ void check(const Network& network) {
   const auto count = static_cast<LaneId>(network.lanes.size());
   const auto there = [count](LaneId lane) { return lane >= 0 && lane < count; };
   for (LaneId id = 0; id < count; ++id) {
-    const NetworkLane& lane = network.lanes[static_cast<std::size_t>(id)];
+    const Lane& lane = network.lanes[static_cast<std::size_t>(id)];
     expect(lane.centre.points().size() >= 2 && std::isfinite(lane.centre.length_m()) &&
                lane.centre.length_m() > 0.0,
            "a lane is a line of some length");
@@ -36,7 +36,7 @@ void check(const Network& network) {
     const PolylineProjection back = lane.centre.project(lane.centre.at(0.5 * lane.centre.length_m()).point);
     expect(std::isfinite(back.s_m) && std::isfinite(back.d_m), "a lane can be projected onto");
   }
-  for (const NetworkConflict& conflict : network.conflicts) {
+  for (const Conflict& conflict : network.conflicts) {
     expect(there(conflict.first) && there(conflict.second) && conflict.first != conflict.second,
            "two lanes conflict");
     expect(
@@ -48,10 +48,10 @@ void check(const Network& network) {
 void drive(const Network& network) {
   const RouteGuide guide(network, {network.lanes.front().edge}, kNoLane, 0.0);
   const Vec2 start = network.lanes.front().centre.points().front();
-  const Locator locator(network, guide);
-  const RoadIndex road(network);
+  const traffic::Locator locator(network, guide);
+  const traffic::RoadIndex road(network);
   expect(!locator.off_road(start), "a lane's start is on the road");
-  MapNode map(network, guide, start, 150.0);
+  nodes::MapNode map(network, guide, start, 150.0);
   for (const wire::Lane& lane : map.update(start).lanes)
     expect(!lane.present || (lane.point_count >= 2 && lane.point_count <= wire::kMaxLanePoints),
            "parts can be sent");

@@ -8,12 +8,12 @@
 #include "tests/fuzz/files.hpp"
 
 using namespace s4tp;
-using namespace s4tp::world;
+using namespace s4tp::scenario;
 using fuzz::expect;
 
 namespace {
 
-void check(const Demand& demand, const Network& network) {
+void check(const Demand& demand, const map::Network& network) {
   for (const DemandFlow& flow : demand.flows) {
     expect(!flow.routes.empty() && flow.routes.size() == flow.route_weights.size(),
            "a flow has routes with weights");
@@ -32,22 +32,22 @@ void check(const Demand& demand, const Network& network) {
     expect(!route.edges.empty(), "a route has edges");
     for (const std::string& edge : route.edges)
       expect(!network.lanes_of(edge).empty(), "that are the network's");
-    expect(route.end_lane < 0 || network.lane_of(route.edges.back(), route.end_lane) != kNoLane,
+    expect(route.end_lane < 0 || network.lane_of(route.edges.back(), route.end_lane) != map::kNoLane,
            "and ends on a lane");
   }
 }
 
 /// A minute of it, as an episode would draw it.
-void draw(const Demand& demand, const Network& network) {
-  Random random(1);
-  const FlowPlan plan = draw_demand(network, demand, 60.0, random);
+void draw(const Demand& demand, const map::Network& network) {
+  traffic::Random random(1);
+  const traffic::FlowPlan plan = traffic::draw_demand(network, demand, 60.0, random);
   double before_s = 0.0;
-  for (const Departure& car : plan.departures) {
+  for (const traffic::Departure& car : plan.departures) {
     expect(car.time_s >= before_s, "cars depart by time");
     before_s = car.time_s;
-    expect(
-        car.way < plan.ways.size() && car.lane >= 0 && car.lane < static_cast<LaneId>(network.lanes.size()),
-        "on a way and a lane");
+    expect(car.way < plan.ways.size() && car.lane >= 0 &&
+               car.lane < static_cast<map::LaneId>(network.lanes.size()),
+           "on a way and a lane");
     expect(std::isfinite(car.s_m) && !std::isnan(car.speed_mps) && car.length_m > 0.0 && car.width_m > 0.0,
            "as a car");
   }
@@ -56,7 +56,7 @@ void draw(const Demand& demand, const Network& network) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static const Network network = load_network(S4TP_SOURCE_DIR "/tests/networks/tee.net.xml");
+  static const map::Network network = map::load_network(S4TP_SOURCE_DIR "/tests/networks/tee.net.xml");
   const auto file =
       fuzz::folder().write("fuzz.rou.xml", std::string(reinterpret_cast<const char*>(data), size));
   static_cast<void>(fuzz::accepts("fuzz.rou.xml", [&] {

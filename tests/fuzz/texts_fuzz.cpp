@@ -105,7 +105,7 @@ void forecast(const clips::Clip& clip) {
   for (const clips::Window& window : windows) {
     for (const auto& floor : floors) {
       for (const clips::ClipFuture& future : floor->forecast(clip, window.vehicle, window.step)) {
-        for (const world::Vec2 place : future.places)
+        for (const map::Vec2 place : future.places)
           expect(std::isfinite(place.x) && std::isfinite(place.y), "a forecast leads somewhere");
       }
     }

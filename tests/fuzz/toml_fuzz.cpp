@@ -9,7 +9,7 @@
 #include "tests/fuzz/files.hpp"
 
 using namespace s4tp;
-using namespace s4tp::world;
+using namespace s4tp::scenario;
 using fuzz::expect;
 
 namespace {
@@ -40,11 +40,11 @@ bool within(double value, double low, double high) {
 
 void check(const Scenario& scenario) {
   const Mission& mission = scenario.mission;
-  const auto count = static_cast<LaneId>(scenario.network.lanes.size());
+  const auto count = static_cast<map::LaneId>(scenario.network.lanes.size());
   expect(mission.start_lane >= 0 && mission.start_lane < count && mission.goal_lane >= 0 &&
              mission.goal_lane < count,
          "start and goal are lanes");
-  const auto length_m = [&](LaneId lane) {
+  const auto length_m = [&](map::LaneId lane) {
     return scenario.network.lanes[static_cast<std::size_t>(lane)].centre.length_m();
   };
   expect(within(mission.start_s_m, 0.0, length_m(mission.start_lane)), "the start is on its lane");

@@ -12,7 +12,7 @@
 #include "tests/fuzz/input.hpp"
 
 using namespace s4tp;
-using namespace s4tp::world;
+using namespace s4tp::sumo;
 using fuzz::expect;
 using fuzz::Input;
 

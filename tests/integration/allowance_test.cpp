@@ -40,8 +40,8 @@ const baselines::RegisterPlanner kHalf{entry<50>()};
 const baselines::RegisterPlanner kTenth{entry<10>()};
 const baselines::RegisterPlanner kNone{entry<0>()};
 
-world::Scenario scenario_of(const std::string& name, const std::string& flavour) {
-  return world::load_scenario(std::string(S4TP_SOURCE_DIR) + "/sim_host/scenarios/" + name, flavour);
+scenario::Scenario scenario_of(const std::string& name, const std::string& flavour) {
+  return scenario::load_scenario(std::string(S4TP_SOURCE_DIR) + "/sim_host/scenarios/" + name, flavour);
 }
 
 bool can_be_driven(const Plan& plan) {
@@ -69,7 +69,7 @@ class Allowance : public testing::TestWithParam<const char*> {};
 // of it there is no candidate, and every plan is the minimum-risk manoeuvre.
 TEST_P(Allowance, EveryCutGivesAPlan) {
   for (const char* const flavour : {"smarts", "social"}) {
-    world::Scenario scenario = scenario_of(GetParam(), flavour);
+    scenario::Scenario scenario = scenario_of(GetParam(), flavour);
     scenario.mission.time_limit_s = 15.0;
     for (const int percent : kPercents) {
       campaign::EpisodeOptions options;
@@ -91,9 +91,9 @@ TEST_P(Allowance, EveryCutGivesAPlan) {
           EXPECT_EQ(cycle.record.plan.kind, PlanKind::kMinimumRisk);
         }
       }
-      for (const world::Collision& collision : result.recording.collisions) {
-        EXPECT_NE(collision.fault, world::Fault::kEgo)
-            << options.planner << ": " << world::cause_words(collision.fault, collision.cause);
+      for (const traffic::Collision& collision : result.recording.collisions) {
+        EXPECT_NE(collision.fault, traffic::Fault::kEgo)
+            << options.planner << ": " << traffic::cause_words(collision.fault, collision.cause);
       }
     }
   }
@@ -107,7 +107,7 @@ INSTANTIATE_TEST_SUITE_P(Scenarios, Allowance,
 // in force and the car driving; from 8 s on every cycle misses, and 500 ms later the minimum-risk manoeuvre
 // takes over and brings the car to rest.
 TEST(DeadlineMisses, KeepTheOldPlanAndEndInTheLadder) {
-  world::Scenario scenario = scenario_of("cruise", "smarts");
+  scenario::Scenario scenario = scenario_of("cruise", "smarts");
   scenario.mission.time_limit_s = 16.0;
   campaign::EpisodeOptions options;
   options.trace = true;
@@ -115,7 +115,7 @@ TEST(DeadlineMisses, KeepTheOldPlanAndEndInTheLadder) {
   for (int i = 80; i < 160; ++i) options.deadline_misses_s.push_back(0.1 * i + 0.05);
   const campaign::EpisodeResult result = run_episode(scenario, options);
   bool lost = false;
-  for (const world::Snapshot& snapshot : result.recording.snapshots) {
+  for (const traffic::Snapshot& snapshot : result.recording.snapshots) {
     if (snapshot.time_s > 2.0 && snapshot.time_s < 7.9) {
       EXPECT_GT(snapshot.ego.speed_mps, 5.0) << snapshot.time_s;
     }

@@ -22,8 +22,8 @@ namespace {
 namespace fs = std::filesystem;
 using Frames = std::vector<wire::Frame>;
 
-world::Scenario scenario(const std::string& name) {
-  return world::load_scenario(fs::path(S4TP_SOURCE_DIR) / "sim_host" / "scenarios" / name);
+scenario::Scenario scenario(const std::string& name) {
+  return scenario::load_scenario(fs::path(S4TP_SOURCE_DIR) / "sim_host" / "scenarios" / name);
 }
 
 /// Plans in force, by the tick from which on they are.
@@ -41,7 +41,7 @@ struct Plans final : hal::Telemetry {
 class Drive {
  public:
   /// \param keyed  both ends authenticate
-  Drive(const world::Scenario& scenario, bool keyed) : world_(scenario, {}) {
+  Drive(const scenario::Scenario& scenario, bool keyed) : world_(scenario, {}) {
     if (keyed) {
       const hal::linux_host::AuthenticationKey key = secoc::new_key();
       ecu_keys.emplace(key);
@@ -119,7 +119,7 @@ class Drive {
 // the same ending.
 TEST(AuthenticDrive, SamePlansToTheBit) {
   for (const char* const name : {"left_turn", "merge", "cruise", "overtake"}) {
-    const world::Scenario road = scenario(name);
+    const scenario::Scenario road = scenario(name);
     const auto plain = std::make_unique<Drive>(road, false);
     const auto keyed = std::make_unique<Drive>(road, true);
     plain->run();
@@ -157,7 +157,7 @@ class Impostor {
 // AUTH-041 The ECU is silenced (its commands are lost on the way) and a stranger commands full throttle in
 // its place. Without authentication the car obeys; with it the car brakes by itself and stands.
 TEST(AuthenticDrive, AForgedCommandDoesNotMoveTheCar) {
-  const world::Scenario road = scenario("cruise");
+  const scenario::Scenario road = scenario("cruise");
   double speeds_mps[2] = {};
   for (const bool keyed : {false, true}) {
     const auto drive = std::make_unique<Drive>(road, keyed);
@@ -179,7 +179,7 @@ TEST(AuthenticDrive, AForgedCommandDoesNotMoveTheCar) {
 // AUTH-041 Beside a living ECU: forged commands and recorded ones with their companions, in every tick, change
 // neither one plan nor one command that the car takes.
 TEST(AuthenticDrive, ForgedAndReplayedCommandsChangeNothing) {
-  const world::Scenario road = scenario("left_turn");
+  const scenario::Scenario road = scenario("left_turn");
   const auto alone = std::make_unique<Drive>(road, true);
   alone->run();
   const auto attacked = std::make_unique<Drive>(road, true);
@@ -206,7 +206,7 @@ TEST(AuthenticDrive, ForgedAndReplayedCommandsChangeNothing) {
 // AUTH-041 Forged motion, steering and pose, said right before the genuine ones, and whole recorded groups:
 // the ECU's picture of itself and its plans are the same as without the stranger.
 TEST(AuthenticDrive, ForgedMotionIsNotBelieved) {
-  const world::Scenario road = scenario("left_turn");
+  const scenario::Scenario road = scenario("left_turn");
   const auto alone = std::make_unique<Drive>(road, true);
   alone->run();
   const auto attacked = std::make_unique<Drive>(road, true);
@@ -240,7 +240,7 @@ TEST(AuthenticDrive, ForgedMotionIsNotBelieved) {
 // AUTH-041 Whole recorded lists with their companions, as they were and in turn with the time of now, said
 // between the genuine ones: the same plans as without the stranger, each companion refused.
 TEST(AuthenticDrive, ReplayedListsAreNotBelieved) {
-  const world::Scenario road = scenario("left_turn");
+  const scenario::Scenario road = scenario("left_turn");
   const auto alone = std::make_unique<Drive>(road, true);
   alone->run();
   const auto attacked = std::make_unique<Drive>(road, true);
@@ -275,7 +275,7 @@ TEST(AuthenticDrive, ReplayedListsAreNotBelieved) {
 // AUTH-042 What authentication keeps out is missing, and that is seen: with companions of the motion group
 // lost, the ECU reports motion, pose and steering missing, stops the car and counts nothing as genuine.
 TEST(AuthenticDrive, WhatIsKeptOutIsReported) {
-  const world::Scenario road = scenario("cruise");
+  const scenario::Scenario road = scenario("cruise");
   const auto drive = std::make_unique<Drive>(road, true);
   drive->run(2.0);
   EXPECT_EQ(drive->core().mode(), ecu::Mode::kDriving);

@@ -13,15 +13,16 @@ class EmptyRoad : public testing::TestWithParam<const char*> {};
 // All shipped scenarios without traffic, bare and guarded: the goal, in time, without a contact.
 TEST_P(EmptyRoad, IsDrivenToTheGoal) {
   for (const char* const name : {"left_turn", "left_turn_t", "merge", "cruise", "overtake", "cut_in"}) {
-    world::Scenario scenario =
-        world::load_scenario(std::filesystem::path(S4TP_SOURCE_DIR) / "sim_host" / "scenarios" / name);
+    scenario::Scenario scenario =
+        scenario::load_scenario(std::filesystem::path(S4TP_SOURCE_DIR) / "sim_host" / "scenarios" / name);
     scenario.flows.clear();
     for (const bool guarded : {false, true}) {
       EpisodeOptions options;
       options.planner = GetParam();
       options.guarded = guarded;
       const EpisodeResult result = run_episode(scenario, options);
-      EXPECT_EQ(result.recording.ending, world::Ending::kGoal) << name << (guarded ? ", guarded" : ", bare");
+      EXPECT_EQ(result.recording.ending, traffic::Ending::kGoal)
+          << name << (guarded ? ", guarded" : ", bare");
     }
   }
 }
@@ -33,8 +34,8 @@ INSTANTIATE_TEST_SUITE_P(Baselines, EmptyRoad,
 
 /// Cycles of a short drive among others, and in how many of them the network predicted.
 std::pair<int, int> predicted_by_network(const char* planner) {
-  world::Scenario scenario =
-      world::load_scenario(std::filesystem::path(S4TP_SOURCE_DIR) / "sim_host" / "scenarios" / "cut_in");
+  scenario::Scenario scenario =
+      scenario::load_scenario(std::filesystem::path(S4TP_SOURCE_DIR) / "sim_host" / "scenarios" / "cut_in");
   scenario.mission.time_limit_s = 3.0;
   EpisodeOptions options;
   options.planner = planner;

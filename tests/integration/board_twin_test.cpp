@@ -24,8 +24,8 @@ constexpr int kTicks = 500;  // 3 s of pre-roll and 2 s of driving
 
 /// The left turn with an ECU that nobody looks into; the twin hears the bus.
 struct Bus {
-  world::Scenario scenario =
-      world::load_scenario(std::filesystem::path(S4TP_SOURCE_DIR) / "sim_host/scenarios/left_turn");
+  scenario::Scenario scenario =
+      scenario::load_scenario(std::filesystem::path(S4TP_SOURCE_DIR) / "sim_host/scenarios/left_turn");
   world::World world{scenario, {}};
   campaign::Trace inside;  ///< what the board thinks, and tells nobody
   std::unique_ptr<campaign::Driver> board =

@@ -128,7 +128,7 @@ class Road {
     vehicle_.vehicle().place({20.0 - 0.01 * kFollowing_mps * kEntry, 0.0}, 0.0, kFollowing_mps);
   }
 
-  void tick(FaultyBus& faults, const std::vector<world::CarState>& others) {
+  void tick(FaultyBus& faults, const std::vector<traffic::CarState>& others) {
     ++tick_;
     if (since_entry() <= 0) {
       vehicle_.vehicle().place({20.0 + 0.01 * kFollowing_mps * since_entry(), 0.0}, 0.0, kFollowing_mps);
@@ -139,8 +139,8 @@ class Road {
     std::vector<wire::Frame> frames;
     const auto now_ms = static_cast<std::uint32_t>(10 * tick_);
     vehicle_.publish(now_ms, since_entry() >= 0, frames);
-    const world::LanePlace place{0, vehicle_.vehicle().box_centre().x, vehicle_.vehicle().box_centre().y,
-                                 true};
+    const traffic::LanePlace place{0, vehicle_.vehicle().box_centre().x, vehicle_.vehicle().box_centre().y,
+                                   true};
     nodes_.publish(now_ms, world::ego_state(vehicle_.vehicle(), place), others, frames);
     ecu_port_->set_state(faults.controller(since_entry()));
     for (const wire::Frame& frame : faults.to_ecu(since_entry(), frames))
@@ -160,12 +160,12 @@ class Road {
   [[nodiscard]] ecu::Mode mode() const { return ecu_->core().mode(); }
 
  private:
-  world::Scenario scenario_;
-  world::Network network_ = world::test::network_of(
+  scenario::Scenario scenario_;
+  map::Network network_ = test::network_of(
       R"(<net><edge id="road"><lane id="road_0" index="0" speed="13.75" width="3.2" shape="0,0 1200,0"/></edge></net>)");
-  world::RouteGuide guide_{network_, {"road"}, 0, 1150.0};
-  world::VehicleNode vehicle_{{}, {0.0, 0.0}, 1};
-  world::WorldNodes nodes_{network_, guide_, {0.0, 0.0}, {}, 1};
+  map::RouteGuide guide_{network_, {"road"}, 0, 1150.0};
+  nodes::VehicleNode vehicle_{{}, {0.0, 0.0}, 1};
+  nodes::WorldNodes nodes_{network_, guide_, {0.0, 0.0}, {}, 1};
   hal::sim::Bus bus_;
   hal::sim::Bus::Port* world_port_ = bus_.attach();
   hal::sim::Bus::Port* ecu_port_ = bus_.attach();
@@ -202,7 +202,7 @@ class Leader {
     car_.centre.x += 0.01 * car_.speed_mps;
   }
 
-  [[nodiscard]] std::vector<world::CarState> seen(const Road& road) const {
+  [[nodiscard]] std::vector<traffic::CarState> seen(const Road& road) const {
     if (appears_ && road.since_entry() <= kAppears) return {};
     return {car_};
   }
@@ -215,7 +215,7 @@ class Leader {
   }
 
  private:
-  world::CarState car_;
+  traffic::CarState car_;
   bool appears_;
 };
 

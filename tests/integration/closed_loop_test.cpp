@@ -12,8 +12,8 @@
 namespace s4tp::campaign {
 namespace {
 
-world::Scenario shipped(const std::string& name) {
-  return world::load_scenario(std::filesystem::path(S4TP_SOURCE_DIR) / "sim_host" / "scenarios" / name);
+scenario::Scenario shipped(const std::string& name) {
+  return scenario::load_scenario(std::filesystem::path(S4TP_SOURCE_DIR) / "sim_host" / "scenarios" / name);
 }
 
 EpisodeResult drive(const std::string& scenario, std::uint64_t seed, const std::filesystem::path& log = {}) {
@@ -27,7 +27,7 @@ EpisodeResult drive(const std::string& scenario, std::uint64_t seed, const std::
 // An empty straight road would be too easy to fail: with traffic, seed 1 of cruise reaches its goal.
 TEST(ClosedLoop, CruiseReachesTheGoal) {
   const EpisodeResult result = drive("cruise", 1);
-  EXPECT_EQ(result.recording.ending, world::Ending::kGoal);
+  EXPECT_EQ(result.recording.ending, traffic::Ending::kGoal);
   EXPECT_TRUE(result.recording.collisions.empty());
 }
 
@@ -68,7 +68,7 @@ TEST(ClosedLoop, StopsWhenPerceptionDies) {
   EXPECT_TRUE(degraded);
   EXPECT_TRUE(minimum_risk);
   EXPECT_LT(result.recording.snapshots.back().ego.speed_mps, 0.1);
-  EXPECT_NE(result.recording.ending, world::Ending::kOffRoad);
+  EXPECT_NE(result.recording.ending, traffic::Ending::kOffRoad);
 }
 
 // Rows come in the order of cells and seeds, whatever the number of threads.

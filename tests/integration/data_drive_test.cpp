@@ -16,7 +16,7 @@ namespace s4tp::train {
 namespace {
 
 std::vector<Sample> samples_of_drive(const char* name, const DriveOptions& options) {
-  const world::Scenario scenario = world::test::shipped(name);
+  const scenario::Scenario scenario = test::shipped(name);
   std::vector<Sample> samples;
   (void)make_samples(scenario, options, [&](const Sample& sample) { samples.push_back(sample); });
   return samples;
@@ -106,7 +106,7 @@ std::unique_ptr<world::Branch> driven(const world::World& world, BranchDriver& d
 // From the same instant before the crossing: who yields stands at its line, who creeps is in it, who goes is
 // through. (The road is empty, so that nobody else decides.)
 TEST(BranchDriver, DrivesItsIntention) {
-  world::Scenario scenario = world::test::shipped("left_turn");
+  scenario::Scenario scenario = test::shipped("left_turn");
   scenario.flows.clear();
   world::World world(scenario, {});
   std::vector<wire::Frame> frames;
@@ -123,9 +123,9 @@ TEST(BranchDriver, DrivesItsIntention) {
   plan.intention = Intention::kCreep;
   BranchDriver creeps(fork, plan);
   const auto edge_of = [&](const world::Branch& branch) {
-    const world::LaneId lane = branch.place().lane;
-    return lane == world::kNoLane ? std::string("none")
-                                  : scenario.network.lanes[static_cast<std::size_t>(lane)].edge;
+    const map::LaneId lane = branch.place().lane;
+    return lane == map::kNoLane ? std::string("none")
+                                : scenario.network.lanes[static_cast<std::size_t>(lane)].edge;
   };
   const auto gone = driven(world, goes);
   const auto stands = driven(world, yields);

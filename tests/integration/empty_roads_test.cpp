@@ -17,15 +17,15 @@ class EmptyRoads : public testing::TestWithParam<std::uint64_t> {};
 // ROAD-003 Two roads of each family, numbers 0 to 27: without traffic the goal is reached within the time
 // limit.
 TEST_P(EmptyRoads, AreDrivenToTheGoal) {
-  const world::test::Folder out;
+  const test::Folder out;
   const std::filesystem::path mix = std::filesystem::path(S4TP_SOURCE_DIR) / "sim_host/scenarios/social.toml";
-  world::Scenario road = world::load_scenario(roads::write_road(GetParam(), mix, out.path()).folder);
+  scenario::Scenario road = scenario::load_scenario(roads::write_road(GetParam(), mix, out.path()).folder);
   road.flows.clear();
   EpisodeOptions options;
   options.planner = "sumo_driver";
-  options.engine = world::Engine::kSumo;
+  options.engine = scenario::Engine::kSumo;
   const EpisodeResult result = run_episode(road, options);
-  EXPECT_EQ(result.recording.ending, world::Ending::kGoal) << road.name;
+  EXPECT_EQ(result.recording.ending, traffic::Ending::kGoal) << road.name;
 }
 
 INSTANTIATE_TEST_SUITE_P(TwoOfEachFamily, EmptyRoads, testing::Range(std::uint64_t{0}, std::uint64_t{28}));

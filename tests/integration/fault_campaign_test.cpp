@@ -23,8 +23,8 @@ const Scenarios& shipped() {
   static const Scenarios scenarios = [] {
     Scenarios all;
     for (const std::string name : {"cruise", "cut_in", "left_turn", "merge", "overtake"}) {
-      all.emplace(name, world::load_scenario(std::filesystem::path(S4TP_SOURCE_DIR) / "sim_host" /
-                                             "scenarios" / name));
+      all.emplace(name, scenario::load_scenario(std::filesystem::path(S4TP_SOURCE_DIR) / "sim_host" /
+                                                "scenarios" / name));
     }
     return all;
   }();

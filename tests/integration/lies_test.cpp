@@ -29,8 +29,8 @@ const Scenarios& shipped() {
   static const Scenarios scenarios = [] {
     Scenarios all;
     for (const std::string name : {"cruise", "cut_in", "left_turn", "left_turn_t", "merge", "overtake"}) {
-      all.emplace(name, world::load_scenario(std::filesystem::path(S4TP_SOURCE_DIR) / "sim_host" /
-                                             "scenarios" / name));
+      all.emplace(name, scenario::load_scenario(std::filesystem::path(S4TP_SOURCE_DIR) / "sim_host" /
+                                                "scenarios" / name));
     }
     return all;
   }();
@@ -38,8 +38,8 @@ const Scenarios& shipped() {
 }
 
 /// Of production sensors: wheel speed, accelerometer, gyroscope, steering sensor, positioning.
-world::SensorOptions production_noise() {
-  world::SensorOptions noise;
+nodes::SensorOptions production_noise() {
+  nodes::SensorOptions noise;
   noise.speed_noise_mps = 0.03;
   noise.acceleration_noise_mps2 = 0.2;
   noise.yaw_rate_noise_radps = 0.01;

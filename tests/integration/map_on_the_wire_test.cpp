@@ -4,7 +4,7 @@
 #include "sim_host/world/nodes/map_node.hpp"
 #include "tests/support/networks.hpp"
 
-namespace s4tp::world {
+namespace s4tp::nodes {
 namespace {
 
 using test::shipped;
@@ -56,8 +56,8 @@ void expect_same(const wire::Map& offered, const wire::Map& arrived) {
 // 6 frames every 10 ms, and says the same to within half a step of each signal.
 TEST(MapOnTheWire, EveryShippedMapArrivesWhole) {
   for (const char* name : {"left_turn", "left_turn_t", "merge", "cruise", "overtake", "cut_in"}) {
-    const Scenario scenario = shipped(name);
-    const RouteGuide guide = mission_guide(scenario);
+    const scenario::Scenario scenario = shipped(name);
+    const map::RouteGuide guide = scenario::mission_guide(scenario);
     MapNode node(scenario.network, guide, {});
     const wire::Map offered = node.update({0.0, 0.0});
     wire::MapSender sender;
@@ -76,4 +76,4 @@ TEST(MapOnTheWire, EveryShippedMapArrivesWhole) {
 }
 
 }  // namespace
-}  // namespace s4tp::world
+}  // namespace s4tp::nodes

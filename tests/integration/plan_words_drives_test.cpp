@@ -20,8 +20,8 @@ constexpr int kSeeds = 6;
 
 /// All drives of one scenario, seeds 0 to 5.
 std::vector<campaign::EpisodeResult> drives(const std::string& name) {
-  const world::Scenario scenario =
-      world::load_scenario(std::filesystem::path(S4TP_SOURCE_DIR) / "sim_host" / "scenarios" / name);
+  const scenario::Scenario scenario =
+      scenario::load_scenario(std::filesystem::path(S4TP_SOURCE_DIR) / "sim_host" / "scenarios" / name);
   std::vector<campaign::EpisodeResult> results;
   for (int seed = 0; seed < kSeeds; ++seed) {
     campaign::EpisodeOptions options;

@@ -25,13 +25,13 @@ namespace s4tp::roads {
 namespace {
 
 namespace fs = std::filesystem;
-using world::Network;
-using world::NetworkLane;
-using world::Scenario;
+using map::Lane;
+using map::Network;
+using scenario::Scenario;
 
 const fs::path kMix = fs::path(S4TP_SOURCE_DIR) / "sim_host/scenarios/social.toml";
 
-const NetworkLane& lane_at(const Scenario& road, world::LaneId lane) {
+const Lane& lane_at(const Scenario& road, map::LaneId lane) {
   return road.network.lanes.at(static_cast<std::size_t>(lane));
 }
 
@@ -50,8 +50,8 @@ struct Seen {
 using Coverage = std::map<std::string, std::map<std::string, Seen>>;
 
 double turned_deg(const Scenario& road) {
-  const NetworkLane& start = lane_at(road, road.mission.start_lane);
-  const NetworkLane& goal = lane_at(road, road.mission.goal_lane);
+  const Lane& start = lane_at(road, road.mission.start_lane);
+  const Lane& goal = lane_at(road, road.mission.goal_lane);
   const double turn_rad =
       goal.centre.at(0.0).heading_rad - start.centre.at(start.centre.length_m()).heading_rad;
   return std::remainder(turn_rad, 2.0 * std::numbers::pi) * 180.0 / std::numbers::pi;
@@ -59,8 +59,8 @@ double turned_deg(const Scenario& road) {
 
 void add_to(Coverage& coverage, const std::string& family, const Scenario& road) {
   const auto see = [&](const char* what, double value) { coverage[what][family].add(value); };
-  const NetworkLane& start = lane_at(road, road.mission.start_lane);
-  const NetworkLane& goal = lane_at(road, road.mission.goal_lane);
+  const Lane& start = lane_at(road, road.mission.start_lane);
+  const Lane& goal = lane_at(road, road.mission.goal_lane);
   see("start lane, m", start.centre.length_m());
   see("goal lane, m", goal.centre.length_m());
   see("lanes beside the start", static_cast<double>(road.network.lanes_of(start.edge).size()));
@@ -68,7 +68,7 @@ void add_to(Coverage& coverage, const std::string& family, const Scenario& road)
   see("limit, m/s", start.speed_limit_mps);
   see("entry, m/s", road.mission.start_speed_mps);
   see("turned, degrees", turned_deg(road));
-  for (const world::FlowGroup& group : road.flows) {
+  for (const scenario::FlowGroup& group : road.flows) {
     see("vehicles a minute and stream", group.vehicles_per_minute.low);
     see("vehicles a minute and stream", group.vehicles_per_minute.high);
     see("streams", group.choose_high);
@@ -103,7 +103,7 @@ Seen all_of(const Coverage& coverage, const std::string& what) {
 // angles, every rule of way, acceleration lanes of 40 to 200 m (their outer eighths: twenty roads miss one of
 // them in 2 * 0.875^20 = 14 % of all blocks of numbers) into 1 to 5 lanes.
 TEST(Roads, CoverWhatTheyShould) {
-  const world::test::Folder out;
+  const test::Folder out;
   Coverage coverage;
   std::set<std::string> rules;
   int thrown_away = 0;
@@ -116,17 +116,17 @@ TEST(Roads, CoverWhatTheyShould) {
     EXPECT_EQ(written.family, family);
     EXPECT_EQ(family_of(written.folder.filename().string()), written.family);
     for (const std::string flavour : {"smarts", "social"}) {
-      const Scenario road = world::load_scenario(written.folder, flavour);
+      const Scenario road = scenario::load_scenario(written.folder, flavour);
       EXPECT_FALSE(road.mission.edges.empty());
       EXPECT_EQ(road.mission.time_limit_s, 80.0);
       EXPECT_GE(lane_at(road, road.mission.start_lane).centre.length_m(), 24.5);
       EXPECT_GE(lane_at(road, road.mission.goal_lane).centre.length_m(), 24.5);
-      for (const world::FlowGroup& group : road.flows) {
+      for (const scenario::FlowGroup& group : road.flows) {
         EXPECT_GE(group.vehicles_per_minute.low, 5.0);
         EXPECT_LE(group.vehicles_per_minute.high, 20.0);
       }
-      world::Random random(number);
-      const world::FlowPlan plan = world::draw_flows(road.network, road.flows, 60.0, random);
+      traffic::Random random(number);
+      const traffic::FlowPlan plan = traffic::draw_flows(road.network, road.flows, 60.0, random);
       EXPECT_FALSE(plan.departures.empty());
       if (flavour == "smarts") add_to(coverage, written.family, road);
     }
@@ -162,8 +162,8 @@ TEST(Roads, CoverWhatTheyShould) {
 
 // ROAD-001 The same number gives the same bytes, whatever was drawn before it.
 TEST(Roads, AreAFunctionOfTheirNumber) {
-  const world::test::Folder first;
-  const world::test::Folder second;
+  const test::Folder first;
+  const test::Folder second;
   std::vector<WrittenRoad> written;
   for (std::uint64_t number = 300; number < 314; ++number) {
     written.push_back(write_road(number, kMix, first.path()));
@@ -182,20 +182,20 @@ TEST(Roads, AreAFunctionOfTheirNumber) {
 
 // A ramp that ends in a junction leads into a lane that others drive in, and yields to them there.
 TEST(Roads, RampsThatEndInAJunctionMergeIntoAnOccupiedLane) {
-  const world::test::Folder out;
+  const test::Folder out;
   for (std::uint64_t number = 7; number < 140; number += families().size()) {
     const WrittenRoad written = write_road(number, kMix, out.path());
     ASSERT_EQ(written.family, "ramp_junction");
-    const Network network = world::load_scenario(written.folder).network;
-    const world::LaneId from_ramp = world::test::lane(network, "ramp_0").successors.at(0);
-    const world::LaneId from_main = world::test::lane(network, "main_0").successors.at(0);
+    const Network network = scenario::load_scenario(written.folder).network;
+    const map::LaneId from_ramp = test::lane(network, "ramp_0").successors.at(0);
+    const map::LaneId from_main = test::lane(network, "main_0").successors.at(0);
     EXPECT_EQ(network.lanes[static_cast<std::size_t>(from_ramp)].successors,
               network.lanes[static_cast<std::size_t>(from_main)].successors);
-    const auto yields = [&](const world::NetworkConflict& conflict) {
+    const auto yields = [&](const map::Conflict& conflict) {
       return (conflict.first == from_ramp && conflict.second == from_main &&
-              conflict.rule == world::Rule::kFirstYields) ||
+              conflict.rule == map::Rule::kFirstYields) ||
              (conflict.first == from_main && conflict.second == from_ramp &&
-              conflict.rule == world::Rule::kFirstHasPriority);
+              conflict.rule == map::Rule::kFirstHasPriority);
     };
     EXPECT_TRUE(std::any_of(network.conflicts.begin(), network.conflicts.end(), yields)) << written.folder;
   }
@@ -204,30 +204,30 @@ TEST(Roads, RampsThatEndInAJunctionMergeIntoAnOccupiedLane) {
 // Where a lane change is due before the turn and one after it, the way from the start lane without a change
 // does not lead on, and the lanes that turn do not lead into the goal lane.
 TEST(Roads, LateChangesAreDueBeforeAndAfterTheTurn) {
-  const world::test::Folder out;
+  const test::Folder out;
   for (std::uint64_t number = 5; number < 140; number += families().size()) {
     const WrittenRoad written = write_road(number, kMix, out.path());
     ASSERT_EQ(written.family, "late_change");
-    const Scenario road = world::load_scenario(written.folder);
-    const world::RouteGuide guide(road.network, road.mission.edges, road.mission.goal_lane,
-                                  road.mission.goal_s_m);
+    const Scenario road = scenario::load_scenario(written.folder);
+    const map::RouteGuide guide(road.network, road.mission.edges, road.mission.goal_lane,
+                                road.mission.goal_s_m);
     const auto& at_start = guide.advice(road.mission.start_lane);
     EXPECT_NE(at_start.changes_needed, 0);
-    EXPECT_EQ(at_start.next, world::kNoLane);
+    EXPECT_EQ(at_start.next, map::kNoLane);
     EXPECT_TRUE(std::all_of(lane_at(road, road.mission.goal_lane).predecessors.begin(),
                             lane_at(road, road.mission.goal_lane).predecessors.end(),
-                            [&](world::LaneId before) { return !guide.advice(before).on_route; }));
+                            [&](map::LaneId before) { return !guide.advice(before).on_route; }));
   }
 }
 
 // SUMO takes the networks and the streams as they are: after 30 s cars drive on one road of each family.
 TEST(Roads, AreDrivenOnInSumo) {
-  const world::test::Folder out;
+  const test::Folder out;
   for (std::uint64_t number = 0; number < families().size(); ++number) {
     const WrittenRoad written = write_road(number, kMix, out.path());
     for (const std::string flavour : {"smarts", "social"}) {
-      const Scenario road = world::load_scenario(written.folder, flavour);
-      const auto traffic = world::make_engine(road, {world::Engine::kSumo, 1, 1, world::DrivenBy::kUs});
+      const Scenario road = scenario::load_scenario(written.folder, flavour);
+      const auto traffic = world::make_engine(road, {scenario::Engine::kSumo, 1, 1, traffic::DrivenBy::kUs});
       std::size_t most = 0;
       for (int tick = 0; tick < 3000; ++tick) {
         traffic->step(nullptr);

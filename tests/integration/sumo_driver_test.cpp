@@ -14,7 +14,7 @@
 #include "sim_host/world/world.hpp"
 #include "tests/support/sumo_scenarios.hpp"
 
-namespace s4tp::world {
+namespace s4tp::sumo {
 namespace {
 
 namespace fs = std::filesystem;
@@ -24,11 +24,11 @@ using namespace std::chrono_literals;
 TEST(SumoTraffic, DrivesAnEpisode) {
   campaign::EpisodeOptions options;
   options.seed = 3;
-  options.engine = Engine::kSumo;
-  const Scenario scenario = shipped("left_turn");
-  const Recording one = campaign::run_episode(scenario, options).recording;
-  const Recording again = campaign::run_episode(scenario, options).recording;
-  EXPECT_EQ(one.ending, Ending::kGoal);
+  options.engine = scenario::Engine::kSumo;
+  const scenario::Scenario scenario = shipped("left_turn");
+  const traffic::Recording one = campaign::run_episode(scenario, options).recording;
+  const traffic::Recording again = campaign::run_episode(scenario, options).recording;
+  EXPECT_EQ(one.ending, traffic::Ending::kGoal);
   ASSERT_EQ(one.snapshots.size(), again.snapshots.size());
   for (std::size_t i = 0; i < one.snapshots.size(); ++i) {
     EXPECT_TRUE(same(one.snapshots[i].others, again.snapshots[i].others)) << i;
@@ -39,12 +39,12 @@ TEST(SumoTraffic, DrivesAnEpisode) {
 // WORLD-041 SUMO's own driver takes the ego from the mission's start at entry speed to its goal; no ECU
 // answers.
 TEST(SumoTraffic, LetsSumoDriveTheEgo) {
-  const Scenario scenario = shipped("merge");
-  WorldOptions options;
+  const scenario::Scenario scenario = shipped("merge");
+  world::WorldOptions options;
   options.seed = 3;
-  options.engine = Engine::kSumo;
+  options.engine = scenario::Engine::kSumo;
   options.ego_by_traffic = true;
-  World world(scenario, options);
+  world::World world(scenario, options);
   std::vector<wire::Frame> frames;
   while (!world.finished()) {
     frames.clear();
@@ -53,8 +53,8 @@ TEST(SumoTraffic, LetsSumoDriveTheEgo) {
       EXPECT_DOUBLE_EQ(world.recording().snapshots.back().ego.speed_mps, scenario.mission.start_speed_mps);
     }
   }
-  EXPECT_EQ(world.recording().ending, Ending::kGoal);
-  const std::vector<Snapshot>& shots = world.recording().snapshots;
+  EXPECT_EQ(world.recording().ending, traffic::Ending::kGoal);
+  const std::vector<traffic::Snapshot>& shots = world.recording().snapshots;
   for (std::size_t i = 1; i < shots.size(); ++i) {  // no jump: 20 m/s for 0.1 s at most
     EXPECT_LT(std::hypot(shots[i].ego.centre.x - shots[i - 1].ego.centre.x,
                          shots[i].ego.centre.y - shots[i - 1].ego.centre.y),
@@ -87,7 +87,7 @@ TEST(SumoDriver, IsAPlannerOfTheCampaign) {
   for (const campaign::EpisodeRow& row : campaign::run_campaign(all, jobs, options)) {
     EXPECT_FALSE(row.cell.guarded);
     EXPECT_EQ(row.cell.traffic, "sumo");
-    EXPECT_EQ(row.metrics.ending, Ending::kGoal) << row.cell.scenario << " " << row.metrics.seed;
+    EXPECT_EQ(row.metrics.ending, traffic::Ending::kGoal) << row.cell.scenario << " " << row.metrics.seed;
     EXPECT_GT(row.metrics.duration_s, 5.0);
     EXPECT_GT(row.metrics.distance_m, 50.0);
   }
@@ -95,20 +95,20 @@ TEST(SumoDriver, IsAPlannerOfTheCampaign) {
 
 // The built-in traffic drives no ego, and says so.
 TEST(TrafficEngine, OnlySumoDrivesTheEgo) {
-  EngineOptions options;
-  options.ego = DrivenBy::kEngine;
-  EXPECT_THROW((void)make_engine(shipped("cruise"), options), std::invalid_argument);
-  EXPECT_EQ(engine_of("sumo"), Engine::kSumo);
-  EXPECT_THROW((void)engine_of("vissim"), std::invalid_argument);
+  traffic::EngineOptions options;
+  options.ego = traffic::DrivenBy::kEngine;
+  EXPECT_THROW((void)world::make_engine(shipped("cruise"), options), std::invalid_argument);
+  EXPECT_EQ(scenario::engine_of("sumo"), scenario::Engine::kSumo);
+  EXPECT_THROW((void)scenario::engine_of("vissim"), std::invalid_argument);
 }
 
 // One of SUMO's own drives, replayed through the coupling: on an unchanged course nobody touches the ego.
 TEST(SumoCoupling, ReplaysADriveUntouched) {
-  const Scenario scenario = shipped("left_turn");
-  const SumoDrive drive = sumo_drive(scenario, 3);
+  const scenario::Scenario scenario = shipped("left_turn");
+  const Drive drive = sumo_drive(scenario, 3);
   ASSERT_TRUE(drive.arrived && !drive.touched);
   EXPECT_FALSE(replay(scenario, 3, drive, {}).touched);
 }
 
 }  // namespace
-}  // namespace s4tp::world
+}  // namespace s4tp::sumo

@@ -17,7 +17,7 @@
 #include "sim_host/world/world.hpp"
 #include "tests/support/sumo_scenarios.hpp"
 
-namespace s4tp::world {
+namespace s4tp::sumo {
 namespace {
 
 namespace fs = std::filesystem;
@@ -60,8 +60,8 @@ bool ends_soon(pid_t process) {
 
 // SUMO dies in the middle of an episode: the next step says so at once.
 TEST(SumoTraffic, SaysThatSumoHasDied) {
-  const Scenario scenario = shipped("cruise");
-  SumoTraffic traffic(scenario, without_ego(5));
+  const scenario::Scenario scenario = shipped("cruise");
+  Traffic traffic(scenario, without_ego(5));
   advance(traffic, 1.0);
   kill(traffic.process(), SIGKILL);
   const std::string what = what_of([&] { advance(traffic, 2.0); });
@@ -72,16 +72,16 @@ TEST(SumoTraffic, SaysThatSumoHasDied) {
 // SUMO-003 A SUMO that cannot load its network, cannot have its port, or is not there, is an error in its
 // words.
 TEST(SumoTraffic, SaysWhySumoDoesNotComeUp) {
-  Scenario scenario = shipped("cruise");
+  scenario::Scenario scenario = shipped("cruise");
   scenario.network_file = "/nowhere.net.xml";
-  const std::string no_network = what_of([&] { SumoTraffic traffic(scenario, without_ego(5)); });
+  const std::string no_network = what_of([&] { Traffic traffic(scenario, without_ego(5)); });
   EXPECT_NE(no_network.find("nowhere.net.xml"), std::string::npos) << no_network;
   {
     const FakeSumo refused("echo 'Error: Address already in use' >&2; exit 1");
-    const std::string what = what_of([&] { SumoTraffic traffic(scenario, without_ego(5)); });
+    const std::string what = what_of([&] { Traffic traffic(scenario, without_ego(5)); });
     EXPECT_NE(what.find("Address already in use"), std::string::npos) << what;
   }
-  const std::string missing = what_of([] { SumoProcess("no-such-sumo", {}, ""); });
+  const std::string missing = what_of([] { Process("no-such-sumo", {}, ""); });
   EXPECT_NE(missing.find("apt-get install sumo"), std::string::npos) << missing;
 }
 
@@ -89,7 +89,7 @@ TEST(SumoTraffic, SaysWhySumoDoesNotComeUp) {
 TEST(SumoProcess, NeverOutlivesUs) {
   pid_t child = 0;
   {
-    const SumoProcess process("sleep", {"1000"}, "");
+    const Process process("sleep", {"1000"}, "");
     child = process.id();
     EXPECT_TRUE(runs(child));
   }
@@ -99,7 +99,7 @@ TEST(SumoProcess, NeverOutlivesUs) {
   ASSERT_EQ(pipe(ids), 0);
   const pid_t starter = fork();
   if (starter == 0) {
-    const SumoProcess process("sleep", {"1000"}, "");
+    const Process process("sleep", {"1000"}, "");
     const pid_t id = process.id();
     (void)!write(ids[1], &id, sizeof id);
     pause();
@@ -114,9 +114,9 @@ TEST(SumoProcess, NeverOutlivesUs) {
 // SUMO-001 It outlives the thread that made it: the kernel's signal of a parent's death follows the thread
 // that forked.
 TEST(SumoProcess, OutlivesTheThreadThatMadeIt) {
-  std::unique_ptr<SumoProcess> process;
+  std::unique_ptr<Process> process;
   std::thread([&] {
-    process = std::make_unique<SumoProcess>("sleep", std::vector<std::string>{"1000"}, "");
+    process = std::make_unique<Process>("sleep", std::vector<std::string>{"1000"}, "");
   }).join();
   std::this_thread::sleep_for(100ms);
   EXPECT_TRUE(process->lives());
@@ -176,4 +176,4 @@ TEST(SumoProcess, NoneIsLeftOfAnInterruptedCampaign) {
 }
 
 }  // namespace
-}  // namespace s4tp::world
+}  // namespace s4tp::sumo

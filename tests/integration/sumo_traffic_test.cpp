@@ -16,15 +16,18 @@
 #include "sim_host/world/world.hpp"
 #include "tests/support/sumo_scenarios.hpp"
 
-namespace s4tp::world {
+namespace s4tp::sumo {
 namespace {
+
+using map::LaneId;
+using scenario::Scenario;
 
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 
-EgoSeen standing_at(const Scenario& scenario, LaneId lane, double s_m) {
-  const PolylinePose pose = scenario.network.lanes[static_cast<std::size_t>(lane)].centre.at(s_m);
-  EgoSeen ego;
+traffic::EgoSeen standing_at(const Scenario& scenario, LaneId lane, double s_m) {
+  const map::PolylinePose pose = scenario.network.lanes[static_cast<std::size_t>(lane)].centre.at(s_m);
+  traffic::EgoSeen ego;
   ego.car.centre = pose.point;
   ego.car.heading_rad = pose.heading_rad;
   return ego;
@@ -44,9 +47,9 @@ std::vector<LaneId> way_through(const Scenario& scenario) {
 // WORLD-040 One seed, the same cars to the bit; another seed, others.
 TEST(SumoTraffic, IsDeterministicInItsSeed) {
   const Scenario scenario = shipped("left_turn");
-  SumoTraffic one(scenario, without_ego(11));
-  SumoTraffic again(scenario, without_ego(11));
-  SumoTraffic other(scenario, without_ego(12));
+  Traffic one(scenario, without_ego(11));
+  Traffic again(scenario, without_ego(11));
+  Traffic other(scenario, without_ego(12));
   bool differs = false;
   for (int i = 0; i < 2500; ++i) {
     one.step(nullptr);
@@ -62,12 +65,12 @@ TEST(SumoTraffic, IsDeterministicInItsSeed) {
 // SUMO-002 On an empty straight road drivers who want 10 m/s at most drive as our plan drew them: never
 // faster.
 TEST(SumoTraffic, DrivesThePlansDrivers) {
-  SumoTraffic traffic(shipped("overtake"), without_ego(4));
+  Traffic traffic(shipped("overtake"), without_ego(4));
   std::size_t most = 0;
   while (traffic.time_s() < 20.0) {
     traffic.step(nullptr);
     most = std::max(most, traffic.cars().size());
-    for (const CarState& car : traffic.cars()) EXPECT_LE(car.speed_mps, 10.0 + 1e-9);
+    for (const traffic::CarState& car : traffic.cars()) EXPECT_LE(car.speed_mps, 10.0 + 1e-9);
   }
   EXPECT_GE(most, 2U);
 }
@@ -75,13 +78,13 @@ TEST(SumoTraffic, DrivesThePlansDrivers) {
 // SUMO says the lane of the front bumper, we that of the box centre: it lies within that lane.
 TEST(SumoTraffic, SaysTheLaneOfTheCentre) {
   const Scenario scenario = shipped("left_turn");
-  SumoTraffic traffic(scenario, without_ego(3));
+  Traffic traffic(scenario, without_ego(3));
   int in_junction = 0;
   while (traffic.time_s() < 40.0 - 1e-6) {
     advance(traffic, traffic.time_s() + 0.1);
-    for (const CarState& car : traffic.cars()) {
-      ASSERT_NE(car.lane, kNoLane);
-      const NetworkLane& lane = scenario.network.lanes[static_cast<std::size_t>(car.lane)];
+    for (const traffic::CarState& car : traffic.cars()) {
+      ASSERT_NE(car.lane, map::kNoLane);
+      const map::Lane& lane = scenario.network.lanes[static_cast<std::size_t>(car.lane)];
       const double s_m = lane.centre.project(car.centre).s_m;
       EXPECT_GE(s_m, -0.01) << lane.name << " at " << traffic.time_s() << " s";
       EXPECT_LE(s_m, lane.centre.length_m() + 0.5) << lane.name << " at " << traffic.time_s() << " s";
@@ -93,11 +96,11 @@ TEST(SumoTraffic, SaysTheLaneOfTheCentre) {
 
 // Between two steps cars move evenly: no 10 ms step is longer than 20 m/s would make it.
 TEST(SumoTraffic, MovesSmoothlyBetweenSteps) {
-  SumoTraffic traffic(shipped("merge"), without_ego(3));
-  std::map<int, Vec2> before;
+  Traffic traffic(shipped("merge"), without_ego(3));
+  std::map<int, map::Vec2> before;
   for (int i = 0; i < 2000; ++i) {
     traffic.step(nullptr);
-    for (const CarState& car : traffic.cars()) {
+    for (const traffic::CarState& car : traffic.cars()) {
       if (before.count(car.id) != 0) {
         EXPECT_LT(std::hypot(car.centre.x - before[car.id].x, car.centre.y - before[car.id].y), 0.2);
       }
@@ -110,15 +113,16 @@ TEST(SumoTraffic, MovesSmoothlyBetweenSteps) {
 // Whoever comes along behind a standing ego stops: boxes never touch, and somebody does come to a stand.
 TEST(SumoTraffic, StopsBehindAStandingEgo) {
   const Scenario scenario = shipped("overtake");
-  EngineOptions options = without_ego(4);
-  options.ego = DrivenBy::kUs;
-  SumoTraffic traffic(scenario, options, {.early = false});
-  const EgoSeen ego = standing_at(scenario, scenario.mission.start_lane, 120.0);
+  traffic::EngineOptions options = without_ego(4);
+  options.ego = traffic::DrivenBy::kUs;
+  Traffic traffic(scenario, options, {.early = false});
+  const traffic::EgoSeen ego = standing_at(scenario, scenario.mission.start_lane, 120.0);
   bool stood = false;
   while (traffic.time_s() < 40.0) {
     traffic.step(&ego);
-    for (const CarState& car : traffic.cars()) EXPECT_FALSE(overlap(box_of(ego.car), box_of(car)));
-    for (const CarFlags& flags : traffic.flags()) stood = stood || flags.waiting;
+    for (const traffic::CarState& car : traffic.cars())
+      EXPECT_FALSE(traffic::overlap(traffic::box_of(ego.car), traffic::box_of(car)));
+    for (const traffic::CarFlags& flags : traffic.flags()) stood = stood || flags.waiting;
   }
   EXPECT_TRUE(stood);
 }
@@ -126,16 +130,16 @@ TEST(SumoTraffic, StopsBehindAStandingEgo) {
 // SUMO has the ego where we said, to a millimetre: 13 m/s, turning with 0.1 rad/s, told 0.1 s ahead.
 TEST(SumoTraffic, PlacesTheEgoAtTheStepsEnd) {
   const Scenario scenario = shipped("cruise");
-  EngineOptions options = without_ego(4);
-  options.ego = DrivenBy::kUs;
-  SumoTraffic traffic(scenario, options, {.early = false});
-  EgoSeen ego = standing_at(scenario, scenario.mission.start_lane, 20.0);
+  traffic::EngineOptions options = without_ego(4);
+  options.ego = traffic::DrivenBy::kUs;
+  Traffic traffic(scenario, options, {.early = false});
+  traffic::EgoSeen ego = standing_at(scenario, scenario.mission.start_lane, 20.0);
   ego.car.speed_mps = 13.0;
   for (int i = 0; i < 30; ++i) {
     traffic.step(&ego);
     ego.car.centre.x += 0.13;  // the road leads east
   }
-  const CarState seen = traffic.ego_seen().value();
+  const traffic::CarState seen = traffic.ego_seen().value();
   EXPECT_NEAR(seen.centre.x, ego.car.centre.x, 1e-3);
   EXPECT_NEAR(seen.centre.y, ego.car.centre.y, 1e-3);
   EXPECT_NEAR(seen.speed_mps, 13.0, 1e-6);
@@ -148,14 +152,14 @@ TEST(SumoTraffic, KeepsTheEgoOnItsRoute) {
   const std::vector<LaneId> way = way_through(scenario);
   ASSERT_FALSE(way.empty());
   for (const bool on_route : {true, false}) {
-    EngineOptions options = without_ego(4);
-    options.ego = DrivenBy::kUs;
-    SumoTraffic traffic(scenario, options, {.early = false, .on_route = on_route});
+    traffic::EngineOptions options = without_ego(4);
+    options.ego = traffic::DrivenBy::kUs;
+    Traffic traffic(scenario, options, {.early = false, .on_route = on_route});
     int elsewhere = 0;
     for (const LaneId id : way) {
-      const Polyline& centre = scenario.network.lanes[static_cast<std::size_t>(id)].centre;
+      const map::Polyline& centre = scenario.network.lanes[static_cast<std::size_t>(id)].centre;
       for (double s_m = 3.0; s_m < std::min(centre.length_m(), 30.0); s_m += 0.3) {
-        EgoSeen ego = standing_at(scenario, id, s_m);
+        traffic::EgoSeen ego = standing_at(scenario, id, s_m);
         ego.car.centre.x += 0.5 * std::sin(ego.car.heading_rad);
         ego.car.centre.y -= 0.5 * std::cos(ego.car.heading_rad);
         for (int i = 0; i < 20; ++i) traffic.step(&ego);
@@ -175,16 +179,16 @@ TEST(SumoTraffic, KeepsTheEgoOnItsRoute) {
 TEST(SumoTraffic, StopsBehindAnEgoOffItsRoute) {
   const Scenario scenario = shipped("left_turn");
   const LaneId oncoming = scenario.network.find("north_in_0");
-  EngineOptions options = without_ego(4);
-  options.ego = DrivenBy::kUs;
-  SumoTraffic traffic(scenario, options, {.early = false});
-  const EgoSeen ego = standing_at(scenario, oncoming, 60.0);
+  traffic::EngineOptions options = without_ego(4);
+  options.ego = traffic::DrivenBy::kUs;
+  Traffic traffic(scenario, options, {.early = false});
+  const traffic::EgoSeen ego = standing_at(scenario, oncoming, 60.0);
   bool stood = false;
   while (traffic.time_s() < 60.0) {
     traffic.step(&ego);
-    for (const CarState& car : traffic.cars()) {
+    for (const traffic::CarState& car : traffic.cars()) {
       if (traffic.time_s() > 1.0) {
-        EXPECT_FALSE(overlap(box_of(ego.car), box_of(car)));
+        EXPECT_FALSE(traffic::overlap(traffic::box_of(ego.car), traffic::box_of(car)));
       }
       stood = stood || (car.lane == oncoming && car.speed_mps < 0.1);
     }
@@ -195,7 +199,7 @@ TEST(SumoTraffic, StopsBehindAnEgoOffItsRoute) {
 // Emptying a stretch takes those whose box reaches into it, for SUMO too, and nobody else.
 TEST(SumoTraffic, ClearsAStretch) {
   const Scenario scenario = shipped("cruise");
-  SumoTraffic traffic(scenario, without_ego(5));
+  Traffic traffic(scenario, without_ego(5));
   advance(traffic, 20.0);
   const std::size_t before = traffic.cars().size();
   const int finished = traffic.finished();
@@ -204,7 +208,7 @@ TEST(SumoTraffic, ClearsAStretch) {
   traffic.clear(lane, -10.0, 210.0);
   const std::size_t after = traffic.cars().size();
   EXPECT_LT(after, before);
-  for (const CarState& car : traffic.cars()) EXPECT_NE(car.lane, lane);
+  for (const traffic::CarState& car : traffic.cars()) EXPECT_NE(car.lane, lane);
   traffic.step(nullptr);
   EXPECT_LE(traffic.cars().size(), after + 3);
   EXPECT_EQ(traffic.finished(), finished);
@@ -224,7 +228,7 @@ TEST(SumoTraffic, TakesRouteFilesByEpisode) {
     scenario.route_files.push_back(file);
   }
   for (const std::uint64_t episode : {0U, 3U}) {
-    SumoTraffic traffic(scenario, without_ego(episode));
+    Traffic traffic(scenario, without_ego(episode));
     advance(traffic, 2.0);
     ASSERT_EQ(traffic.cars().size(), 1U);
     EXPECT_DOUBLE_EQ(traffic.cars().front().length_m, episode == 0 ? 8.0 : 9.0);
@@ -235,4 +239,4 @@ TEST(SumoTraffic, TakesRouteFilesByEpisode) {
 }
 
 }  // namespace
-}  // namespace s4tp::world
+}  // namespace s4tp::sumo

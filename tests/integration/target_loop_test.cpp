@@ -38,8 +38,8 @@ fs::path scratch(const std::string& name) {
   return folder.path / name;
 }
 
-world::Scenario load(const std::string& name) {
-  return world::load_scenario(fs::path(S4TP_SOURCE_DIR) / "sim_host" / "scenarios" / name);
+scenario::Scenario load(const std::string& name) {
+  return scenario::load_scenario(fs::path(S4TP_SOURCE_DIR) / "sim_host" / "scenarios" / name);
 }
 
 /// All frames of the bus but one: what a cycle cost is the target's own.
@@ -54,7 +54,7 @@ std::string frames_of(const fs::path& log) {
   return frames;
 }
 
-fs::path on_host(const world::Scenario& scenario, std::uint64_t seed) {
+fs::path on_host(const scenario::Scenario& scenario, std::uint64_t seed) {
   const fs::path log = scratch("host.log");
   campaign::EpisodeOptions options;
   options.seed = seed;
@@ -78,7 +78,7 @@ TargetOptions options_for(const std::string& target, std::uint64_t seed) {
   return options;
 }
 
-void expect_the_hosts_commands(const std::string& target, const world::Scenario& scenario,
+void expect_the_hosts_commands(const std::string& target, const scenario::Scenario& scenario,
                                std::uint64_t seed) {
   const std::string wanted = frames_of(on_host(scenario, seed));
   ASSERT_GT(wanted.size(), 10'000U);
@@ -112,7 +112,7 @@ TEST(TargetLoop, LeftTurnOnM7) {
 
 // TARGET-010 The same on the Cortex-M55, another scenario, ended by its time limit after 3 s.
 TEST(TargetLoop, ShortCruiseOnM55) {
-  world::Scenario scenario = load("cruise");
+  scenario::Scenario scenario = load("cruise");
   scenario.mission.time_limit_s = 3.0;
   expect_the_hosts_commands("m55", scenario, 4);
 }
@@ -125,7 +125,7 @@ TEST(TargetLoop, RefusesDamagedWeightsAsTheHostDoes) {
   words[4000] ^= 1;
   const fs::path file = scratch("damaged.satp");
   std::ofstream(file, std::ios::binary).write(reinterpret_cast<const char*>(words.data()), satp::kImageBytes);
-  world::Scenario scenario = load("cut_in");
+  scenario::Scenario scenario = load("cut_in");
   scenario.mission.time_limit_s = 2.0;
   const auto bank = campaign::bank_with(file);
   campaign::EpisodeOptions host;

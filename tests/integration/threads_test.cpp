@@ -24,13 +24,13 @@ namespace {
 
 constexpr std::uint64_t kSeed = 3;
 
-world::Recording drive_on_one_thread(const world::Scenario& scenario) {
+traffic::Recording drive_on_one_thread(const scenario::Scenario& scenario) {
   campaign::EpisodeOptions options;
   options.seed = kSeed;
   return campaign::run_episode(scenario, options).recording;
 }
 
-void expect_same_drive(const world::Recording& a, const world::Recording& b) {
+void expect_same_drive(const traffic::Recording& a, const traffic::Recording& b) {
   EXPECT_EQ(a.ending, b.ending);
   ASSERT_EQ(a.snapshots.size(), b.snapshots.size());
   for (std::size_t i = 0; i < a.snapshots.size(); ++i) {
@@ -41,14 +41,14 @@ void expect_same_drive(const world::Recording& a, const world::Recording& b) {
 }
 
 struct ThreadedDrive {
-  world::Recording recording;
+  traffic::Recording recording;
   int ticks = 0;
   std::uint32_t slips = 0;
 };
 
 /// Planning in a thread of its own. Control goes on for five ticks beside it and then waits, so that every
 /// plan is there at its boundary; only each `late_one`-th is not waited for until the boundary has passed.
-ThreadedDrive drive_on_two_threads(const world::Scenario& scenario, int late_one) {
+ThreadedDrive drive_on_two_threads(const scenario::Scenario& scenario, int late_one) {
   hal::sim::Bus bus;
   hal::sim::Bus::Port* const world_port = bus.attach();
   hal::sim::Bus::Port* const ecu_port = bus.attach();
@@ -102,7 +102,7 @@ ThreadedDrive drive_on_two_threads(const world::Scenario& scenario, int late_one
 // its boundary. Two scenarios.
 TEST(Threads, DriveAsOneThreadDoes) {
   for (const std::string name : {"left_turn", "merge"}) {
-    const world::Scenario scenario = tests::shipped_for(name);
+    const scenario::Scenario scenario = tests::shipped_for(name);
     const ThreadedDrive drive = drive_on_two_threads(scenario, 0);
     EXPECT_EQ(drive.slips, 0U);
     expect_same_drive(drive.recording, drive_on_one_thread(scenario));
@@ -116,7 +116,7 @@ TEST(Threads, MissedDeadlines) {
   const ThreadedDrive drive =
       drive_on_two_threads(tests::shipped_for("left_turn", 2.5 * tests::kDriven_s), 7);
   EXPECT_GT(drive.slips, 5U);
-  EXPECT_NE(drive.recording.ending, world::Ending::kDeadEcu);
+  EXPECT_NE(drive.recording.ending, traffic::Ending::kDeadEcu);
   EXPECT_GT(drive.ticks, 1000);
 }
 
@@ -129,7 +129,7 @@ struct SideBySide {
   processes::WorldProcessResult world;
   processes::EcuEnd ecu_end = processes::EcuEnd::kStopped;
 
-  void run(const world::Scenario& scenario, bool realtime, int seconds) {
+  void run(const scenario::Scenario& scenario, bool realtime, int seconds) {
     hal::linux_host::BusPair bus;
     processes::WorldProcessOptions world_options;
     world_options.bus = "memory";
@@ -157,7 +157,7 @@ struct SideBySide {
 
 // PROC-014, PROC-021 Lock-step: the drive of the in-process episode, to the bit.
 TEST(Threads, SideBySideInLockStep) {
-  const world::Scenario scenario = tests::shipped_for("cruise");
+  const scenario::Scenario scenario = tests::shipped_for("cruise");
   SideBySide both;
   both.run(scenario, false, 200);
   EXPECT_EQ(both.world.unanswered, 0);

@@ -8,11 +8,12 @@
 
 #include "sim_host/world/traffic/box.hpp"
 
-namespace s4tp::world {
+namespace s4tp::traffic {
 namespace {
 
-Scenario scenario(const std::string& name, const std::string& flavour) {
-  return load_scenario(std::filesystem::path(S4TP_SOURCE_DIR) / "sim_host" / "scenarios" / name, flavour);
+scenario::Scenario scenario(const std::string& name, const std::string& flavour) {
+  return scenario::load_scenario(std::filesystem::path(S4TP_SOURCE_DIR) / "sim_host" / "scenarios" / name,
+                                 flavour);
 }
 
 class TrafficIn : public testing::TestWithParam<std::tuple<const char*, const char*>> {};
@@ -21,7 +22,7 @@ class TrafficIn : public testing::TestWithParam<std::tuple<const char*, const ch
 // second.
 TEST_P(TrafficIn, HasNoCollisionsOfItsOwn) {
   const auto [name, flavour] = GetParam();
-  const Scenario where = scenario(name, flavour);
+  const scenario::Scenario where = scenario(name, flavour);
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     Traffic traffic(where.network, where.flows, seed);
     while (traffic.time_s() < 90.0) {
@@ -44,7 +45,7 @@ TEST_P(TrafficIn, HasNoCollisionsOfItsOwn) {
 // WORLD-021 The same seed gives the same traffic to the bit, another seed another one.
 TEST_P(TrafficIn, IsDeterministic) {
   const auto [name, flavour] = GetParam();
-  const Scenario where = scenario(name, flavour);
+  const scenario::Scenario where = scenario(name, flavour);
   Traffic one(where.network, where.flows, 11);
   Traffic same(where.network, where.flows, 11);
   Traffic other(where.network, where.flows, 12);
@@ -69,4 +70,4 @@ INSTANTIATE_TEST_SUITE_P(Scenarios, TrafficIn,
                                           testing::Values("smarts", "social")));
 
 }  // namespace
-}  // namespace s4tp::world
+}  // namespace s4tp::traffic

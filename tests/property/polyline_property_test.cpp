@@ -5,7 +5,7 @@
 
 #include "sim_host/world/map/polyline.hpp"
 
-namespace s4tp::world {
+namespace s4tp::map {
 namespace {
 
 /// A line that winds but never turns back: legs of 1 .. 20 m, turns of at most 40 degrees.
@@ -64,4 +64,4 @@ TEST(PolylineProperty, ThinningKeepsItsWord) {
 }
 
 }  // namespace
-}  // namespace s4tp::world
+}  // namespace s4tp::map

@@ -15,7 +15,7 @@
 #include "sim_host/world/world.hpp"
 #include "tests/support/networks.hpp"
 
-namespace s4tp::world {
+namespace s4tp::scenario {
 namespace {
 
 using test::Folder;
@@ -54,9 +54,9 @@ std::string damaged(std::string text) {
 void load_and_drive(const Folder& folder) {
   try {
     const Scenario scenario = load_scenario(folder.path());
-    WorldOptions options;
+    world::WorldOptions options;
     options.pre_roll_s = 0.5;
-    World world(scenario, options);
+    world::World world(scenario, options);
     std::vector<wire::Frame> frames;
     for (int tick = 0; tick < 200 && !world.finished(); ++tick) {
       frames.clear();
@@ -104,4 +104,4 @@ TEST(ScenarioFiles, DamagedRoutes) {
 }
 
 }  // namespace
-}  // namespace s4tp::world
+}  // namespace s4tp::scenario

@@ -20,9 +20,9 @@ inline constexpr double kDriven_s =
 #endif
 
 /// A shipped scenario, no longer than `seconds`; 0: as it is.
-inline world::Scenario shipped_for(const std::string& name, double seconds = kDriven_s) {
-  world::Scenario scenario =
-      world::load_scenario(std::filesystem::path(S4TP_SOURCE_DIR) / "sim_host" / "scenarios" / name);
+inline scenario::Scenario shipped_for(const std::string& name, double seconds = kDriven_s) {
+  scenario::Scenario scenario =
+      scenario::load_scenario(std::filesystem::path(S4TP_SOURCE_DIR) / "sim_host" / "scenarios" / name);
   if (seconds > 0.0) scenario.mission.time_limit_s = seconds;
   return scenario;
 }

@@ -10,7 +10,7 @@
 
 #include "sim_host/world/scenario/scenario.hpp"
 
-namespace s4tp::world::test {
+namespace s4tp::test {
 
 /// A folder of its own that goes when the test does.
 class Folder {
@@ -36,16 +36,16 @@ class Folder {
   std::filesystem::path path_;
 };
 
-inline Network network_of(const std::string& text) {
+inline map::Network network_of(const std::string& text) {
   const Folder folder;
-  return load_network(folder.write("network.net.xml", text));
+  return map::load_network(folder.write("network.net.xml", text));
 }
 
-inline Scenario shipped(const std::string& name) {
-  return load_scenario(std::filesystem::path(S4TP_SOURCE_DIR) / "sim_host/scenarios" / name);
+inline scenario::Scenario shipped(const std::string& name) {
+  return scenario::load_scenario(std::filesystem::path(S4TP_SOURCE_DIR) / "sim_host/scenarios" / name);
 }
 
-inline const NetworkLane& lane(const Network& network, const std::string& name) {
+inline const map::Lane& lane(const map::Network& network, const std::string& name) {
   return network.lanes.at(static_cast<std::size_t>(network.find(name)));
 }
 
@@ -91,4 +91,4 @@ inline const std::string kBridged = R"(<net>
     <junction id="c" type="priority" incLanes="a_0" intLanes=""><request index="0" response="0" foes="0"/></junction>
     <connection from="a" to="b" fromLane="0" toLane="0"/></net>)";
 
-}  // namespace s4tp::world::test
+}  // namespace s4tp::test

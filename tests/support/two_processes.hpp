@@ -50,7 +50,7 @@ inline fs::path in_process(const std::string& scenario, std::uint64_t seed) {
   campaign::EpisodeOptions options;
   options.seed = seed;
   options.log = log;
-  (void)campaign::run_episode(world::load_scenario(folder_of(scenario)), options);
+  (void)campaign::run_episode(scenario::load_scenario(folder_of(scenario)), options);
   return log;
 }
 

@@ -126,7 +126,7 @@ namespace s4tp {
 [[noreturn]] void assertion_failed(const char*, const char*, int) { std::abort(); }
 }
 int main() {
-  s4tp::world::SlopeNode node;
+  s4tp::nodes::SlopeNode node;
   s4tp::ecu::Inputs inputs;
   int sent = 0;
   for (unsigned tick = 0; tick < 100; ++tick) {

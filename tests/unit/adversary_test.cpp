@@ -10,13 +10,13 @@
 #include "sim_host/campaign/episode.hpp"
 #include "tests/support/networks.hpp"
 
-namespace s4tp::world {
+namespace s4tp::adversary {
 namespace {
 
 // LAW-040 D2 towards a line, answered at once: 8 m/s stop with 4 m/s^2 in 8 m; in 0.1 s at 0 m/s^2 0.8 m of them
 // are gone. With a second left to answer in, 0.9 s of it afterwards, 7.2 m more.
 TEST(Lawful, TheDutysBrakingHasToDoInTheEnd) {
-  const Law law = promised_law();
+  const judge::Law law = promised_law();
   EXPECT_TRUE(keeps(law, {8.81, 0.0, false, 0.0}, 8.0, 0.0, 0.1));
   EXPECT_FALSE(keeps(law, {8.79, 0.0, false, 0.0}, 8.0, 0.0, 0.1));
   EXPECT_TRUE(keeps(law, {16.01, 0.0, false, 1.0}, 8.0, 0.0, 0.1));
@@ -26,7 +26,7 @@ TEST(Lawful, TheDutysBrakingHasToDoInTheEnd) {
 // LAW-040 D4 behind one who stands: the RSS gap at 10 m/s is 5.25 m of response and 12.1 m of braking, and 1 m is
 // driven in 0.1 s.
 TEST(Lawful, TheDistanceOwedIsTheRssGap) {
-  const Law law = promised_law();
+  const judge::Law law = promised_law();
   EXPECT_TRUE(keeps(law, {18.36, 0.0, true, 0.0}, 10.0, 0.0, 0.1));
   EXPECT_FALSE(keeps(law, {18.34, 0.0, true, 0.0}, 10.0, 0.0, 0.1));
 }
@@ -34,7 +34,7 @@ TEST(Lawful, TheDistanceOwedIsTheRssGap) {
 // LAW-041 Nothing ahead: what is wanted. A line 30 m ahead at 10 m/s: full power for now. One nearer than the duty's
 // braking reaches: the duty's braking.
 TEST(Lawful, TheHardestIsNoHarderThanWanted) {
-  const Law law = promised_law();
+  const judge::Law law = promised_law();
   EXPECT_EQ(hardest_mps2(law, {}, 10.0, 1.5, 0.1), 1.5);
   const Obstacle far{30.0, 0.0, false, 0.0};
   EXPECT_EQ(hardest_mps2(law, {&far, 1}, 10.0, 2.0, 0.1), 2.0);
@@ -51,23 +51,23 @@ struct Seen {
 };
 
 Seen drive(const char* planner, const char* name, std::uint64_t first_seed, int episodes) {
-  const Scenario scenario = test::shipped(name);
+  const scenario::Scenario scenario = test::shipped(name);
   Seen seen;
   for (int i = 0; i < episodes; ++i) {
     campaign::EpisodeOptions options;
     options.planner = planner;
     options.guarded = std::string(planner) == "s4tp";
-    options.engine = Engine::kAdversary;
+    options.engine = scenario::Engine::kAdversary;
     options.seed = first_seed + static_cast<std::uint64_t>(i);
-    const Recording recording = campaign::run_episode(scenario, options).recording;
-    for (const Collision& collision : recording.collisions) {
+    const traffic::Recording recording = campaign::run_episode(scenario, options).recording;
+    for (const traffic::Collision& collision : recording.collisions) {
       ++seen.touches;
-      seen.by_others += collision.fault == Fault::kOther ? 1 : 0;
+      seen.by_others += collision.fault == traffic::Fault::kOther ? 1 : 0;
     }
-    for (const Snapshot& snapshot : recording.snapshots) {
-      for (const CarState& car : snapshot.others) {
-        if (car.lane == kNoLane || snapshot.time_s < 0.0) continue;
-        const NetworkLane& lane = scenario.network.lanes[static_cast<std::size_t>(car.lane)];
+    for (const traffic::Snapshot& snapshot : recording.snapshots) {
+      for (const traffic::CarState& car : snapshot.others) {
+        if (car.lane == map::kNoLane || snapshot.time_s < 0.0) continue;
+        const map::Lane& lane = scenario.network.lanes[static_cast<std::size_t>(car.lane)];
         seen.hardest_braking_mps2 = std::max(seen.hardest_braking_mps2, -car.acceleration_mps2);
         seen.fastest_gain_mps2 = std::max(seen.fastest_gain_mps2, car.acceleration_mps2);
         if (lane.in_junction) continue;  // entered as fast as the road before it allowed
@@ -92,20 +92,20 @@ TEST(Adversary, GoesToTheLawsEdgeAndNotBeyond) {
 
 // WORLD-023 A copy goes on as the original does, to the bit, for 5 s.
 TEST(Adversary, ACopyIsTheSame) {
-  const Scenario scenario = test::shipped("cruise");
-  AdversaryTraffic traffic(scenario, 0, 7);
-  EgoSeen ego;
+  const scenario::Scenario scenario = test::shipped("cruise");
+  Traffic traffic(scenario, 0, 7);
+  traffic::EgoSeen ego;
   ego.actor.lane = ego.car.lane = scenario.mission.start_lane;
   ego.actor.s_m = 40.0;
   for (int i = 0; i < 1500; ++i) traffic.step(nullptr);
   for (int i = 0; i < 105; ++i) traffic.step(&ego);
-  const std::unique_ptr<TrafficEngine> copy = traffic.clone();
+  const std::unique_ptr<traffic::TrafficEngine> copy = traffic.clone();
   for (int i = 0; i < 500; ++i) {
     traffic.step(&ego);
     copy->step(&ego);
   }
-  const std::vector<CarState> cars = traffic.cars();
-  const std::vector<CarState> copied = copy->cars();
+  const std::vector<traffic::CarState> cars = traffic.cars();
+  const std::vector<traffic::CarState> copied = copy->cars();
   ASSERT_EQ(cars.size(), copied.size());
   ASSERT_GT(cars.size(), 1U);
   for (std::size_t i = 0; i < cars.size(); ++i) {
@@ -115,4 +115,4 @@ TEST(Adversary, ACopyIsTheSame) {
 }
 
 }  // namespace
-}  // namespace s4tp::world
+}  // namespace s4tp::adversary

@@ -7,11 +7,16 @@
 #include "sim_host/world/judge/reasons.hpp"
 #include "tests/support/judged_road.hpp"
 
-namespace s4tp::world {
+namespace s4tp::judge {
 namespace {
 
+using map::Network;
+using map::Rule;
 using test::eastbound;
 using test::northbound;
+using traffic::CarState;
+using traffic::Cause;
+using traffic::Fault;
 
 /// Of car 7, at the end of what was recorded.
 Verdict judged(const Network& network, double from_s, double until_s, const test::Drive& drive) {
@@ -53,14 +58,14 @@ Law gentle() {
 
 Network slow_road(Rule rule) {
   Network network = test::judged_road(rule);
-  for (NetworkLane& lane : network.lanes) lane.speed_limit_mps = 8.0;
+  for (map::Lane& lane : network.lanes) lane.speed_limit_mps = 8.0;
   return network;
 }
 
 // LAW-022 Licensed, as 1.5 s and 8^2 / 4 are 28 m: the other should have stopped, although we had to yield.
 TEST(Attribution, DrivingIntoOneThereByRight) {
   const Network network = slow_road(Rule::kFirstYields);
-  const std::vector<Snapshot> history = test::recorded(-12.0, 0.0, ego_stands_on_the_zone);
+  const std::vector<traffic::Snapshot> history = test::recorded(-12.0, 0.0, ego_stands_on_the_zone);
   EXPECT_EQ(pair(attribute(network, test::eastwards(network), history, 7, gentle())),
             std::pair(Fault::kOther, Cause::kIntoRightful));
 }
@@ -69,7 +74,7 @@ TEST(Attribution, DrivingIntoOneThereByRight) {
 // zone (114 - 5 < 117 - 5 < 114).
 TEST(Attribution, EnteringWithoutRoomBeyond) {
   const Network network = slow_road(Rule::kFirstYields);
-  const std::vector<Snapshot> history = test::recorded(-12.0, 0.0, [](double t) {
+  const std::vector<traffic::Snapshot> history = test::recorded(-12.0, 0.0, [](double t) {
     std::vector<CarState> cars = ego_stands_on_the_zone(t);
     cars.push_back(eastbound(8, 117.0, 0.0, 0.0));
     return cars;
@@ -239,7 +244,7 @@ TEST(Attribution, UnclearIsOurs) {
   EXPECT_EQ(pair(judged(test::judged_road(Rule::kFirstCome), -2.0, 0.0,
                         [](double t) {
                           CarState ego = eastbound(0, 50.0 + 10.0 * t, -5.0, 10.0);
-                          ego.lane = kNoLane;
+                          ego.lane = map::kNoLane;
                           return std::vector<CarState>{ego, eastbound(7, 51.0 + 10.0 * t, -4.0, 10.0)};
                         })),
             std::pair(Fault::kEgo, Cause::kUnclear));
@@ -247,9 +252,9 @@ TEST(Attribution, UnclearIsOurs) {
 
 // Every cause has words of its own, from both sides.
 TEST(Attribution, CausesHaveWords) {
-  EXPECT_STREQ(cause_words(Fault::kEgo, Cause::kEntered), "entered without licence");
-  EXPECT_STREQ(cause_words(Fault::kOther, Cause::kEntered), "was not given way");
+  EXPECT_STREQ(traffic::cause_words(Fault::kEgo, Cause::kEntered), "entered without licence");
+  EXPECT_STREQ(traffic::cause_words(Fault::kOther, Cause::kEntered), "was not given way");
 }
 
 }  // namespace
-}  // namespace s4tp::world
+}  // namespace s4tp::judge

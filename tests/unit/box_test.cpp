@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace s4tp::world {
+namespace s4tp::traffic {
 namespace {
 
 Box box(double x, double y, double heading = 0.0) {
@@ -47,9 +47,9 @@ TEST(Box, CrossesALine) {
 
 // Angles come out in [-pi, pi): 3 pi is -pi.
 TEST(Box, WrapsAngles) {
-  EXPECT_NEAR(wrap_angle(3.0 * std::numbers::pi), -std::numbers::pi, 1e-12);
-  EXPECT_NEAR(wrap_angle(-0.1), -0.1, 1e-12);
+  EXPECT_NEAR(map::wrap_angle(3.0 * std::numbers::pi), -std::numbers::pi, 1e-12);
+  EXPECT_NEAR(map::wrap_angle(-0.1), -0.1, 1e-12);
 }
 
 }  // namespace
-}  // namespace s4tp::world
+}  // namespace s4tp::traffic

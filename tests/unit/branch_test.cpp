@@ -55,7 +55,8 @@ EgoCommand restless(double time_s) {
   return {1.5 * std::sin(1.3 * time_s) - 0.4, 0.004 * std::sin(2.0 * time_s)};
 }
 
-void expect_same(const Snapshot& a, const CarState& ego, const std::vector<CarState>& others) {
+void expect_same(const traffic::Snapshot& a, const traffic::CarState& ego,
+                 const std::vector<traffic::CarState>& others) {
   ASSERT_EQ(a.ego.centre.x, ego.centre.x);
   ASSERT_EQ(a.ego.centre.y, ego.centre.y);
   ASSERT_EQ(a.ego.speed_mps, ego.speed_mps);
@@ -75,7 +76,7 @@ void expect_same(const Snapshot& a, const CarState& ego, const std::vector<CarSt
 // world is what it would have been without the branches, one of which brakes meanwhile.
 TEST(Branch, TheSameCommandsAreTheWorldItself) {
   for (const char* name : {"cut_in", "cruise"}) {
-    const Scenario scenario = test::shipped(name);
+    const scenario::Scenario scenario = test::shipped(name);
     WorldOptions options;
     options.seed = 4;
     World world(scenario, options);
@@ -105,8 +106,8 @@ TEST(Branch, TheSameCommandsAreTheWorldItself) {
     ASSERT_GT(world.recording().snapshots.back().others.size(), 2U) << name << ": no traffic to compare";
     for (std::size_t tick = 0; tick + 10 < same.commands.size(); ++tick) {
       replayed->step();
-      const Snapshot* shown = nullptr;  // the world records every tenth tick
-      for (const Snapshot& snapshot : world.recording().snapshots) {
+      const traffic::Snapshot* shown = nullptr;  // the world records every tenth tick
+      for (const traffic::Snapshot& snapshot : world.recording().snapshots) {
         if (std::abs(snapshot.time_s - replayed->time_s()) < 1e-6) shown = &snapshot;
       }
       if (shown != nullptr) expect_same(*shown, replayed->ego(), replayed->others());
@@ -121,7 +122,7 @@ TEST(Branch, TheSameCommandsAreTheWorldItself) {
 
 // Two branches of one instant: who drives on into the queue touches somebody, who brakes does not.
 TEST(Branch, KeepsItsCollision) {
-  const Scenario scenario = test::shipped("overtake");  // a slow lane ahead
+  const scenario::Scenario scenario = test::shipped("overtake");  // a slow lane ahead
   WorldOptions options;
   options.seed = 2;
   World world(scenario, options);
@@ -135,14 +136,14 @@ TEST(Branch, KeepsItsCollision) {
     goes->step();
     stops->step();
   }
-  EXPECT_NE(goes->touched(), kNoCar);
-  EXPECT_EQ(stops->touched(), kNoCar);
+  EXPECT_NE(goes->touched(), traffic::kNoCar);
+  EXPECT_EQ(stops->touched(), traffic::kNoCar);
   EXPECT_NEAR(goes->time_s(), 8.0, 1e-6);
 }
 
 // Before the ECU drives there is nothing to decide.
 TEST(Branch, BeginsAfterTheEntryOnly) {
-  const Scenario scenario = test::shipped("cruise");
+  const scenario::Scenario scenario = test::shipped("cruise");
   World world(scenario, {});
   ByTime on(restless);
   EXPECT_THROW((void)world.fork(on), std::logic_error);

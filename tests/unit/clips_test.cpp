@@ -39,7 +39,7 @@ std::string made_up(double mps2) {
 class Clips : public testing::Test {
  protected:
   Clip clip(double mps2) const { return load_clip(folder_.write("made.json", made_up(mps2))); }
-  world::test::Folder folder_;
+  test::Folder folder_;
 };
 
 // CLIP-003 5 s give windows at 1.0, 1.5 and 2.0 s; the parked car gives none; the same clip again adds none.
@@ -83,7 +83,7 @@ TEST_F(Clips, TheFirmwaresPredictorsDriveAlongTheLane) {
     SCOPED_TRACE(name);
     const std::vector<ClipFuture> futures = make_forecaster(name)->forecast(straight, 0, 15);
     ASSERT_FALSE(futures.empty());
-    const world::Vec2 truth = straight.vehicles[0].states.at(45).centre;
+    const map::Vec2 truth = straight.vehicles[0].states.at(45).centre;
     EXPECT_NEAR(futures.front().places.back().x, truth.x, 6.0);
     EXPECT_NEAR(futures.front().places.back().y, 0.0, 1.0);
     double sum = 0.0;
@@ -136,7 +136,7 @@ TEST_F(Clips, RefusesWhatItDoesNotKnow) {
         {"[0,20,0.5,0,10]", "[0,20,0.5,1e300,10]", "heading: accepted"},
         {"[0,20,0.5,0,10]", "[1e300,20,0.5,0,10]", "step: accepted"},
         {"[0,20,0.5,0,10]", "[0.5,20,0.5,0,10]", "whole number"}}) {
-    const std::string why = refusal(folder_.write("bad.json", world::test::replaced(made_up(0.0), from, to)));
+    const std::string why = refusal(folder_.write("bad.json", test::replaced(made_up(0.0), from, to)));
     EXPECT_NE(why.find("bad.json: "), std::string::npos) << to << ": " << why;
     EXPECT_NE(why.find(part), std::string::npos) << to << ": " << why;
   }
@@ -174,8 +174,8 @@ TEST_F(Clips, WindowsBecomeSamplesWithoutAPlan) {
   int vehicles = 0;
   for (int id = 1; id <= 40; ++id) {
     const std::string name = std::to_string(100 + id);
-    const auto file = folder_.write(
-        "made.json", world::test::replaced(made_up(1.0), R"("id": "1")", R"("id": ")" + name + '"'));
+    const auto file =
+        folder_.write("made.json", test::replaced(made_up(1.0), R"("id": "1")", R"("id": ")" + name + '"'));
     Windows windows;
     int samples = 0;
     train::make_clip_samples(load_clip(file), windows, Parameters{}, [&](const train::Sample& sample) {

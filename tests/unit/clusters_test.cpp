@@ -37,7 +37,7 @@ struct Campaigns {
 Campaigns simulate(const std::vector<Kind>& kinds, int roads_each, int episodes, int campaigns) {
   double truth = 0.0;
   for (const Kind& kind : kinds) truth += kind.share * kind.rate;
-  world::Random random(20);
+  traffic::Random random(20);
   Campaigns held;
   for (int campaign = 0; campaign < campaigns; ++campaign) {
     std::vector<Cluster> clusters;

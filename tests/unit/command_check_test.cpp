@@ -19,9 +19,9 @@ const std::vector<wire::Frame>& recorded_drive() {
     campaign::EpisodeOptions options;
     options.seed = 3;
     options.log = log;
-    (void)campaign::run_episode(
-        world::load_scenario(std::filesystem::path(S4TP_SOURCE_DIR) / "sim_host" / "scenarios" / "left_turn"),
-        options);
+    (void)campaign::run_episode(scenario::load_scenario(std::filesystem::path(S4TP_SOURCE_DIR) / "sim_host" /
+                                                        "scenarios" / "left_turn"),
+                                options);
     const std::vector<wire::Frame> frames = test::frames_of_log(log);
     std::filesystem::remove(log);
     return frames;

@@ -9,20 +9,20 @@
 namespace s4tp::metrics {
 namespace {
 
-using world::CarState;
-using world::Rule;
-using world::test::eastbound;
-using world::test::northbound;
+using map::Rule;
+using test::eastbound;
+using test::northbound;
+using traffic::CarState;
 
-Encounters met(Rule rule, double from_s, double until_s, const world::test::Drive& drive) {
-  const world::Network network = world::test::judged_road(rule);
-  const world::RouteGuide guide = world::test::eastwards(network);
-  return encounters_of({}, world::Evidence(network, world::test::recorded(from_s, until_s, drive), &guide),
-                       world::test::kStart_s + from_s);
+Encounters met(Rule rule, double from_s, double until_s, const test::Drive& drive) {
+  const map::Network network = test::judged_road(rule);
+  const map::RouteGuide guide = test::eastwards(network);
+  return encounters_of({}, judge::Evidence(network, test::recorded(from_s, until_s, drive), &guide),
+                       test::kStart_s + from_s);
 }
 
 /// Both at 10 m/s; the ego's centre is on the crossing (x = 110) at t = 0, the other's `later_s` after.
-world::test::Drive crossing(double later_s) {
+test::Drive crossing(double later_s) {
   return [=](double t) {
     return std::vector<CarState>{eastbound(0, 110.0 + 10.0 * t, 0.0, 10.0),
                                  northbound(7, 10.0 * (t - later_s), 10.0)};
@@ -50,7 +50,7 @@ TEST(Encounters, TouchesAreNoNearMisses) {
 }
 
 /// Car 7 brakes with 2.5 m/s^2 `gap_m` behind the ego, which drives 8 m/s, at 12 m/s.
-world::test::Drive braking_behind(double gap_m) {
+test::Drive braking_behind(double gap_m) {
   return [=](double t) {
     CarState behind = eastbound(7, 50.0 - 5.0 - gap_m + 12.0 * t, 0.0, 12.0);
     behind.acceleration_mps2 = -2.5;

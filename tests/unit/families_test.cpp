@@ -13,10 +13,10 @@ namespace s4tp::campaign {
 namespace {
 
 /// Seed of an episode -> how it ended.
-using Endings = std::vector<world::Ending>;
-constexpr auto kGoal = world::Ending::kGoal;
-constexpr auto kLate = world::Ending::kTimeOut;
-constexpr auto kHit = world::Ending::kCollision;
+using Endings = std::vector<traffic::Ending>;
+constexpr auto kGoal = traffic::Ending::kGoal;
+constexpr auto kLate = traffic::Ending::kTimeOut;
+constexpr auto kHit = traffic::Ending::kCollision;
 
 /// Goals after 20 s, failures after 7 s.
 void add(std::vector<EpisodeRow>& rows, const std::string& planner, bool guarded, const std::string& road,

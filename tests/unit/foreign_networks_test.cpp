@@ -14,7 +14,7 @@
 #include "sim_host/world/nodes/map_node.hpp"
 #include "tests/support/networks.hpp"
 
-namespace s4tp::world {
+namespace s4tp::map {
 namespace {
 
 using test::lane;
@@ -23,8 +23,8 @@ std::filesystem::path folder() {
   return std::filesystem::path(S4TP_SOURCE_DIR) / "tests" / "networks";
 }
 
-Scenario foreign(const std::string& name, const std::string& flavour = {}) {
-  return load_scenario(folder() / (name + ".toml"), flavour);
+scenario::Scenario foreign(const std::string& name, const std::string& flavour = {}) {
+  return scenario::load_scenario(folder() / (name + ".toml"), flavour);
 }
 
 /// From an edge through the junction to another.
@@ -56,7 +56,7 @@ std::optional<Rule> rule_between(const Network& network, const Turn& first, cons
   std::optional<Rule> rule;
   for (const LaneId mine : inside(network, first)) {
     for (const LaneId other : inside(network, second)) {
-      for (const NetworkConflict& each : network.conflicts) {
+      for (const Conflict& each : network.conflicts) {
         const bool turned = each.first == other && each.second == mine;
         if (!turned && !(each.first == mine && each.second == other)) {
           continue;
@@ -74,8 +74,8 @@ std::optional<Rule> rule_between(const Network& network, const Turn& first, cons
   return rule;
 }
 
-bool stops_before(const Scenario& scenario, const std::string& name) {
-  return yields_at_end(scenario.network, mission_guide(scenario), scenario.network.find(name));
+bool stops_before(const scenario::Scenario& scenario, const std::string& name) {
+  return yields_at_end(scenario.network, scenario::mission_guide(scenario), scenario.network.find(name));
 }
 
 /// A T as seen from its foot: arms to the right and left, and the foot.
@@ -109,7 +109,7 @@ TEST(ForeignNetworks, AllWayStopAndUnregulatedAreFirstCome) {
   for (const char* name : {"all_way_stop", "unregulated"}) {
     const Network network = foreign(name).network;
     ASSERT_FALSE(network.conflicts.empty()) << name;
-    for (const NetworkConflict& each : network.conflicts) {
+    for (const Conflict& each : network.conflicts) {
       EXPECT_EQ(each.rule, Rule::kFirstCome) << name;
     }
     EXPECT_EQ(rule_between(network, {"s_in", "n_out"}, {"e_in", "w_out"}), Rule::kFirstCome) << name;
@@ -128,16 +128,16 @@ TEST(ForeignNetworks, RightBeforeLeft) {
 
 // NET-002 Of a zipper's two lanes neither has the right of way.
 TEST(ForeignNetworks, AZipperIsFirstCome) {
-  const Scenario scenario = foreign("zipper");
+  const scenario::Scenario scenario = foreign("zipper");
   ASSERT_FALSE(scenario.network.conflicts.empty());
-  for (const NetworkConflict& each : scenario.network.conflicts) {
+  for (const Conflict& each : scenario.network.conflicts) {
     EXPECT_EQ(each.rule, Rule::kFirstCome);
   }
 }
 
 // NET-002 Into a roundabout one yields to the ring; who drives on in the ring does not stop.
 TEST(ForeignNetworks, TheRingHasPriority) {
-  const Scenario scenario = foreign("roundabout", "over");
+  const scenario::Scenario scenario = foreign("roundabout", "over");
   EXPECT_EQ(rule_between(scenario.network, {"s_in", "ring_s"}, {"ring_w", "ring_s"}), Rule::kFirstYields);
   EXPECT_EQ(scenario.mission.edges, (std::vector<std::string>{"s_in", "ring_s", "ring_e", "n_out"}));
   EXPECT_TRUE(stops_before(scenario, "s_in_0"));
@@ -148,7 +148,7 @@ TEST(ForeignNetworks, TheRingHasPriority) {
 // turning.
 TEST(ForeignNetworks, SignsAndSignalsFollowThePriorities) {
   for (const char* name : {"stop_signs", "signals"}) {
-    const Scenario scenario = foreign(name);
+    const scenario::Scenario scenario = foreign(name);
     const Turn ego{"s_in", "w_out"};
     EXPECT_EQ(rule_between(scenario.network, ego, {"e_in", "w_out"}), Rule::kFirstYields) << name;
     EXPECT_EQ(rule_between(scenario.network, ego, {"w_in", "e_out"}), Rule::kFirstYields) << name;
@@ -162,9 +162,9 @@ TEST(ForeignNetworks, ZonesAreWhereBoxesTouch) {
   const Network network = foreign("all_way_stop").network;
   const LaneId mine = inside(network, {"s_in", "n_out"}).at(0);
   const LaneId other = inside(network, {"e_in", "w_out"}).at(0);
-  const auto found = std::find_if(
-      network.conflicts.begin(), network.conflicts.end(),
-      [&](const NetworkConflict& c) { return std::minmax(c.first, c.second) == std::minmax(mine, other); });
+  const auto found = std::find_if(network.conflicts.begin(), network.conflicts.end(), [&](const Conflict& c) {
+    return std::minmax(c.first, c.second) == std::minmax(mine, other);
+  });
   ASSERT_NE(found, network.conflicts.end());
   const bool first = found->first == mine;
   EXPECT_NEAR(first ? found->first_entry_m : found->second_entry_m, 5.2, 0.3);
@@ -182,21 +182,21 @@ TEST(ForeignNetworks, PlaceAndTurnDoNotMatter) {
 
 // NET-003 The right lane is wanted less than 50 m after one has come into the left one of three: two changes.
 TEST(ForeignNetworks, LateChangesAreKnown) {
-  const Scenario scenario = foreign("late_changes");
+  const scenario::Scenario scenario = foreign("late_changes");
   const LaneId entered = scenario.network.find("w_in_2");
-  EXPECT_EQ(mission_guide(scenario).advice(entered).changes_needed, -2);
+  EXPECT_EQ(scenario::mission_guide(scenario).advice(entered).changes_needed, -2);
   EXPECT_LT(lane(scenario.network, "w_in_2").centre.length_m(), 50.0);
-  EXPECT_EQ(mission_guide(foreign("late_changes", "left")).advice(entered).changes_needed, 0);
+  EXPECT_EQ(scenario::mission_guide(foreign("late_changes", "left")).advice(entered).changes_needed, 0);
 }
 
 // SCN-002 A shoulder that cars may not use is no lane: SUMO's lane 1 is the rightmost one; the mission keeps
 // its lane.
 TEST(ForeignNetworks, AShoulderIsNoLane) {
-  const Scenario scenario = foreign("curve", "change");
+  const scenario::Scenario scenario = foreign("curve", "change");
   EXPECT_EQ(scenario.network.find("bend_0"), kNoLane);
   EXPECT_EQ(scenario.mission.start_lane, scenario.network.lane_of("bend", 1));
   EXPECT_EQ(lane(scenario.network, "bend_1").right, kNoLane);
-  EXPECT_EQ(mission_guide(scenario).advice(scenario.mission.start_lane).changes_needed, 1);
+  EXPECT_EQ(scenario::mission_guide(scenario).advice(scenario.mission.start_lane).changes_needed, 1);
 }
 
 // A right turn as netconvert draws it, with five points, turns over 40 degrees in its middle two metres; a
@@ -212,8 +212,8 @@ TEST(ForeignNetworks, RightTurnsAreArcs) {
 
 // Four lanes, the turn only from the rightmost: from the third one two changes to the right.
 TEST(ForeignNetworks, FourLanesToTheRightTurn) {
-  const Scenario scenario = foreign("four_lanes", "right");
-  EXPECT_EQ(mission_guide(scenario).advice(scenario.network.find("w_in_2")).changes_needed, -2);
+  const scenario::Scenario scenario = foreign("four_lanes", "right");
+  EXPECT_EQ(scenario::mission_guide(scenario).advice(scenario.network.find("w_in_2")).changes_needed, -2);
 }
 
 class ForeignMaps : public testing::TestWithParam<std::string> {};
@@ -221,12 +221,12 @@ class ForeignMaps : public testing::TestWithParam<std::string> {};
 // MAP-002 For every network and mission: what the map node shows fits the bus, lies around the ego, holds the
 // whole route, and every zone lies on its lanes.
 TEST_P(ForeignMaps, AreShownRight) {
-  const Scenario scenario = foreign(GetParam());
+  const scenario::Scenario scenario = foreign(GetParam());
   const Polyline& start =
       scenario.network.lanes[static_cast<std::size_t>(scenario.mission.start_lane)].centre;
   const Vec2 origin = start.at(scenario.mission.start_s_m).point;
-  const RouteGuide guide = mission_guide(scenario);
-  MapNode node(scenario.network, guide, origin);
+  const RouteGuide guide = scenario::mission_guide(scenario);
+  nodes::MapNode node(scenario.network, guide, origin);
   const wire::Map& map = node.update(origin);
   EXPECT_EQ(map.lanes_left_out, 0);
   int on_route = 0;
@@ -246,7 +246,7 @@ TEST_P(ForeignMaps, AreShownRight) {
       EXPECT_LE(conflict.second_entry_m, conflict.second_exit_m);
     }
   }
-  for (const NetworkLane& each : scenario.network.lanes) {  // lanes join: no gaps where ways go on
+  for (const Lane& each : scenario.network.lanes) {  // lanes join: no gaps where ways go on
     for (const LaneId next : each.successors) {
       const Vec2 a = each.centre.points().back();
       const Vec2 b = scenario.network.lanes[static_cast<std::size_t>(next)].centre.points().front();
@@ -263,4 +263,4 @@ INSTANTIATE_TEST_SUITE_P(All, ForeignMaps,
                          [](const auto& each) { return each.param; });
 
 }  // namespace
-}  // namespace s4tp::world
+}  // namespace s4tp::map

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace s4tp::world {
+namespace s4tp::judge {
 namespace {
 
 /// Gains 3 m/s^2 at most to 1.2 times the limit of 10 m/s, so 12.
@@ -101,4 +101,4 @@ TEST(Licence, TheOtherStands) {
 }
 
 }  // namespace
-}  // namespace s4tp::world
+}  // namespace s4tp::judge

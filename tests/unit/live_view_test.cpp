@@ -59,8 +59,8 @@ class Keeper final : public campaign::Onlooker {
 const Keeper& left_turn() {
   static const std::unique_ptr<Keeper> keeper = [] {
     auto made = std::make_unique<Keeper>();
-    const world::Scenario scenario =
-        world::load_scenario(std::filesystem::path(S4TP_SOURCE_DIR) / "sim_host/scenarios/left_turn");
+    const scenario::Scenario scenario =
+        scenario::load_scenario(std::filesystem::path(S4TP_SOURCE_DIR) / "sim_host/scenarios/left_turn");
     campaign::EpisodeOptions options;
     options.seed = 7;
     options.onlooker = made.get();
@@ -176,7 +176,7 @@ TEST(LiveCycle, TellsModeAndFaults) {
 
 // TELE-005 Looked at or not, at the pace of the clock or not, the drive is the same.
 TEST(LiveDrive, IsTheSameDrive) {
-  const world::Scenario scenario = tests::shipped_for("cruise", 4.0);
+  const scenario::Scenario scenario = tests::shipped_for("cruise", 4.0);
   campaign::EpisodeOptions options;
   options.trace = true;
   const auto begin = std::chrono::steady_clock::now();

@@ -10,9 +10,10 @@
 
 #include "tests/support/networks.hpp"
 
-namespace s4tp::world {
+namespace s4tp::nodes {
 namespace {
 
+using map::Network;
 using test::lane;
 using test::network_of;
 using test::shipped;
@@ -59,10 +60,12 @@ std::string winding_road(int lanes, int length_m) {
 
 /// The map of a shipped scenario around a point; what it refers to lives as long as it.
 struct Shown {
-  explicit Shown(const char* name, Vec2 origin = {})
-      : scenario(shipped(name)), guide(mission_guide(scenario)), node(scenario.network, guide, origin) {}
-  Scenario scenario;
-  RouteGuide guide;
+  explicit Shown(const char* name, map::Vec2 origin = {})
+      : scenario(shipped(name)),
+        guide(scenario::mission_guide(scenario)),
+        node(scenario.network, guide, origin) {}
+  scenario::Scenario scenario;
+  map::RouteGuide guide;
   MapNode node;
 };
 
@@ -117,7 +120,7 @@ TEST(MapNode, KnowsWhichLanesLeadAgainstUs) {
 // MAP-001 Along the whole drive every lane that stays keeps its slot, and every conflict too.
 TEST(MapNode, SlotsAreStableWhileMoving) {
   const Network network = network_of(winding_road(3, 3000));
-  const RouteGuide guide(network, {"road"}, kNoLane, 3000.0);
+  const map::RouteGuide guide(network, {"road"}, map::kNoLane, 3000.0);
   MapNode node(network, guide, {});
   wire::Map before = node.update({0.0, 0.0});
   int kept = 0;
@@ -158,7 +161,7 @@ TEST(MapNode, LanesDoNotFlickerAtTheHorizon) {
 // one before and starts where that one ends, neighbours lie beside each other, and goal distances go on.
 TEST(MapNode, LongLanesAreSentInParts) {
   const Network network = network_of(winding_road(2, 3000));
-  const RouteGuide guide(network, {"road"}, kNoLane, network.lanes[0].centre.length_m());
+  const map::RouteGuide guide(network, {"road"}, map::kNoLane, network.lanes[0].centre.length_m());
   MapNode node(network, guide, {}, 1000.0);
   const wire::Map& map = node.update({0.0, 0.0});
   std::uint8_t at = slot_at(map, 0.0, 0.0);
@@ -185,7 +188,7 @@ TEST(MapNode, ALaneThatBendsOftenHasFewParts) {
   std::string text = "<net><edge id=\"road\"><lane id=\"road_0\" index=\"0\" shape=\"";
   for (int i = 0; i < 40; ++i) text += std::to_string(0.05 * i) + "," + std::to_string(i % 2) + " ";
   const Network network = network_of(text + "2000,0\"/></edge></net>");
-  const RouteGuide guide(network, {"road"}, kNoLane, 2000.0);
+  const map::RouteGuide guide(network, {"road"}, map::kNoLane, 2000.0);
   MapNode node(network, guide, {});
   const wire::Map& map = node.update({0.0, 0.0});
   EXPECT_LE(lane_count(map), 5);
@@ -210,12 +213,12 @@ TEST(MapNode, LanesThatLeadIntoEachOtherAreNoWayWithoutEnd) {
     <edge id=":c_0b" function="internal"><lane id=":c_0b_0" index="0" shape="-3,-1 -3,-9"/></edge>
     <edge id=":c_5" function="internal"><lane id=":c_5_0" index="0" shape="0,-1 0,10"/></edge>)");
   const Network network = network_of(text);
-  const LaneId crossed = network.find(":c_5_0");
+  const map::LaneId crossed = network.find(":c_5_0");
   ASSERT_EQ(lane(network, ":c_5_0").predecessors.front(), network.find(":c_0a_0"));
-  ASSERT_TRUE(std::any_of(
-      network.conflicts.begin(), network.conflicts.end(),
-      [&](const NetworkConflict& each) { return each.first == crossed || each.second == crossed; }));
-  const RouteGuide guide(network, {"west_in", "east_out"}, kNoLane, 40.0);
+  ASSERT_TRUE(std::any_of(network.conflicts.begin(), network.conflicts.end(), [&](const map::Conflict& each) {
+    return each.first == crossed || each.second == crossed;
+  }));
+  const map::RouteGuide guide(network, {"west_in", "east_out"}, map::kNoLane, 40.0);
   MapNode node(network, guide, {});
   EXPECT_GE(lane_count(node.update({-30.0, 0.0})), 9);
 }
@@ -243,14 +246,14 @@ TEST(MapNode, ArcLengthsAreThoseOfTheVerticesSent) {
   }
   // Two ways into each of the main road's four lanes: 4 pairs; three into each minor exit: 3 pairs twice.
   EXPECT_EQ(merging, 10);
-  const Polyline& turn = lane(shown.scenario.network, ":centre_9_0").centre;
+  const map::Polyline& turn = lane(shown.scenario.network, ":centre_9_0").centre;
   const wire::Lane& sent = map.lanes[map.lanes[slot_at(map, 1.6, -38.7)].successors[0]];
-  std::vector<Vec2> points;
+  std::vector<map::Vec2> points;
   for (int i = 0; i < sent.point_count; ++i) {
     points.push_back({static_cast<double>(sent.x_m[i]), static_cast<double>(sent.y_m[i])});
   }
-  for (const Vec2& vertex : turn.points()) {
-    EXPECT_LE(std::abs(Polyline(points).project(vertex).d_m), 0.031);
+  for (const map::Vec2& vertex : turn.points()) {
+    EXPECT_LE(std::abs(map::Polyline(points).project(vertex).d_m), 0.031);
   }
 }
 
@@ -263,7 +266,7 @@ TEST(MapNode, AZoneOverABorderIsToldForBothParts) {
   text = test::replaced(text, "-50,0 -10,0", "-250,0 -200,0");
   text = test::replaced(text, "10,0 50,0", "200,0 250,0");
   const Network network = network_of(text);
-  const RouteGuide guide(network, {"west_in", "east_out"}, kNoLane, 50.0);
+  const map::RouteGuide guide(network, {"west_in", "east_out"}, map::kNoLane, 50.0);
   MapNode node(network, guide, {});
   const wire::Map& map = node.update({0.0, 0.0});
   int found = 0;
@@ -298,7 +301,7 @@ TEST(MapNode, TheRouteComesFirstWhenSlotsAreFew) {
     add("road", i, 100.0 + 3.0 * i);
   }
   const Network network = network_of(text + "</edge></net>");
-  const RouteGuide guide(network, {"road"}, kNoLane, 100.0);
+  const map::RouteGuide guide(network, {"road"}, map::kNoLane, 100.0);
   MapNode node(network, guide, {});
   const wire::Map& map = node.update({50.0, 0.0});
   EXPECT_EQ(lane_count(map), wire::kMaxLanes);
@@ -311,4 +314,4 @@ TEST(MapNode, TheRouteComesFirstWhenSlotsAreFew) {
 }
 
 }  // namespace
-}  // namespace s4tp::world
+}  // namespace s4tp::nodes

@@ -10,7 +10,7 @@
 namespace s4tp::train {
 namespace {
 
-using world::test::kCross;
+using test::kCross;
 
 /// On the cross: we come from the west and yield, the other one from the south; zones lie around the origin.
 class AtTheCross : public testing::Test {
@@ -18,13 +18,13 @@ class AtTheCross : public testing::Test {
   /// A drive of 8 s; positions along each road are functions of time, 0 at the crossing point.
   template <class Ego, class Car>
   Meeting drive(Ego ego_m, Car car_m) const {
-    std::vector<world::Snapshot> snapshots;
+    std::vector<traffic::Snapshot> snapshots;
     for (int i = 0; i <= 80; ++i) {
-      world::Snapshot snapshot;
+      traffic::Snapshot snapshot;
       snapshot.time_s = 0.1 * i;
       snapshot.ego.centre = {ego_m(snapshot.time_s), 0.0};
       snapshot.ego.lane = lane("west_in_0", ":c_0_0", "east_out_0", snapshot.ego.centre.x);
-      world::CarState car;
+      traffic::CarState car;
       car.id = 7;
       car.centre = {0.0, car_m(snapshot.time_s)};
       car.lane = lane("south_in_0", ":c_1_0", "north_out_0", car.centre.y);
@@ -34,12 +34,12 @@ class AtTheCross : public testing::Test {
     return Meetings(network_, guide_, snapshots).with(7);
   }
 
-  world::LaneId lane(const char* in, const char* across, const char* out, double along_m) const {
+  map::LaneId lane(const char* in, const char* across, const char* out, double along_m) const {
     return network_.find(along_m < -10.0 ? in : along_m < 10.0 ? across : out);
   }
 
-  world::Network network_ = world::test::network_of(kCross);
-  world::RouteGuide guide_{network_, {"west_in", "east_out"}, network_.find("east_out_0"), 40.0};
+  map::Network network_ = test::network_of(kCross);
+  map::RouteGuide guide_{network_, {"west_in", "east_out"}, network_.find("east_out_0"), 40.0};
 };
 
 auto at(double start_m, double speed_mps) {

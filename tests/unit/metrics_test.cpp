@@ -9,18 +9,18 @@
 namespace s4tp::metrics {
 namespace {
 
-using world::CarState;
-using world::Ending;
-using world::Recording;
-using world::Snapshot;
+using traffic::CarState;
+using traffic::Ending;
+using traffic::Recording;
+using traffic::Snapshot;
 
 /// One lane of 2 km along y = 0, on which all of these drives go.
-const world::Scenario& straight() {
-  static const world::Scenario scenario = [] {
-    world::Scenario road;
+const scenario::Scenario& straight() {
+  static const scenario::Scenario scenario = [] {
+    scenario::Scenario road;
     road.network.lanes.resize(1);
     road.network.lanes[0].edge = "road";
-    road.network.lanes[0].centre = world::Polyline({{-1000.0, 0.0}, {1000.0, 0.0}});
+    road.network.lanes[0].centre = map::Polyline({{-1000.0, 0.0}, {1000.0, 0.0}});
     road.mission.edges = {"road"};
     road.mission.goal_s_m = 2000.0;
     return road;
@@ -250,7 +250,7 @@ TEST(Metrics, RssViolationsAreCountedWhenTheyBegin) {
 TEST(Metrics, NothingCountsAfterTheTouch) {
   Recording recording = cruise(5, 10.0);
   recording.ending = Ending::kCollision;
-  recording.collisions = {{0.2, 1, world::Fault::kOther, world::Cause::kRanInto}};
+  recording.collisions = {{0.2, 1, traffic::Fault::kOther, traffic::Cause::kRanInto}};
   recording.snapshots[3].ego.acceleration_mps2 = -9.0;
   const EpisodeMetrics metrics = evaluate(recording);
   EXPECT_NEAR(metrics.duration_s, 0.2, 1e-12);
@@ -265,7 +265,7 @@ TEST(Metrics, NothingCountsAfterTheTouch) {
 TEST(Metrics, HitWhileStanding) {
   Recording recording = cruise(3, 0.0);
   recording.ending = Ending::kCollision;
-  recording.collisions = {{0.2, 1, world::Fault::kOther, world::Cause::kRanInto}};
+  recording.collisions = {{0.2, 1, traffic::Fault::kOther, traffic::Cause::kRanInto}};
   EXPECT_TRUE(evaluate(recording).collided_standing);
 }
 

@@ -13,17 +13,17 @@
 namespace s4tp::roads {
 namespace {
 
-using world::test::kCross;
-using world::test::replaced;
+using test::kCross;
+using test::replaced;
 
 /// A mission over a network written as text.
 std::string obstacle(const std::string& network, const std::string& start, const std::string& goal,
                      const std::string& more = {}) {
-  const world::test::Folder folder;
+  const test::Folder folder;
   folder.write("net.xml", network);
   folder.write("scenario.toml", "[network]\nfile = \"net.xml\"\n[mission]\nstart_lane = \"" + start +
                                     "\"\ngoal_lane = \"" + goal + "\"\n" + more + "[traffic]\n");
-  return obstacle_of(world::load_scenario(folder.path()));
+  return obstacle_of(scenario::load_scenario(folder.path()));
 }
 
 /// Two lanes of 60 m that go on as one, from the left lane.

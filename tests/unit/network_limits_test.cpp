@@ -10,7 +10,7 @@
 #include "sim_host/world/map/network.hpp"
 #include "tests/support/networks.hpp"
 
-namespace s4tp::world {
+namespace s4tp::map {
 namespace {
 
 using test::kBridged;
@@ -141,4 +141,4 @@ TEST(Network, WhatIsWithinTheLimitsIsRead) {
 }
 
 }  // namespace
-}  // namespace s4tp::world
+}  // namespace s4tp::map

@@ -11,7 +11,7 @@
 
 #include "tests/support/networks.hpp"
 
-namespace s4tp::world {
+namespace s4tp::map {
 namespace {
 
 using test::kBridged;
@@ -22,11 +22,11 @@ using test::replaced;
 using test::shipped;
 
 /// The conflict of two lanes as seen from the first one named.
-std::optional<NetworkConflict> conflict_of(const Network& network, const std::string& mine,
-                                           const std::string& other) {
+std::optional<Conflict> conflict_of(const Network& network, const std::string& mine,
+                                    const std::string& other) {
   const LaneId first = network.find(mine);
   const LaneId second = network.find(other);
-  for (NetworkConflict found : network.conflicts) {
+  for (Conflict found : network.conflicts) {
     if (found.first == second && found.second == first) {
       std::swap(found.first, found.second);
       std::swap(found.first_entry_m, found.second_entry_m);
@@ -149,9 +149,9 @@ TEST(Network, ZonesLieOnTheirLanes) {
   for (const char* name : {"left_turn", "left_turn_t", "merge", "cruise"}) {
     const Network network = shipped(name).network;
     std::vector<std::pair<LaneId, LaneId>> seen;
-    for (const NetworkConflict& each : network.conflicts) {
-      const NetworkLane& first = network.lanes.at(static_cast<std::size_t>(each.first));
-      const NetworkLane& second = network.lanes.at(static_cast<std::size_t>(each.second));
+    for (const Conflict& each : network.conflicts) {
+      const Lane& first = network.lanes.at(static_cast<std::size_t>(each.first));
+      const Lane& second = network.lanes.at(static_cast<std::size_t>(each.second));
       EXPECT_GE(each.first_entry_m, 0.0);
       EXPECT_LE(each.first_entry_m, each.first_exit_m);
       EXPECT_LE(each.first_exit_m, first.centre.length_m());
@@ -248,4 +248,4 @@ TEST(Network, LoadsWithoutJunctionLanes) {
 }
 
 }  // namespace
-}  // namespace s4tp::world
+}  // namespace s4tp::map

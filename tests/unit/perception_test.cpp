@@ -4,11 +4,11 @@
 
 #include <set>
 
-namespace s4tp::world {
+namespace s4tp::nodes {
 namespace {
 
-CarState car(int id, double x, double y) {
-  CarState state;
+traffic::CarState car(int id, double x, double y) {
+  traffic::CarState state;
   state.id = id;
   state.centre = {x, y};
   state.speed_mps = 10.0;
@@ -30,7 +30,7 @@ std::size_t receive(Perception& perception, std::uint32_t& now_ms, wire::TrackLi
 }
 
 /// Three lists, so that the receiver trusts the header; the last one counts.
-wire::Tracks seen(Perception& perception, const std::vector<CarState>& others) {
+wire::Tracks seen(Perception& perception, const std::vector<traffic::CarState>& others) {
   wire::TrackListReceiver receiver;
   std::uint32_t now_ms = 0;
   for (int list = 0; list < 4; ++list) {
@@ -43,7 +43,7 @@ wire::Tracks seen(Perception& perception, const std::vector<CarState>& others) {
 // WORLD-010 20 cars in range and one at 151 m: the nearest 16 are shown, nearest first, 4 counted as left
 // out.
 TEST(Perception, ShowsTheNearestSixteen) {
-  std::vector<CarState> others{car(99, 151.0, 0.0)};
+  std::vector<traffic::CarState> others{car(99, 151.0, 0.0)};
   for (int i = 20; i >= 1; --i) {
     others.push_back(car(i, 5.0 * i, 0.0));
   }
@@ -66,7 +66,7 @@ TEST(Perception, SpeaksInOdometryCoordinates) {
 
 // WORLD-011 The longest list has 1 + 2 * 16 = 33 frames and takes three ticks of 12.
 TEST(Perception, SpreadsAListOverThreeTicks) {
-  std::vector<CarState> others;
+  std::vector<traffic::CarState> others;
   for (int i = 1; i <= 16; ++i) {
     others.push_back(car(i, 5.0 * i, 0.0));
   }
@@ -84,13 +84,13 @@ TEST(Perception, SpreadsAListOverThreeTicks) {
 
 // Ids stay with their cars; switched at a rate of 10 / s, that is in every list, none stays.
 TEST(Perception, KeepsIdsUnlessToldOtherwise) {
-  const std::vector<CarState> others{car(300, 10.0, 0.0), car(556, 20.0, 0.0)};
+  const std::vector<traffic::CarState> others{car(300, 10.0, 0.0), car(556, 20.0, 0.0)};
   Perception steady({}, {0.0, 0.0}, 1);
   const wire::Tracks first = seen(steady, others);
   const wire::Tracks later = seen(steady, others);
   EXPECT_NE(first.items[0].id, first.items[1].id);
   EXPECT_EQ(first.items[0].id, later.items[0].id);
-  PerceptionOptions options;
+  scenario::PerceptionOptions options;
   options.id_switches_per_s = 10.0;
   Perception switching(options, {0.0, 0.0}, 1);
   EXPECT_NE(seen(switching, others).items[0].id, seen(switching, others).items[0].id);
@@ -98,7 +98,7 @@ TEST(Perception, KeepsIdsUnlessToldOtherwise) {
 
 // A car exactly behind another one cannot be seen when occlusion is on; beside it, it can.
 TEST(Perception, HidesCarsBehindOthers) {
-  PerceptionOptions options;
+  scenario::PerceptionOptions options;
   options.occlusion = true;
   Perception perception(options, {0.0, 0.0}, 1);
   EXPECT_EQ(seen(perception, {car(1, 10.0, 0.0), car(2, 20.0, 0.0)}).count, 1);
@@ -107,7 +107,7 @@ TEST(Perception, HidesCarsBehindOthers) {
 
 // With a dropout of one half, 200 lists of one car show about 100, within 4 sigma = 28.
 TEST(Perception, DropsTracks) {
-  PerceptionOptions options;
+  scenario::PerceptionOptions options;
   options.dropout = 0.5;
   Perception perception(options, {0.0, 0.0}, 1);
   wire::TrackListReceiver receiver;
@@ -123,7 +123,7 @@ TEST(Perception, DropsTracks) {
 
 // Noise of 0.5 m is there, and of that size: the mean square of 400 draws lies within 0.25 +- 0.07.
 TEST(Perception, AddsNoise) {
-  PerceptionOptions options;
+  scenario::PerceptionOptions options;
   options.position_noise_m = 0.5;
   Perception perception(options, {0.0, 0.0}, 1);
   double squares = 0.0;
@@ -136,7 +136,7 @@ TEST(Perception, AddsNoise) {
 
 // A latency of 10 ticks: nothing for 100 ms, then a list stamped with when it was seen.
 TEST(Perception, DelaysLists) {
-  PerceptionOptions options;
+  scenario::PerceptionOptions options;
   options.latency_ticks = 10;
   Perception perception(options, {0.0, 0.0}, 1);
   perception.observe(car(0, 0.0, 0.0), {car(1, 10.0, 0.0)}, 1000);
@@ -148,4 +148,4 @@ TEST(Perception, DelaysLists) {
 }
 
 }  // namespace
-}  // namespace s4tp::world
+}  // namespace s4tp::nodes

@@ -70,7 +70,7 @@ class Drive {
     motion.speed_mps = ego().speed_mps;
     motion.acceleration_mps2 = ego().acceleration_mps2;
     std::vector<wire::Frame> frames;
-    world::append(motion, sender_, frames);
+    nodes::append(motion, sender_, frames);
     return frames[0];
   }
 
@@ -78,7 +78,7 @@ class Drive {
   LaneMap map_ = test::straight_road(1, 300.0F);
   scene::Scene scene_;
   trajectory::ReferenceLine line_;
-  world::Vehicle vehicle_;
+  nodes::Vehicle vehicle_;
   ecu::Tracker tracker_;
   gate::CommandGate gate_{ecu::gate_limits(Parameters{})};
   wire::E2eSender sender_;

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <stdexcept>
 
-namespace s4tp::world {
+namespace s4tp::map {
 namespace {
 
 constexpr double kQuarter = std::numbers::pi / 2.0;
@@ -90,4 +90,4 @@ TEST(Polyline, NeedsTwoDifferentPoints) {
 }
 
 }  // namespace
-}  // namespace s4tp::world
+}  // namespace s4tp::map

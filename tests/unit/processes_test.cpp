@@ -24,9 +24,9 @@ namespace {
 using hal::linux_host::FakeBus;
 using std::chrono::steady_clock;
 
-const world::Scenario& left_turn() {
-  static const world::Scenario scenario =
-      world::load_scenario(std::filesystem::path(S4TP_SOURCE_DIR) / "sim_host" / "scenarios" / "left_turn");
+const scenario::Scenario& left_turn() {
+  static const scenario::Scenario scenario = scenario::load_scenario(std::filesystem::path(S4TP_SOURCE_DIR) /
+                                                                     "sim_host" / "scenarios" / "left_turn");
   return scenario;
 }
 
@@ -78,7 +78,7 @@ struct WorldRun {
   }
 };
 
-bool same_drive(const world::Recording& a, const world::Recording& b) {
+bool same_drive(const traffic::Recording& a, const traffic::Recording& b) {
   bool same = a.ending == b.ending && a.snapshots.size() == b.snapshots.size();
   for (std::size_t i = 0; same && i < a.snapshots.size(); ++i) {
     same = a.snapshots[i].ego.centre.x == b.snapshots[i].ego.centre.x &&
@@ -100,8 +100,8 @@ TEST(WorldProcess, LockStep) {
   EXPECT_GT(run.result.ticks, 300);
   EXPECT_EQ(run.result.unanswered, 0);
   EXPECT_EQ(run.result.refused_commands, 0);
-  EXPECT_NE(run.result.recording.ending, world::Ending::kRunning);
-  EXPECT_NE(run.result.recording.ending, world::Ending::kDeadEcu);
+  EXPECT_NE(run.result.recording.ending, traffic::Ending::kRunning);
+  EXPECT_NE(run.result.recording.ending, traffic::Ending::kDeadEcu);
   EXPECT_LT(run.seconds, 5.0);
 }
 
@@ -135,7 +135,7 @@ TEST(WorldProcess, DeadEcu) {
   };
   WorldRun run;
   run.run(bus);
-  EXPECT_EQ(run.result.recording.ending, world::Ending::kDeadEcu);
+  EXPECT_EQ(run.result.recording.ending, traffic::Ending::kDeadEcu);
   EXPECT_EQ(run.result.unanswered, 2);
   EXPECT_EQ(run.result.ticks, 402);
   EXPECT_NEAR(std::chrono::duration<double>(steady_clock::now() - silent).count(), 2.0, 1.0);
@@ -155,7 +155,7 @@ TEST(WorldProcess, OneAnswerLost) {
   run.run(bus);
   EXPECT_TRUE(lost);
   EXPECT_EQ(run.result.unanswered, 1);
-  EXPECT_NE(run.result.recording.ending, world::Ending::kDeadEcu);
+  EXPECT_NE(run.result.recording.ending, traffic::Ending::kDeadEcu);
 }
 
 // PROC-024 Beside every answer come commands to steer hard left: with a wrong CRC; with a right one, as
@@ -207,7 +207,7 @@ TEST(WorldProcess, LinkDownStopsTime) {
   WorldRun run;
   run.run(bus);
   EXPECT_EQ(run.result.unanswered, 1);
-  EXPECT_NE(run.result.recording.ending, world::Ending::kDeadEcu);
+  EXPECT_NE(run.result.recording.ending, traffic::Ending::kDeadEcu);
   EXPECT_NE(run.out.str().find("vcan0: down"), std::string::npos);  // PROC-003
 }
 

@@ -18,7 +18,7 @@ namespace s4tp::campaign {
 namespace {
 
 using nlohmann::ordered_json;
-using world::test::Folder;
+using test::Folder;
 
 ordered_json header() {
   return ordered_json::parse(R"({"kind":"s4tp campaign","version":2,"planners":["blind"],
@@ -30,7 +30,7 @@ ordered_json header() {
 ordered_json row(std::uint64_t seed = 10) {
   EpisodeRow one{{"blind", "merge", "smarts", "builtin", true, "ideal"}, {}};
   one.metrics.seed = seed;
-  one.metrics.ending = world::Ending::kGoal;
+  one.metrics.ending = traffic::Ending::kGoal;
   one.metrics.duration_s = 20.0;
   return to_json(one);
 }
@@ -83,7 +83,7 @@ TEST(RecordLimits, EveryKeyAReaderNeeds) {
 // FILE-011 100,000 brackets in a header or in a result ended the program: printing and comparing recurse.
 TEST(RecordLimits, NestingIsBounded) {
   const std::string deep = std::string(100'000, '[') + std::string(100'000, ']');
-  const std::string head = world::test::replaced(header().dump(), "\"episodes\":4", "\"episodes\":" + deep);
+  const std::string head = test::replaced(header().dump(), "\"episodes\":4", "\"episodes\":" + deep);
   const Folder folder;
   try {
     (void)read_records({folder.write("a.jsonl", head + "\n")});
@@ -127,7 +127,7 @@ TEST(RecordLimits, Figures) {
 TEST(RecordLimits, ChartsStaySmall) {
   for (const double duration_s : {1.0, 7'200.0, 1e300}) {
     CellResult cell{{}, {}, {{}}};
-    cell.episodes[0].ending = world::Ending::kGoal;
+    cell.episodes[0].ending = traffic::Ending::kGoal;
     cell.episodes[0].duration_s = duration_s;
     cell.summary = metrics::summarize(cell.episodes);
     const std::string chart = view::outcome_chart({&cell});

@@ -45,7 +45,7 @@ class ReadRecords : public testing::Test {
     for (const std::uint64_t seed : seeds) {
       EpisodeRow row{{"constant_speed", "overtake", "smarts", "builtin", false, "ideal"}, {}};
       row.metrics.seed = seed;
-      row.metrics.ending = world::Ending::kGoal;
+      row.metrics.ending = traffic::Ending::kGoal;
       row.metrics.duration_s = duration_s;
       record.append(row);
     }

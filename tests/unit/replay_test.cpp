@@ -14,14 +14,14 @@ namespace s4tp::view {
 namespace {
 
 struct Drive {
-  world::Scenario scenario;
+  scenario::Scenario scenario;
   campaign::EpisodeResult result;
   campaign::EpisodeRow row;
 };
 
 Drive drive(const std::string& planner, bool guarded, std::uint64_t seed) {
   const std::filesystem::path shipped = std::filesystem::path(S4TP_SOURCE_DIR) / "sim_host" / "scenarios";
-  Drive one{world::load_scenario(shipped / "overtake"), {}, {}};
+  Drive one{scenario::load_scenario(shipped / "overtake"), {}, {}};
   campaign::EpisodeOptions options;
   options.planner = planner;
   options.guarded = guarded;
@@ -50,7 +50,7 @@ TEST(Replay, SameSeedChangesNothing) {
 TEST(Replay, TellsTheRecordedStates) {
   const Drive one = drive("s4tp", true, 1);
   const nlohmann::ordered_json data = replay_data({one.scenario, one.result, one.row, "", {}});
-  const world::Snapshot& last = one.result.recording.snapshots.back();
+  const traffic::Snapshot& last = one.result.recording.snapshots.back();
   const auto& frame = data.at("frames").back();
   EXPECT_NEAR(frame.at("t").get<double>(), 1000.0 * last.time_s, 0.5);
   EXPECT_NEAR(frame.at("ego").at(0).get<double>() * 0.05 + one.result.origin.x, last.ego.centre.x, 0.026);
@@ -70,7 +70,7 @@ TEST(Replay, TellsTheRecordedStates) {
 // A car alone has its risk before it and nowhere else; without cars there is nothing to paint.
 TEST(Replay, HazeLiesBeforeACar) {
   EXPECT_EQ(Haze({}, {}).grid({-5.0, -5.0}, {5.0, 5.0}, 1.0), "");
-  world::CarState car;
+  traffic::CarState car;
   car.speed_mps = 10.0;
   const Haze haze({car}, {});
   EXPECT_GT(haze.at({10.0, 0.0}), 0.1);

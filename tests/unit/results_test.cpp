@@ -20,7 +20,7 @@ EpisodeRow row(const std::string& planner, std::uint64_t seed, bool fails) {
   one.cell.planner = planner;
   one.cell.scenario = "merge";
   one.metrics.seed = seed;
-  one.metrics.ending = fails ? world::Ending::kTimeOut : world::Ending::kGoal;
+  one.metrics.ending = fails ? traffic::Ending::kTimeOut : traffic::Ending::kGoal;
   one.metrics.cause = fails ? "time-out" : "goal";
   one.metrics.duration_s = 0.1 + 1.0 / 3.0;
   one.metrics.comp1.jerk_linear = 1e-17;
@@ -61,7 +61,7 @@ TEST(EpisodeRecord, RowsComeBackToTheBit) {
   EXPECT_EQ(after.cell, before.cell);
   EXPECT_EQ(after.metrics.duration_s, before.metrics.duration_s);
   EXPECT_EQ(after.metrics.comp1.jerk_linear, before.metrics.comp1.jerk_linear);
-  EXPECT_EQ(after.metrics.ending, world::Ending::kTimeOut);
+  EXPECT_EQ(after.metrics.ending, traffic::Ending::kTimeOut);
   EXPECT_EQ(to_json(after), to_json(before));
 }
 

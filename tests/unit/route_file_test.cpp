@@ -10,7 +10,7 @@
 #include "sim_host/world/traffic/traffic_flow.hpp"
 #include "tests/support/networks.hpp"
 
-namespace s4tp::world {
+namespace s4tp::scenario {
 namespace {
 
 using test::Folder;
@@ -22,9 +22,9 @@ Demand demand_of(const std::string& elements) {
                      test::network_of(test::kCross));
 }
 
-FlowPlan plan_of(const std::string& elements, double until_s = 100.0) {
-  Random random(3);
-  return draw_demand(test::network_of(test::kCross), demand_of(elements), until_s, random);
+traffic::FlowPlan plan_of(const std::string& elements, double until_s = 100.0) {
+  traffic::Random random(3);
+  return traffic::draw_demand(test::network_of(test::kCross), demand_of(elements), until_s, random);
 }
 
 std::string error_of(const std::string& elements) {
@@ -39,7 +39,7 @@ std::string error_of(const std::string& elements) {
 // SCN-003 Vehicles by a route of their own or by name, and trips, whose way is found; in the order of
 // departure.
 TEST(RouteFile, VehiclesAndTrips) {
-  const FlowPlan plan = plan_of(R"(<route id="we" edges="west_in east_out"/>
+  const traffic::FlowPlan plan = plan_of(R"(<route id="we" edges="west_in east_out"/>
     <vehicle id="late" depart="00:01:05" route="we" departPos="20" departSpeed="3.5"/>
     <vehicle id="own" depart="2.5"><route edges="south_in north_out"/></vehicle>
     <trip id="t" depart="10" from="west_in" to="east_out" departSpeed="max"/>)");
@@ -69,7 +69,7 @@ TEST(RouteFile, Flows) {
   EXPECT_EQ(count(R"(number="3" period="1")"), 3U);
   EXPECT_NEAR(static_cast<double>(count(R"(probability="0.33")")), 33.0, 15.0);
   EXPECT_NEAR(static_cast<double>(count(R"xml(period="exp(0.5)")xml")), 50.0, 21.0);
-  const FlowPlan spread = plan_of("<flow id=\"f\"" + way + R"( begin="20" end="60" number="4"/>)");
+  const traffic::FlowPlan spread = plan_of("<flow id=\"f\"" + way + R"( begin="20" end="60" number="4"/>)");
   EXPECT_DOUBLE_EQ(spread.departures[1].time_s, 30.0);
 }
 
@@ -98,11 +98,11 @@ TEST(RouteFile, Types) {
 
 // SCN-003 Of a distribution of routes each car takes one: three in four go east.
 TEST(RouteFile, RouteDistributions) {
-  const FlowPlan plan = plan_of(R"(<routeDistribution id="d">
+  const traffic::FlowPlan plan = plan_of(R"(<routeDistribution id="d">
       <route id="a" edges="west_in east_out" probability="3"/><route id="b" edges="south_in north_out"/>
     </routeDistribution><flow id="f" route="d" period="0.25"/>)");
   int east = 0;
-  for (const Departure& each : plan.departures) {
+  for (const traffic::Departure& each : plan.departures) {
     east += plan.ways[each.way].last_edge == "east_out" ? 1 : 0;
   }
   EXPECT_NEAR(east, 300, 40);
@@ -181,7 +181,7 @@ TEST(RouteFile, ChoicesAreBounded) {
 }
 
 /// A road of `edges` edges, each of so many lanes.
-Network long_road(int edges, int lanes) {
+map::Network long_road(int edges, int lanes) {
   std::string text = "<net>";
   std::string connections;
   for (int e = 0; e < edges; ++e) {
@@ -203,7 +203,7 @@ Network long_road(int edges, int lanes) {
 
 // FILE-002 Different routes are kept lane by lane: 900 of them along 30 to 60 edges of 90 lanes each are refused.
 TEST(RouteFile, LanesAlongAllRoutesAreBounded) {
-  const Network network = long_road(60, 90);
+  const map::Network network = long_road(60, 90);
   std::string text = "<routes>";
   for (int first = 0; first < 30; ++first) {
     for (int last = 30; last < 60; ++last) {
@@ -226,7 +226,7 @@ TEST(RouteFile, LanesAlongAllRoutesAreBounded) {
 // FILE-002 Of a way that goes round and round no more is sought than can be driven: what comes after it has passed an edge
 // again is left out, here the name of an edge that is not there.
 TEST(RouteFile, AWayRoundAndRoundIsNotFollowedOn) {
-  const Network ring = test::network_of(R"(<net>
+  const map::Network ring = test::network_of(R"(<net>
     <edge id="a"><lane id="a_0" index="0" shape="0,0 50,0"/></edge>
     <edge id="b"><lane id="b_0" index="0" shape="50,0 50,50 0,50 0,0"/></edge>
     <connection from="a" to="b" fromLane="0" toLane="0"/><connection from="b" to="a" fromLane="0" toLane="0"/></net>)");
@@ -270,7 +270,7 @@ TEST(RouteFile, EpisodesTakeTheFilesInTurn) {
                "[mission]\nstart_lane = \"west_in_0\"\ngoal_lane = \"east_out_0\"\n");
   const Scenario scenario = load_scenario(folder.path());
   for (const std::uint64_t episode : {0U, 1U, 2U, 7U}) {
-    Traffic traffic(scenario, episode, 5);
+    traffic::Traffic traffic(scenario, episode, 5);
     for (int i = 0; i < 20; ++i) {
       traffic.step(nullptr);
     }
@@ -281,4 +281,4 @@ TEST(RouteFile, EpisodesTakeTheFilesInTurn) {
 }
 
 }  // namespace
-}  // namespace s4tp::world
+}  // namespace s4tp::scenario

@@ -10,7 +10,7 @@
 
 #include "tests/support/networks.hpp"
 
-namespace s4tp::world {
+namespace s4tp::scenario {
 namespace {
 
 using test::Folder;
@@ -245,4 +245,4 @@ TEST(Scenario, ACutsCommandsAreAnOrdinaryFile) {
 }
 
 }  // namespace
-}  // namespace s4tp::world
+}  // namespace s4tp::scenario

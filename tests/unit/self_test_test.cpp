@@ -17,7 +17,7 @@ TEST(SelfTest, RefusesAnotherFunctionResult) {
   for (unsigned bit = 0; bit < 32U; ++bit) {
     ArithmeticProbes probes = probe_arithmetic();
     probes.functions_hash ^= 1U << bit;
-    EXPECT_EQ(judge(probes), Status::kArithmetic);
+    EXPECT_EQ(status_of(probes), Status::kArithmetic);
   }
 }
 
@@ -26,21 +26,21 @@ TEST(SelfTest, RefusesFusedMultiplyAdd) {
   ArithmeticProbes probes = probe_arithmetic();
   EXPECT_EQ(probes.fused_bits, 0U);
   probes.fused_bits = std::bit_cast<std::uint32_t>(5.9604644775390625e-08F);
-  EXPECT_EQ(judge(probes), Status::kArithmetic);
+  EXPECT_EQ(status_of(probes), Status::kArithmetic);
 }
 
 // CORE-012: where denormals are flushed, half of the smallest normal float is 0.
 TEST(SelfTest, RefusesFlushedDenormals) {
   ArithmeticProbes probes = probe_arithmetic();
   probes.denormal_bits = 0U;
-  EXPECT_EQ(judge(probes), Status::kArithmetic);
+  EXPECT_EQ(status_of(probes), Status::kArithmetic);
 }
 
 // CORE-012: rounding towards zero gives 1 + 3 * 2^-24 = 1 + 2^-23, one bit below the tie's even neighbour.
 TEST(SelfTest, RefusesAnotherRounding) {
   ArithmeticProbes probes = probe_arithmetic();
   probes.rounding_bits = 0x3F800001U ^ 0x3F800002U;
-  EXPECT_EQ(judge(probes), Status::kArithmetic);
+  EXPECT_EQ(status_of(probes), Status::kArithmetic);
 }
 
 }  // namespace s4tp

@@ -6,7 +6,7 @@
 
 #include "sim_host/world/traffic/traffic.hpp"
 
-namespace s4tp::world {
+namespace s4tp::traffic {
 namespace {
 
 // SOC-001 From competitive to prosocial, in steps of 0.01 rad, every number goes one way or stays.
@@ -43,20 +43,20 @@ TEST(SocialValue, HasItsFixedPoints) {
 }
 
 /// Two lanes of 300 m eastwards, 0 the right one; lane 0 ends unless `both_go_on`, lane 1 leads to lane 2.
-Network two_lanes(bool both_go_on) {
-  Network network;
+map::Network two_lanes(bool both_go_on) {
+  map::Network network;
   for (int i = 0; i < 2; ++i) {
-    NetworkLane lane;
+    map::Lane lane;
     lane.edge = "road";
     lane.index = i;
-    lane.centre = Polyline({{0.0, 3.2 * i}, {300.0, 3.2 * i}});
+    lane.centre = map::Polyline({{0.0, 3.2 * i}, {300.0, 3.2 * i}});
     network.lanes.push_back(lane);
   }
   network.lanes[0].left = 1;
   network.lanes[1].right = 0;
-  NetworkLane after;
+  map::Lane after;
   after.edge = "after";
-  after.centre = Polyline({{300.0, 3.2}, {500.0, 3.2}});
+  after.centre = map::Polyline({{300.0, 3.2}, {500.0, 3.2}});
   after.predecessors = {1};
   network.lanes.push_back(after);
   network.lanes[1].successors = {2};
@@ -66,8 +66,8 @@ Network two_lanes(bool both_go_on) {
   return network;
 }
 
-FlowGroup flow(int lane, double max_speed_mps, double begin_s, double svo_rad) {
-  FlowGroup group;
+scenario::FlowGroup flow(int lane, double max_speed_mps, double begin_s, double svo_rad) {
+  scenario::FlowGroup group;
   group.routes = {{{"road", "after"}, lane, -1}};
   group.vehicles_per_minute = {0.1, 0.1};  // one car
   group.begin_s = {begin_s, begin_s};
@@ -79,8 +79,8 @@ FlowGroup flow(int lane, double max_speed_mps, double begin_s, double svo_rad) {
   return group;
 }
 
-int lane_changes(const std::vector<FlowGroup>& flows, double until_s) {
-  const Network network = two_lanes(true);
+int lane_changes(const std::vector<scenario::FlowGroup>& flows, double until_s) {
+  const map::Network network = two_lanes(true);
   Traffic traffic(network, flows, 1);
   int changes = 0;
   std::vector<CarState> before;
@@ -106,8 +106,8 @@ TEST(Mobil, ChangesWhereItPays) {
 /// How a car on lane 1 fares, 25 m behind one who drives 8 m/s on lane 0, which ends. \return its speed after
 /// 2 s
 double beside_merging(double svo_rad) {
-  const Network network = two_lanes(false);
-  FlowGroup only = flow(1, 10.0, 0.0, svo_rad);
+  const map::Network network = two_lanes(false);
+  scenario::FlowGroup only = flow(1, 10.0, 0.0, svo_rad);
   only.drivers[0].speed_factor_mean = 1.0 / social_traits(svo_rad).speed;
   Traffic traffic(network, {only}, 1);
   while (traffic.time_s() < 8.0) {
@@ -135,4 +135,4 @@ TEST(Merging, IsAnsweredByCharacter) {
 }
 
 }  // namespace
-}  // namespace s4tp::world
+}  // namespace s4tp::traffic

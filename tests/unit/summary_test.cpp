@@ -10,10 +10,10 @@
 namespace s4tp::metrics {
 namespace {
 
-using world::CarState;
-using world::Ending;
-using world::Recording;
-using world::Snapshot;
+using traffic::CarState;
+using traffic::Ending;
+using traffic::Recording;
+using traffic::Snapshot;
 
 // Nearest rank: of 1 .. 20 the 5th percentile is the 1st value, of 1 .. 21 the 2nd; the median of three the
 // 2nd.

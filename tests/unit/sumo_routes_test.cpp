@@ -7,29 +7,29 @@
 
 #include "sim_host/world/traffic/social_value.hpp"
 
-namespace s4tp::world {
+namespace s4tp::sumo {
 namespace {
 
 /// One lane of 300 m.
-Network road() {
-  Network network;
-  NetworkLane lane;
+map::Network road() {
+  map::Network network;
+  map::Lane lane;
   lane.name = "road_0";
   lane.edge = "road";
-  lane.centre = Polyline({{0.0, 0.0}, {300.0, 0.0}});
+  lane.centre = map::Polyline({{0.0, 0.0}, {300.0, 0.0}});
   network.lanes.push_back(lane);
   return network;
 }
 
 /// The vType SUMO gets for a driver drawn from a model.
-pugi::xml_document type_of(const DriverModel& model, double length_m = 5.0) {
-  const Network network = road();
-  Random random(1);
-  FlowPlan plan;
-  plan.ways.push_back({RouteGuide(network, {"road"}, kNoLane, 0.0), "road", {{"road"}, -1, -1}});
-  Departure departure;
+pugi::xml_document type_of(const scenario::DriverModel& model, double length_m = 5.0) {
+  const map::Network network = road();
+  traffic::Random random(1);
+  traffic::FlowPlan plan;
+  plan.ways.push_back({map::RouteGuide(network, {"road"}, map::kNoLane, 0.0), "road", {{"road"}, -1, -1}});
+  traffic::Departure departure;
   departure.lane = 0;
-  departure.driver = draw_driver(model, random);
+  departure.driver = traffic::draw_driver(model, random);
   departure.length_m = length_m;
   departure.width_m = 2.5;
   plan.departures.push_back(departure);
@@ -44,8 +44,8 @@ double number(const pugi::xml_document& document, const char* name) {
   return attribute.as_double(-99.0);
 }
 
-DriverModel with_svo(double svo_rad) {
-  DriverModel model;
+scenario::DriverModel with_svo(double svo_rad) {
+  scenario::DriverModel model;
   model.svo_rad = svo_rad;
   return model;
 }
@@ -82,7 +82,7 @@ TEST(SumoRoutes, SocialDriversDifferAsOursDo) {
 
 // A car has the size it has in the built-in traffic, and who keeps the lane has no wish to leave it.
 TEST(SumoRoutes, SizeAndLaneKeeping) {
-  DriverModel keeping;
+  scenario::DriverModel keeping;
   keeping.lane_keeping = true;
   const pugi::xml_document type = type_of(keeping, 12.0);
   EXPECT_DOUBLE_EQ(number(type, "length"), 12.0);
@@ -94,7 +94,7 @@ TEST(SumoRoutes, SizeAndLaneKeeping) {
 // SUMO-004 A blank anywhere in the network, or what SUMO takes for one in the ego's way: named with its file.
 // The same letter off every way we tell SUMO of does no harm.
 TEST(SumoRoutes, NamesThatSumoTakesApartAreRefused) {
-  Scenario scenario;
+  scenario::Scenario scenario;
   scenario.network_file = "mine.net.xml";
   scenario.network = road();
   scenario.mission.edges = {"road"};
@@ -117,10 +117,10 @@ TEST(SumoRoutes, NamesThatSumoTakesApartAreRefused) {
 // SUMO-004 strange_names holds such a way: the built-in traffic has loaded it, SUMO's is told no before it
 // starts.
 TEST(SumoRoutes, StrangeNamesAreRefused) {
-  const Scenario scenario =
-      load_scenario(std::filesystem::path(S4TP_SOURCE_DIR) / "tests/networks/strange_names.toml");
+  const scenario::Scenario scenario =
+      scenario::load_scenario(std::filesystem::path(S4TP_SOURCE_DIR) / "tests/networks/strange_names.toml");
   EXPECT_THROW(check_names(scenario), std::runtime_error);
 }
 
 }  // namespace
-}  // namespace s4tp::world
+}  // namespace s4tp::sumo

@@ -14,7 +14,7 @@ Calibration short_drives(const char* scenario) {
   options.first_seed = 3;
   options.duration_s = 20.0;
   Calibration calibration = empty_calibration();
-  calibrate(world::load_scenario(folder), options, calibration);
+  calibrate(scenario::load_scenario(folder), options, calibration);
   return calibration;
 }
 

@@ -10,7 +10,7 @@
 #include "sim_host/world/scenario/toml_table.hpp"
 #include "tests/support/networks.hpp"
 
-namespace s4tp::world {
+namespace s4tp::scenario {
 namespace {
 
 std::string repeated(const std::string& text, int times) {
@@ -79,4 +79,4 @@ TEST(TomlShape, OnlyFilesOfSomeSize) {
 }
 
 }  // namespace
-}  // namespace s4tp::world
+}  // namespace s4tp::scenario

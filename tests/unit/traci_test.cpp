@@ -9,7 +9,7 @@
 
 #include "sim_host/sumo/traci_client.hpp"
 
-namespace s4tp::world::traci {
+namespace s4tp::sumo::traci {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
@@ -61,7 +61,7 @@ TEST(Traci, ReadsTypedValues) {
   EXPECT_EQ(std::get<std::vector<std::string>>(reader.typed()), (std::vector<std::string>{"a", "bc"}));
   EXPECT_EQ(std::get<int>(reader.typed()), -2);
   EXPECT_EQ(std::get<int>(reader.typed()), 254);
-  const Vec2 point = std::get<Vec2>(reader.typed());
+  const map::Vec2 point = std::get<map::Vec2>(reader.typed());
   EXPECT_EQ(point.x, 3.0);
   EXPECT_EQ(point.y, -4.0);
   EXPECT_TRUE(reader.at_end());
@@ -146,4 +146,4 @@ TEST(TraciClient, SurvivesAnyAnswer) {
 }
 
 }  // namespace
-}  // namespace s4tp::world::traci
+}  // namespace s4tp::sumo::traci

@@ -7,8 +7,10 @@
 
 #include "sim_host/world/traffic/traffic.hpp"
 
-namespace s4tp::world {
+namespace s4tp::traffic {
 namespace {
+
+using map::Network;
 
 constexpr double kAlone = std::numeric_limits<double>::infinity();
 
@@ -67,16 +69,16 @@ TEST(TrafficDriver, IsDrawnFromItsFlow) {
 /// One lane of 300 m.
 Network straight_road() {
   Network network;
-  NetworkLane lane;
+  map::Lane lane;
   lane.name = "road_0";
   lane.edge = "road";
-  lane.centre = Polyline({{0.0, 0.0}, {300.0, 0.0}});
+  lane.centre = map::Polyline({{0.0, 0.0}, {300.0, 0.0}});
   network.lanes.push_back(lane);
   return network;
 }
 
-FlowGroup flow(double per_minute, bool random_spacing) {
-  FlowGroup group;
+scenario::FlowGroup flow(double per_minute, bool random_spacing) {
+  scenario::FlowGroup group;
   group.routes = {{{"road"}, 0, 0}};
   group.vehicles_per_minute = {per_minute, per_minute};
   group.random_spacing = random_spacing;
@@ -179,10 +181,10 @@ TEST(TrafficDriver, IsDistractedByHash) {
 /// Two roads of 300 m that have nothing to do with each other.
 Network two_roads() {
   Network network = straight_road();
-  NetworkLane other = network.lanes.front();
+  map::Lane other = network.lanes.front();
   other.name = "other_0";
   other.edge = "other";
-  other.centre = Polyline({{0.0, 500.0}, {300.0, 500.0}});
+  other.centre = map::Polyline({{0.0, 500.0}, {300.0, 500.0}});
   network.lanes.push_back(other);
   return network;
 }
@@ -191,7 +193,7 @@ Network two_roads() {
 // other road have the same ids, order and motion to the bit.
 TEST(Traffic, ALateEntryElsewhereChangesNobody) {
   const Network network = two_roads();
-  FlowGroup elsewhere = flow(10.0, true);
+  scenario::FlowGroup elsewhere = flow(10.0, true);
   elsewhere.routes = {{{"other"}, 0, 0}};
   Traffic free(network, {flow(20.0, false), elsewhere}, 5);
   Traffic blocked(network, {flow(20.0, false), elsewhere}, 5);
@@ -264,4 +266,4 @@ TEST(Traffic, ClearsAStretch) {
 }
 
 }  // namespace
-}  // namespace s4tp::world
+}  // namespace s4tp::traffic

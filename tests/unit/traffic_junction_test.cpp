@@ -13,15 +13,15 @@
 #include "sim_host/world/traffic/box.hpp"
 #include "sim_host/world/traffic/traffic.hpp"
 
-namespace s4tp::world {
+namespace s4tp::traffic {
 namespace {
 
 namespace fs = std::filesystem;
 
 const fs::path kSource = S4TP_SOURCE_DIR;
 
-FlowGroup flow(const std::string& from, const std::string& to) {
-  FlowGroup group;
+scenario::FlowGroup flow(const std::string& from, const std::string& to) {
+  scenario::FlowGroup group;
   group.routes = {{{from, to}, -1, -1}};
   group.vehicles_per_minute = {4.0, 8.0};
   group.begin_s = {0.0, 3.0};
@@ -41,9 +41,10 @@ bool any_touch(const std::vector<CarState>& cars) {
 // Right before left with a car on each of four arms: all wait for each other, until the one who has waited
 // longest goes. Without that hardly anybody gets through in 300 s; with it more than one car in 10 s.
 TEST(TrafficJunction, SomebodyGoesFirst) {
-  const Scenario scenario = load_scenario(kSource / "tests/networks/right_before_left.toml");
-  const std::vector<FlowGroup> groups{flow("e_in", "w_out"), flow("w_in", "e_out"), flow("n_in", "s_out"),
-                                      flow("s_in", "n_out")};
+  const scenario::Scenario scenario =
+      scenario::load_scenario(kSource / "tests/networks/right_before_left.toml");
+  const std::vector<scenario::FlowGroup> groups{flow("e_in", "w_out"), flow("w_in", "e_out"),
+                                                flow("n_in", "s_out"), flow("s_in", "n_out")};
   for (std::uint64_t seed = 0; seed < 5; ++seed) {
     Traffic traffic(scenario.network, groups, seed);
     while (traffic.time_s() < 300.0) {
@@ -57,7 +58,8 @@ TEST(TrafficJunction, SomebodyGoesFirst) {
 class LeftTurnFromNorth : public testing::Test {
  protected:
   /// Somebody on an arm `before_line_m` (bumper) before its line.
-  Actor actor(int id, const char* lane, const RouteGuide& guide, double before_line_m, double speed_mps) {
+  Actor actor(int id, const char* lane, const map::RouteGuide& guide, double before_line_m,
+              double speed_mps) {
     Actor result;
     result.id = id;
     result.lane = network_.find(lane);
@@ -77,11 +79,11 @@ class LeftTurnFromNorth : public testing::Test {
     return choose_at_junction(view, approach);
   }
 
-  const Network network_ = load_network(kSource / "sim_host/scenarios/left_turn/network.net.xml");
+  const map::Network network_ = map::load_network(kSource / "sim_host/scenarios/left_turn/network.net.xml");
   const RoadIndex road_{network_};
-  const RouteGuide left_{network_, {"north_in", "east_out"}, kNoLane, 0.0};
-  const RouteGuide straight_{network_, {"south_in", "north_out"}, kNoLane, 0.0};
-  const RouteGuide ego_{network_, {"south_in", "west_out"}, kNoLane, 0.0};
+  const map::RouteGuide left_{network_, {"north_in", "east_out"}, map::kNoLane, 0.0};
+  const map::RouteGuide straight_{network_, {"south_in", "north_out"}, map::kNoLane, 0.0};
+  const map::RouteGuide ego_{network_, {"south_in", "west_out"}, map::kNoLane, 0.0};
   const Driver driver_{};
 };
 
@@ -119,8 +121,8 @@ TEST_F(LeftTurnFromNorth, TellsQueueFromLine) {
 TEST(TrafficJunction, HasNoTouchesThatItHad) {
   for (const auto& [name, seed] : std::vector<std::pair<std::string, std::uint64_t>>{
            {"left_turn", 21}, {"left_turn", 213}, {"left_turn_t", 190}, {"left_turn_t", 352}}) {
-    Scenario scenario = load_scenario(kSource / "sim_host/scenarios" / name, "social");
-    FlowGroup neutral;  // a driver on the mission's way
+    scenario::Scenario scenario = scenario::load_scenario(kSource / "sim_host/scenarios" / name, "social");
+    scenario::FlowGroup neutral;  // a driver on the mission's way
     neutral.routes = {{scenario.mission.edges, 0, 0}};
     neutral.vehicles_per_minute = {0.1, 0.1};
     neutral.begin_s = {scenario.mission.entry_time_s, scenario.mission.entry_time_s};
@@ -135,4 +137,4 @@ TEST(TrafficJunction, HasNoTouchesThatItHad) {
 }
 
 }  // namespace
-}  // namespace s4tp::world
+}  // namespace s4tp::traffic

@@ -13,11 +13,11 @@
 namespace s4tp::metrics {
 namespace {
 
-using world::CarState;
-using world::LaneId;
-using world::Network;
-using world::NetworkLane;
-using world::Snapshot;
+using map::Lane;
+using map::LaneId;
+using map::Network;
+using traffic::CarState;
+using traffic::Snapshot;
 
 /// Where a car is at a time; false: not there.
 using Motion = std::function<bool(double time_s, CarState& car)>;
@@ -39,9 +39,9 @@ std::vector<Snapshot> record(double until_s, const std::vector<Motion>& cars) {
   return snapshots;
 }
 
-NetworkLane lane(world::Vec2 from, world::Vec2 to, bool in_junction) {
-  NetworkLane made;
-  made.centre = world::Polyline({from, to});
+Lane lane(map::Vec2 from, map::Vec2 to, bool in_junction) {
+  Lane made;
+  made.centre = map::Polyline({from, to});
   made.in_junction = in_junction;
   return made;
 }
@@ -61,7 +61,7 @@ Network crossing() {
     network.lanes[static_cast<std::size_t>(first)].successors = {first + 1};
     network.lanes[static_cast<std::size_t>(first) + 1].predecessors = {first};
   }
-  network.conflicts = {{1, 4, world::Rule::kFirstHasPriority, 7.0, 13.0, 7.0, 13.0}};
+  network.conflicts = {{1, 4, map::Rule::kFirstHasPriority, 7.0, 13.0, 7.0, 13.0}};
   return network;
 }
 

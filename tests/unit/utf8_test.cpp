@@ -10,7 +10,7 @@
 #include "sim_host/world/scenario/scenario.hpp"
 #include "tests/support/networks.hpp"
 
-namespace s4tp::world {
+namespace s4tp::scenario {
 namespace {
 
 // RFC 3629, section 3 and its table: the first and last of each length; then overlong forms, surrogates,
@@ -59,4 +59,4 @@ TEST(Utf8, NamesOfFilesAreUtf8) {
 }
 
 }  // namespace
-}  // namespace s4tp::world
+}  // namespace s4tp::scenario

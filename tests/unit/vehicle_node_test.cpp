@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace s4tp::world {
+namespace s4tp::nodes {
 namespace {
 
 wire::Frame command(double acceleration_mps2, wire::E2eSender& sender) {
@@ -121,4 +121,4 @@ TEST(VehicleNode, PoseIsTheRearAxleAndTellsItsAge) {
 }
 
 }  // namespace
-}  // namespace s4tp::world
+}  // namespace s4tp::nodes

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace s4tp::world {
+namespace s4tp::nodes {
 namespace {
 
 void drive(Vehicle& vehicle, double seconds, double acceleration_mps2, double steering_rad) {
@@ -100,7 +100,7 @@ TEST(Vehicle, DriveAndBrakeSaturate) {
 TEST(Vehicle, StandsExactlyStillAndStartsAgain) {
   Vehicle vehicle = rolling(3.0);
   drive(vehicle, 3.0, -3.0, 0.0);
-  const Vec2 stood = vehicle.rear_axle();
+  const map::Vec2 stood = vehicle.rear_axle();
   drive(vehicle, 5.0, -1.0, 0.4);
   EXPECT_EQ(vehicle.rear_axle().x, stood.x);
   EXPECT_EQ(vehicle.rear_axle().y, stood.y);
@@ -123,4 +123,4 @@ TEST(Vehicle, BlendsWithoutAJump) {
 }
 
 }  // namespace
-}  // namespace s4tp::world
+}  // namespace s4tp::nodes

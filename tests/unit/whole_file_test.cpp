@@ -13,7 +13,7 @@
 #include "sim_host/recording/drive_note.hpp"
 #include "tests/support/networks.hpp"
 
-namespace s4tp::world {
+namespace s4tp::scenario {
 namespace {
 
 std::string why_not_read(const std::function<void()>& read) {
@@ -52,4 +52,4 @@ TEST(WholeFile, ReadersTakeNoDevice) {
 }
 
 }  // namespace
-}  // namespace s4tp::world
+}  // namespace s4tp::scenario

@@ -15,17 +15,19 @@
 namespace s4tp::world {
 namespace {
 
+using scenario::Scenario;
+
 /// Two lanes of 200 m eastwards; the ego enters the right one at 10 m with 10 m/s, its goal is at the lane's
 /// end.
 Scenario two_lanes() {
   Scenario scenario;
   scenario.name = "two lanes";
   for (int i = 0; i < 2; ++i) {
-    NetworkLane lane;
+    map::Lane lane;
     lane.name = "road_" + std::to_string(i);
     lane.edge = "road";
     lane.index = i;
-    lane.centre = Polyline({{0.0, 3.2 * i}, {200.0, 3.2 * i}});
+    lane.centre = map::Polyline({{0.0, 3.2 * i}, {200.0, 3.2 * i}});
     scenario.network.lanes.push_back(lane);
   }
   scenario.network.lanes[0].left = 1;
@@ -38,8 +40,8 @@ Scenario two_lanes() {
   return scenario;
 }
 
-FlowGroup slow_flow(double speed_mps) {
-  FlowGroup group;
+scenario::FlowGroup slow_flow(double speed_mps) {
+  scenario::FlowGroup group;
   group.routes = {{{"road"}, 0, 0}};
   group.vehicles_per_minute = {10.0, 10.0};
   group.drivers[0].max_speed_mps = speed_mps;
@@ -53,7 +55,7 @@ struct Wish {
 };
 
 /// Drives until the episode ends, answering every tick. \return the ending
-Ending drive(World& world, const std::function<Wish(double)>& driver) {
+traffic::Ending drive(World& world, const std::function<Wish(double)>& driver) {
   wire::E2eSender sender;
   std::vector<wire::Frame> frames;
   while (!world.finished() && world.time_s() < 100.0) {
@@ -76,7 +78,7 @@ Wish hold(double) {
 TEST(World, EndsAtTheGoal) {
   const Scenario scenario = two_lanes();
   World world(scenario, {});
-  EXPECT_EQ(drive(world, hold), Ending::kGoal);
+  EXPECT_EQ(drive(world, hold), traffic::Ending::kGoal);
   EXPECT_NEAR(world.time_s(), 19.0, 0.2);
   EXPECT_LT(world.recording().goal_distance_m, 0.2);
 }
@@ -88,10 +90,10 @@ TEST(World, EndsWithACollision) {
   scenario.flows = {slow_flow(3.0)};
   scenario.mission.entry_time_s = 15.0;
   World world(scenario, {});
-  EXPECT_EQ(drive(world, hold), Ending::kCollision);
+  EXPECT_EQ(drive(world, hold), traffic::Ending::kCollision);
   ASSERT_EQ(world.recording().collisions.size(), 1U);
-  EXPECT_EQ(world.recording().collisions[0].fault, Fault::kEgo);
-  EXPECT_EQ(world.recording().collisions[0].cause, Cause::kRanInto);
+  EXPECT_EQ(world.recording().collisions[0].fault, traffic::Fault::kEgo);
+  EXPECT_EQ(world.recording().collisions[0].cause, traffic::Cause::kRanInto);
   EXPECT_EQ(world.recording().collisions_competition.size(), 1U);
 }
 
@@ -100,7 +102,7 @@ TEST(World, EndsWithACollision) {
 TEST(World, EndsOffTheRoad) {
   const Scenario scenario = two_lanes();
   World world(scenario, {});
-  EXPECT_EQ(drive(world, [](double) { return Wish{0.0, -0.05}; }), Ending::kOffRoad);
+  EXPECT_EQ(drive(world, [](double) { return Wish{0.0, -0.05}; }), traffic::Ending::kOffRoad);
   EXPECT_NEAR(world.recording().snapshots.back().ego.centre.y, -3.2, 0.1);
 }
 
@@ -108,14 +110,14 @@ TEST(World, EndsOffTheRoad) {
 TEST(World, EndsByTimeOut) {
   const Scenario scenario = two_lanes();
   World standing(scenario, {});
-  EXPECT_EQ(drive(standing, [](double) { return Wish{-3.0, 0.0}; }), Ending::kTimeOut);
+  EXPECT_EQ(drive(standing, [](double) { return Wish{-3.0, 0.0}; }), traffic::Ending::kTimeOut);
   EXPECT_NEAR(standing.time_s(), 30.0, 0.02);
   World elsewhere(scenario, {});
   EXPECT_EQ(drive(elsewhere,
                   [](double t) {  // a lane change: one sine of steering, 3 s long
                     return Wish{0.0, t > 0.0 && t < 3.0 ? 0.0345 * std::sin(2.0944 * t) : 0.0};
                   }),
-            Ending::kTimeOut);
+            traffic::Ending::kTimeOut);
   EXPECT_GT(elsewhere.recording().snapshots.back().ego.centre.y, 1.6);
   EXPECT_NEAR(elsewhere.recording().snapshots.back().ego.centre.x, 200.0, 0.2);
 }
@@ -128,7 +130,7 @@ TEST(World, EndsWithADeadEcu) {
   while (!world.finished()) {
     world.tick(frames);
   }
-  EXPECT_EQ(world.recording().ending, Ending::kDeadEcu);
+  EXPECT_EQ(world.recording().ending, traffic::Ending::kDeadEcu);
   EXPECT_NEAR(world.time_s(), 2.0, 0.02);
 }
 
@@ -226,8 +228,8 @@ TEST(World, FreesTheStartZone) {
     while (world.time_s() < 0.095) {
       world.tick(frames);
     }
-    for (const Snapshot& snapshot : world.recording().snapshots) {
-      for (const CarState& car : snapshot.others) {
+    for (const traffic::Snapshot& snapshot : world.recording().snapshots) {
+      for (const traffic::CarState& car : snapshot.others) {
         const double gap_m = std::abs(car.centre.x - snapshot.ego.centre.x) - 5.0;
         EXPECT_TRUE(gap_m > 14.5 || snapshot.time_s < 0.0) << gap_m << " m at " << snapshot.time_s << " s";
       }
@@ -250,12 +252,12 @@ TEST(World, ShowsNobodyWhoIsTakenAwayAtEntry) {
     while (world.time_s() < 0.005) {
       world.tick(frames);
     }
-    const std::vector<Snapshot>& shown = world.recording().snapshots;
+    const std::vector<traffic::Snapshot>& shown = world.recording().snapshots;
     ASSERT_GE(shown.size(), 30U);
-    for (const Snapshot& snapshot : shown) {
-      for (const CarState& car : snapshot.others) {
+    for (const traffic::Snapshot& snapshot : shown) {
+      for (const traffic::CarState& car : snapshot.others) {
         EXPECT_TRUE(std::any_of(shown.back().others.begin(), shown.back().others.end(),
-                                [&](const CarState& later) { return later.id == car.id; }))
+                                [&](const traffic::CarState& later) { return later.id == car.id; }))
             << "car " << car.id << " at " << snapshot.time_s << " s, seed " << seed;
       }
     }
@@ -271,12 +273,13 @@ TEST(World, CountsEveryOverlapInTheRecording) {
     for (std::uint64_t seed = 0; seed < 20; ++seed) {
       World world(scenario, {.seed = seed});
       drive(world, hold);
-      const Recording& recording = world.recording();
+      const traffic::Recording& recording = world.recording();
       collisions += recording.collisions.empty() ? 0 : 1;
-      for (const Snapshot& snapshot : recording.snapshots) {
+      for (const traffic::Snapshot& snapshot : recording.snapshots) {
         if (snapshot.time_s < 0.0) continue;
-        for (const CarState& car : snapshot.others) {
-          EXPECT_FALSE(overlap(box_of(snapshot.ego), box_of(car)) && recording.collisions.empty())
+        for (const traffic::CarState& car : snapshot.others) {
+          EXPECT_FALSE(traffic::overlap(traffic::box_of(snapshot.ego), traffic::box_of(car)) &&
+                       recording.collisions.empty())
               << name << " seed " << seed << " at " << snapshot.time_s << " s";
         }
       }

@@ -4,8 +4,10 @@
 #include <cmath>
 #include <utility>
 
-namespace s4tp::world {
+namespace s4tp::adversary {
 namespace {
+
+using traffic::Actor;
 
 constexpr double kGain_mps2 = 2.0;           // law.gain_mps2 of the firmware's defaults
 constexpr double kOverLimit = 1.1;           // law.over_limit
@@ -16,9 +18,10 @@ constexpr double kUsualChange_s = 3.0;       // as Traffic changes lanes: ...
 constexpr double kSlowChange_mps = 15.0;     // ... below 5 m/s in proportion
 constexpr double kChangesAtLeast_mps = 1.0;  // slower ones are reckoned with as this
 
-std::vector<Stretch> stretches_of(const RoadIndex& road, const std::vector<WayPart>& way) {
-  std::vector<Stretch> stretches;
-  for (const WayPart& part : way) {
+std::vector<judge::Stretch> stretches_of(const traffic::RoadIndex& road,
+                                         const std::vector<traffic::WayPart>& way) {
+  std::vector<judge::Stretch> stretches;
+  for (const traffic::WayPart& part : way) {
     const double end_m = part.start_m + road.lane(part.lane).centre.length_m();
     stretches.push_back({part.lane, part.start_m, part.start_m, end_m});
   }
@@ -31,9 +34,9 @@ struct Ground {
   double exit_m = 0.0;
 };
 
-std::optional<Ground> ground_of_other(const ZoneOnWay& zone, const Actor& other) {
-  const double grown_m = longer_by_m(other.length_m);
-  for (const WayPart& part : other.way) {
+std::optional<Ground> ground_of_other(const judge::ZoneOnWay& zone, const Actor& other) {
+  const double grown_m = judge::longer_by_m(other.length_m);
+  for (const traffic::WayPart& part : other.way) {
     if (part.lane == zone.meeting.other) {
       const Ground ground{part.start_m + zone.meeting.other_entry_m - grown_m,
                           part.start_m + zone.meeting.other_exit_m + grown_m};
@@ -45,19 +48,19 @@ std::optional<Ground> ground_of_other(const ZoneOnWay& zone, const Actor& other)
 
 }  // namespace
 
-Law promised_law() {
-  Law law;
+judge::Law promised_law() {
+  judge::Law law;
   law.acceleration_mps2 = kGain_mps2;
   law.over_limit = kOverLimit;
   return law;
 }
 
-AdversaryTraffic::AdversaryTraffic(const Scenario& scenario, std::uint64_t episode, std::uint64_t seed,
-                                   const Law& law)
-    : Traffic(scenario, episode, seed), law_(law) {
-  const auto plan = std::make_shared<FlowPlan>(*plan_);
-  for (Departure& departure : plan->departures) {
-    Driver& driver = departure.driver;
+Traffic::Traffic(const scenario::Scenario& scenario, std::uint64_t episode, std::uint64_t seed,
+                 const judge::Law& law)
+    : traffic::Traffic(scenario, episode, seed), law_(law) {
+  const auto plan = std::make_shared<traffic::FlowPlan>(*plan_);
+  for (traffic::Departure& departure : plan->departures) {
+    traffic::Driver& driver = departure.driver;
     driver.acceleration_mps2 = law.acceleration_mps2;
     driver.emergency_mps2 = law.rss.front_braking_mps2;
     driver.speed_factor = law.over_limit;
@@ -67,23 +70,23 @@ AdversaryTraffic::AdversaryTraffic(const Scenario& scenario, std::uint64_t episo
   plan_ = plan;
 }
 
-std::unique_ptr<TrafficEngine> AdversaryTraffic::clone() const {
-  return std::make_unique<AdversaryTraffic>(*this);
+std::unique_ptr<traffic::TrafficEngine> Traffic::clone() const {
+  return std::make_unique<Traffic>(*this);
 }
 
-void AdversaryTraffic::decide(const Actor* ego) {
-  const TrafficView others(*road_, actors(nullptr));
-  if (ego == nullptr || ego->lane == kNoLane) {
+void Traffic::decide(const Actor* ego) {
+  const traffic::TrafficView others(*road_, actors(nullptr));
+  if (ego == nullptr || ego->lane == map::kNoLane) {
     ego_.reset();
   } else {
     watch(*ego, others);
   }
   std::erase_if(minds_, [&](const auto& mind) {
     return std::none_of(cars_.begin(), cars_.end(),
-                        [&](const TrafficCar& car) { return car.id == mind.first; });
+                        [&](const traffic::Car& car) { return car.id == mind.first; });
   });
   for (std::size_t i = 0; i < cars_.size(); ++i) {
-    TrafficCar& car = cars_[i];
+    traffic::Car& car = cars_[i];
     const Actor& self = others.actors()[i];
     const auto [found, fresh] = minds_.try_emplace(car.id);
     Mind& mind = found->second;
@@ -96,7 +99,8 @@ void AdversaryTraffic::decide(const Actor* ego) {
     if (ego_) {
       const double most = hardest_mps2(law_, obstacles_of(car, self, mind), car.speed_mps,
                                        car.acceleration_mps2, kDecision_s);
-      const std::uint64_t own = next_seed(next_seed(seed_ ^ 0xAD7E) + static_cast<std::uint64_t>(car.id));
+      const std::uint64_t own =
+          traffic::next_seed(traffic::next_seed(seed_ ^ 0xAD7E) + static_cast<std::uint64_t>(car.id));
       const bool changing = car.change_done < 0.5;  // the gaps that were left are kept until the line
       car.acceleration_mps2 =
           chosen_mps2({*road_, law_, self, ego_->actor, time_s(), kDecision_s, mind.stood_s, changing, own},
@@ -107,22 +111,22 @@ void AdversaryTraffic::decide(const Actor* ego) {
   insert_waiting(ego);
 }
 
-void AdversaryTraffic::watch(const Actor& ego, const TrafficView& others) {
+void Traffic::watch(const Actor& ego, const traffic::TrafficView& others) {
   const bool was_inside = ego_ && ego_->inside >= 0;
   Watched now;
   now.actor = ego;
   now.actor.way = others.way_from(ego.lane, ego.s_m, ego.guide);
-  now.groups = zone_groups(*road_, stretches_of(*road_, now.actor.way), ego.length_m);
+  now.groups = judge::zone_groups(*road_, stretches_of(*road_, now.actor.way), ego.length_m);
   ego_ = std::move(now);
   ego_stood_s_ = ego.speed_mps < law_.standing_mps ? ego_stood_s_ + kDecision_s : 0.0;
   bool near = false;
   for (std::size_t i = 0; i < ego_->groups.size(); ++i) {
-    const ZoneGroup& group = ego_->groups[i];
+    const judge::ZoneGroup& group = ego_->groups[i];
     if (group.entry_m <= 0.0 && group.exit_m > 0.0) ego_->inside = static_cast<int>(i);
     near = near || (group.entry_m > 0.0 && group.entry_m < law_.shown_within_m);
   }
   if (ego_->inside >= 0) {
-    const ZoneGroup& group = ego_->groups[static_cast<std::size_t>(ego_->inside)];
+    const judge::ZoneGroup& group = ego_->groups[static_cast<std::size_t>(ego_->inside)];
     const bool goes_in = !was_inside || group.entry_m > -kDecision_s * ego.speed_mps;
     if (goes_in) bind(group, others);
   } else {
@@ -131,25 +135,25 @@ void AdversaryTraffic::watch(const Actor& ego, const TrafficView& others) {
   ego_shown_s_ = near ? ego_shown_s_ + kDecision_s : 0.0;
 }
 
-void AdversaryTraffic::bind(const ZoneGroup& group, const TrafficView& others) {
+void Traffic::bind(const judge::ZoneGroup& group, const traffic::TrafficView& others) {
   for (const Actor& other : others.actors()) {
     Mind& mind = minds_[other.id];
     mind.owes_zone = true;
     mind.owes_since_s = time_s();
-    for (const ZoneOnWay& zone : group.zones) {
-      if (zone.meeting.rule == Rule::kFirstYields && !ego_is_licensed(zone, other, mind))
+    for (const judge::ZoneOnWay& zone : group.zones) {
+      if (zone.meeting.rule == map::Rule::kFirstYields && !ego_is_licensed(zone, other, mind))
         mind.owes_zone = false;
     }
   }
 }
 
-bool AdversaryTraffic::ego_is_licensed(const ZoneOnWay& zone, const Actor& other, const Mind& mind) const {
+bool Traffic::ego_is_licensed(const judge::ZoneOnWay& zone, const Actor& other, const Mind& mind) const {
   const std::optional<Ground> ground = ground_of_other(zone, other);
   if (!ground) return true;
   const double limit = limit_mps(zone.lane);
-  Entry entry;
+  judge::Entry entry;
   entry.merging = zone.meeting.merging;
-  entry.gone_after_s = time_to_cover_s(zone.exit_m, ego_->actor.speed_mps, kGain_mps2, limit);
+  entry.gone_after_s = traffic::time_to_cover_s(zone.exit_m, ego_->actor.speed_mps, kGain_mps2, limit);
   entry.gone_mps = std::min(limit, ego_->actor.speed_mps + kGain_mps2 * entry.gone_after_s);
   entry.other_to_zone_m = ground->entry_m;
   entry.other_to_end_m = ground->exit_m;
@@ -159,27 +163,26 @@ bool AdversaryTraffic::ego_is_licensed(const ZoneOnWay& zone, const Actor& other
   entry.shown_s = ego_shown_s_;
   entry.other_stood_s = mind.stood_s;
   entry.both_stood_s = std::min(mind.stood_s, ego_stood_s_);
-  return licence_of(law_, entry) != Licence::kNone;
+  return judge::licence_of(law_, entry) != judge::Licence::kNone;
 }
 
-std::vector<Obstacle> AdversaryTraffic::obstacles_of(const TrafficCar& car, const Actor& self,
-                                                     Mind& mind) const {
+std::vector<Obstacle> Traffic::obstacles_of(const traffic::Car& car, const Actor& self, Mind& mind) const {
   std::vector<Obstacle> all;
   ego_ahead(car, self, mind, all);
   zones_ahead(car, self, mind, all);
   return all;
 }
 
-void AdversaryTraffic::ego_ahead(const TrafficCar& car, const Actor& self, Mind& mind,
-                                 std::vector<Obstacle>& all) const {
-  const TrafficView two(*road_, {ego_->actor, self});
-  const Leader leader = two.leader(self.way, car.id, car.length_m);
+void Traffic::ego_ahead(const traffic::Car& car, const Actor& self, Mind& mind,
+                        std::vector<Obstacle>& all) const {
+  const traffic::TrafficView two(*road_, {ego_->actor, self});
+  const traffic::Leader leader = two.leader(self.way, car.id, car.length_m);
   if (leader.actor == nullptr || (leader.merging && (ego_->inside < 0 || !mind.owes_zone))) {
     mind.ego_ahead_s = -1.0;
     return;
   }
   Obstacle obstacle{leader.gap_m, leader.actor->speed_mps, true, 0.0};
-  const bool at_distance = leader.gap_m >= rss_gap_m(law_.rss, car.speed_mps, obstacle.speed_mps);
+  const bool at_distance = leader.gap_m >= judge::rss_gap_m(law_.rss, car.speed_mps, obstacle.speed_mps);
   if (leader.merging && mind.ego_ahead_s < 0.0) {
     // The duty that began with its going in goes on in the lane.
     mind.ego_ahead_s = mind.owes_since_s;
@@ -196,16 +199,17 @@ void AdversaryTraffic::ego_ahead(const TrafficCar& car, const Actor& self, Mind&
   if (obstacle.at_distance || mind.owes_ahead) all.push_back(obstacle);
 }
 
-void AdversaryTraffic::zones_ahead(const TrafficCar& car, const Actor& self, const Mind& mind,
-                                   std::vector<Obstacle>& all) const {
-  for (const ZoneGroup& group : zone_groups(*road_, stretches_of(*road_, self.way), car.length_m)) {
-    for (const ZoneOnWay& zone : group.zones) {
+void Traffic::zones_ahead(const traffic::Car& car, const Actor& self, const Mind& mind,
+                          std::vector<Obstacle>& all) const {
+  for (const judge::ZoneGroup& group :
+       judge::zone_groups(*road_, stretches_of(*road_, self.way), car.length_m)) {
+    for (const judge::ZoneOnWay& zone : group.zones) {
       const std::optional<Ground> ego = ground_of_other(zone, ego_->actor);
       if (!ego) continue;
       const bool ego_inside =
           ego_->inside >= 0 && ego->entry_m <= ego_->groups[static_cast<std::size_t>(ego_->inside)].exit_m;
       Obstacle line{group.entry_m - kRoom_m, 0.0, false, 0.0};
-      if (zone.meeting.rule == Rule::kFirstHasPriority) {
+      if (zone.meeting.rule == map::Rule::kFirstHasPriority) {
         if (!ego_inside || !mind.owes_zone || zone.entry_m <= 0.0) continue;
         if (zone.meeting.merging && mind.ego_ahead_s >= 0.0) continue;  // followed
         line.gap_m = zone.entry_m - kRoom_m;
@@ -219,22 +223,22 @@ void AdversaryTraffic::zones_ahead(const TrafficCar& car, const Actor& self, con
   }
 }
 
-bool AdversaryTraffic::may_enter(const Actor& self, const Mind& mind, double to_group_m,
-                                 const ZoneOnWay& zone, double ego_entry_m, double ego_exit_m) const {
-  if (zone.meeting.rule == Rule::kFirstCome) return ego_entry_m > 0.0;
+bool Traffic::may_enter(const Actor& self, const Mind& mind, double to_group_m, const judge::ZoneOnWay& zone,
+                        double ego_entry_m, double ego_exit_m) const {
+  if (zone.meeting.rule == map::Rule::kFirstCome) return ego_entry_m > 0.0;
   const Actor& ego = ego_->actor;
   const double limit = limit_mps(zone.lane);
-  const double until_s = time_to_cover_s(to_group_m, self.speed_mps, 0.0, limit);
+  const double until_s = traffic::time_to_cover_s(to_group_m, self.speed_mps, 0.0, limit);
   if (!std::isfinite(until_s) && to_group_m > kAtLine_m) return false;
   const double wait_s = std::isfinite(until_s) ? until_s : 0.0;
   const double ego_limit = std::max(limit_mps(ego.lane), limit_mps(zone.meeting.other));
-  const double top_mps = top_speed_mps(law_, ego.speed_mps, ego_limit);
+  const double top_mps = judge::top_speed_mps(law_, ego.speed_mps, ego_limit);
   const double reached_mps = std::min(top_mps, ego.speed_mps + law_.acceleration_mps2 * wait_s);
   const double ego_way_m = 0.5 * (ego.speed_mps + reached_mps) * wait_s;
-  Entry entry;
+  judge::Entry entry;
   entry.merging = zone.meeting.merging;
   entry.gone_after_s =
-      time_to_cover_s(zone.exit_m - to_group_m, self.speed_mps, law_.acceleration_mps2, limit);
+      traffic::time_to_cover_s(zone.exit_m - to_group_m, self.speed_mps, law_.acceleration_mps2, limit);
   entry.gone_mps = std::min(limit, self.speed_mps + law_.acceleration_mps2 * entry.gone_after_s);
   entry.other_to_zone_m = ego_entry_m - ego_way_m;
   entry.other_to_end_m = ego_exit_m - ego_way_m;
@@ -245,10 +249,10 @@ bool AdversaryTraffic::may_enter(const Actor& self, const Mind& mind, double to_
   entry.shown_s = at_line ? mind.stood_s : 0.0;
   entry.other_stood_s = to_group_m < kAtLine_m ? ego_stood_s_ : 0.0;
   entry.both_stood_s = to_group_m < kAtLine_m ? std::min(mind.stood_s, ego_stood_s_) : 0.0;
-  return licence_of(law_, entry) != Licence::kNone;
+  return judge::licence_of(law_, entry) != judge::Licence::kNone;
 }
 
-bool AdversaryTraffic::may_change(const TrafficCar& car, const WayPart& beside) const {
+bool Traffic::may_change(const traffic::Car& car, const traffic::WayPart& beside) const {
   if (!ego_) return true;
   Actor self;
   self.id = car.id;
@@ -259,24 +263,24 @@ bool AdversaryTraffic::may_change(const TrafficCar& car, const WayPart& beside) 
   self.guide = &plan_->ways[car.way].guide;
   // Where it may be by then: it may come over, too, and a change begun is not given up.
   Actor ego = ego_->actor;
-  if (ego.lane != kNoLane && lane(ego.lane).edge == lane(beside.lane).edge) ego.lane = beside.lane;
-  const TrafficView two(*road_, {ego, self});
+  if (ego.lane != map::kNoLane && lane(ego.lane).edge == lane(beside.lane).edge) ego.lane = beside.lane;
+  const traffic::TrafficView two(*road_, {ego, self});
   const double rate =
       std::min(1.0 / kUsualChange_s, std::max(car.speed_mps, kChangesAtLeast_mps) / kSlowChange_mps);
   const double to_line_s = 0.5 / rate;
   const double slack_m = 0.5 * kEgoMayGain_mps2 * to_line_s * to_line_s;
   const double gained_mps = kEgoMayGain_mps2 * to_line_s;
-  const auto left = [&](const Leader& found, double rear_mps, double front_mps) {
+  const auto left = [&](const traffic::Leader& found, double rear_mps, double front_mps) {
     const double gap_m = found.gap_m - (rear_mps - front_mps) * to_line_s - slack_m;
-    return gap_m >= rss_gap_m(law_.rss, rear_mps, front_mps);
+    return gap_m >= judge::rss_gap_m(law_.rss, rear_mps, front_mps);
   };
-  const Leader ahead = two.leader(two.actors()[1].way, car.id, car.length_m);
+  const traffic::Leader ahead = two.leader(two.actors()[1].way, car.id, car.length_m);
   if (ahead.actor != nullptr &&
       !left(ahead, car.speed_mps, std::max(0.0, ahead.actor->speed_mps - gained_mps))) {
     return false;
   }
-  const Leader behind = two.follower(beside.lane, self.s_m, car.id, car.length_m);
+  const traffic::Leader behind = two.follower(beside.lane, self.s_m, car.id, car.length_m);
   return behind.actor == nullptr || left(behind, behind.actor->speed_mps + gained_mps, car.speed_mps);
 }
 
-}  // namespace s4tp::world
+}  // namespace s4tp::adversary

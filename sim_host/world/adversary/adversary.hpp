@@ -27,16 +27,16 @@
 #include "sim_host/world/judge/standing.hpp"
 #include "sim_host/world/traffic/traffic.hpp"
 
-namespace s4tp::world {
+namespace s4tp::adversary {
 
 /// The judge's law, with what the ECU counts on as the most that others gain and drive (docs/safety.md).
-[[nodiscard]] Law promised_law();
+[[nodiscard]] judge::Law promised_law();
 
-class AdversaryTraffic final : public Traffic {
+class Traffic final : public traffic::Traffic {
  public:
-  AdversaryTraffic(const Scenario& scenario, std::uint64_t episode, std::uint64_t seed,
-                   const Law& law = promised_law());
-  [[nodiscard]] std::unique_ptr<TrafficEngine> clone() const override;
+  Traffic(const scenario::Scenario& scenario, std::uint64_t episode, std::uint64_t seed,
+          const judge::Law& law = promised_law());
+  [[nodiscard]] std::unique_ptr<traffic::TrafficEngine> clone() const override;
 
  private:
   /// What one driver keeps in mind from one decision to the next.
@@ -50,32 +50,34 @@ class AdversaryTraffic final : public Traffic {
   };
   /// The ego on its own way.
   struct Watched {
-    Actor actor;  ///< with its way
-    std::vector<ZoneGroup> groups;
+    traffic::Actor actor;  ///< with its way
+    std::vector<judge::ZoneGroup> groups;
     int inside = -1;  ///< which of them the ego is on; < 0: none
   };
 
-  void decide(const Actor* ego) override;
-  [[nodiscard]] bool may_change(const TrafficCar& car, const WayPart& beside) const override;
+  void decide(const traffic::Actor* ego) override;
+  [[nodiscard]] bool may_change(const traffic::Car& car, const traffic::WayPart& beside) const override;
 
-  void watch(const Actor& ego, const TrafficView& others);
+  void watch(const traffic::Actor& ego, const traffic::TrafficView& others);
   /// Who is bound by the ego's going into a group, from now on.
-  void bind(const ZoneGroup& group, const TrafficView& others);
-  [[nodiscard]] bool ego_is_licensed(const ZoneOnWay& zone, const Actor& other, const Mind& mind) const;
-  [[nodiscard]] std::vector<Obstacle> obstacles_of(const TrafficCar& car, const Actor& self,
+  void bind(const judge::ZoneGroup& group, const traffic::TrafficView& others);
+  [[nodiscard]] bool ego_is_licensed(const judge::ZoneOnWay& zone, const traffic::Actor& other,
+                                     const Mind& mind) const;
+  [[nodiscard]] std::vector<Obstacle> obstacles_of(const traffic::Car& car, const traffic::Actor& self,
                                                    Mind& mind) const;
-  void ego_ahead(const TrafficCar& car, const Actor& self, Mind& mind, std::vector<Obstacle>& all) const;
-  void zones_ahead(const TrafficCar& car, const Actor& self, const Mind& mind,
+  void ego_ahead(const traffic::Car& car, const traffic::Actor& self, Mind& mind,
+                 std::vector<Obstacle>& all) const;
+  void zones_ahead(const traffic::Car& car, const traffic::Actor& self, const Mind& mind,
                    std::vector<Obstacle>& all) const;
-  [[nodiscard]] bool may_enter(const Actor& self, const Mind& mind, double to_group_m, const ZoneOnWay& zone,
-                               double ego_entry_m, double ego_exit_m) const;
-  [[nodiscard]] double limit_mps(LaneId lane) const { return this->lane(lane).speed_limit_mps; }
+  [[nodiscard]] bool may_enter(const traffic::Actor& self, const Mind& mind, double to_group_m,
+                               const judge::ZoneOnWay& zone, double ego_entry_m, double ego_exit_m) const;
+  [[nodiscard]] double limit_mps(map::LaneId lane) const { return this->lane(lane).speed_limit_mps; }
 
-  Law law_;
+  judge::Law law_;
   std::map<int, Mind> minds_;
   std::optional<Watched> ego_;
   double ego_shown_s_ = 0.0;  ///< its nose has been near the group ahead
   double ego_stood_s_ = 0.0;
 };
 
-}  // namespace s4tp::world
+}  // namespace s4tp::adversary

@@ -7,7 +7,7 @@
 
 #include "sim_host/world/traffic/random.hpp"
 
-namespace s4tp::world {
+namespace s4tp::adversary {
 namespace {
 
 constexpr double kStands_s = 3.0;    // without a reason, no longer ...
@@ -22,9 +22,9 @@ constexpr double kMoreOfMood_s = 2.0;    // ... so much longer
 enum Action { kFull, kRolls, kBrakes, kBrakesHard, kActions };
 constexpr double kUpTo[kActions] = {0.5, 0.7, 0.85, 1.0};  // draws that mean each
 
-Vec2 place_on(const RoadIndex& road, const std::vector<WayPart>& way, double ahead_m) {
-  const WayPart* part = &way.front();
-  for (const WayPart& next : way) {
+map::Vec2 place_on(const traffic::RoadIndex& road, const std::vector<traffic::WayPart>& way, double ahead_m) {
+  const traffic::WayPart* part = &way.front();
+  for (const traffic::WayPart& next : way) {
     if (next.start_m <= ahead_m) part = &next;
   }
   return road.lane(part->lane).centre.at(ahead_m - part->start_m).point;
@@ -40,8 +40,8 @@ double nearest_m(const DriverSituation& at, double acceleration_mps2) {
     const double before = speed_mps;
     speed_mps = std::clamp(speed_mps + acceleration_mps2 * at.step_s, 0.0, std::max(top_mps, before));
     way_m += 0.5 * (before + speed_mps) * at.step_s;
-    const Vec2 own = place_on(at.road, at.self.way, way_m);
-    const Vec2 ego = place_on(at.road, at.ego.way, at.ego.speed_mps * t);
+    const map::Vec2 own = place_on(at.road, at.self.way, way_m);
+    const map::Vec2 ego = place_on(at.road, at.ego.way, at.ego.speed_mps * t);
     nearest = std::min(nearest, std::hypot(own.x - ego.x, own.y - ego.y));
   }
   return nearest;
@@ -56,12 +56,12 @@ double chosen_mps2(const DriverSituation& at, double most_mps2, Mood& mood) {
   if (at.changing) return options[kRolls];
   if (at.stood_s >= kStands_s) mood.drives_until_s = at.time_s + kDrives_s;
   if (at.time_s < mood.drives_until_s) return options[kFull];
-  if (hash_uniform(at.seed) >= kSearching) {
+  if (traffic::hash_uniform(at.seed) >= kSearching) {
     if (at.time_s >= mood.action_until_s) {
-      const double draw = hash_uniform(next_seed(at.seed + ++mood.draws));
+      const double draw = traffic::hash_uniform(traffic::next_seed(at.seed + ++mood.draws));
       mood.action = static_cast<int>(std::upper_bound(std::begin(kUpTo), std::end(kUpTo), draw) - kUpTo);
-      mood.action_until_s =
-          at.time_s + kShortestMood_s + kMoreOfMood_s * hash_uniform(next_seed(at.seed + ++mood.draws));
+      mood.action_until_s = at.time_s + kShortestMood_s +
+                            kMoreOfMood_s * traffic::hash_uniform(traffic::next_seed(at.seed + ++mood.draws));
     }
     return options[mood.action];
   }
@@ -72,4 +72,4 @@ double chosen_mps2(const DriverSituation& at, double most_mps2, Mood& mood) {
   return *best;
 }
 
-}  // namespace s4tp::world
+}  // namespace s4tp::adversary

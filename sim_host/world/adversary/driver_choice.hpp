@@ -6,7 +6,7 @@
 #include "sim_host/world/judge/law.hpp"
 #include "sim_host/world/traffic/traffic_view.hpp"
 
-namespace s4tp::world {
+namespace s4tp::adversary {
 
 /// What a driver is up to, from one decision to the next.
 struct Mood {
@@ -18,10 +18,10 @@ struct Mood {
 
 /// A driver's situation.
 struct DriverSituation {
-  const RoadIndex& road;
-  const Law& law;
-  const Actor& self;  ///< with its way, ...
-  const Actor& ego;   ///< ... and so is the ego
+  const traffic::RoadIndex& road;
+  const judge::Law& law;
+  const traffic::Actor& self;  ///< with its way, ...
+  const traffic::Actor& ego;   ///< ... and so is the ego
   double time_s;
   double step_s;  ///< to the next decision
   double stood_s;
@@ -35,4 +35,4 @@ struct DriverSituation {
 /// \param most_mps2  that the law allows
 [[nodiscard]] double chosen_mps2(const DriverSituation& at, double most_mps2, Mood& mood);
 
-}  // namespace s4tp::world
+}  // namespace s4tp::adversary

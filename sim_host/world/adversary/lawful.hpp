@@ -5,7 +5,7 @@
 
 #include "sim_host/world/judge/law.hpp"
 
-namespace s4tp::world {
+namespace s4tp::adversary {
 
 /// What a car must not drive into: a line (standing) or somebody ahead in its lane.
 struct Obstacle {
@@ -16,12 +16,12 @@ struct Obstacle {
 };
 
 /// LAW-040 Whether a car that drives for `step_s` at an acceleration can then still do what it owes.
-[[nodiscard]] bool keeps(const Law& law, const Obstacle& obstacle, double speed_mps, double acceleration_mps2,
-                         double step_s);
+[[nodiscard]] bool keeps(const judge::Law& law, const Obstacle& obstacle, double speed_mps,
+                         double acceleration_mps2, double step_s);
 
 /// LAW-041 The hardest acceleration, up to `most_mps2`, that keeps the law towards all of them, in steps of
 /// 0.25 m/s^2; where none does, the duty's braking.
-[[nodiscard]] double hardest_mps2(const Law& law, std::span<const Obstacle> obstacles, double speed_mps,
-                                  double most_mps2, double step_s);
+[[nodiscard]] double hardest_mps2(const judge::Law& law, std::span<const Obstacle> obstacles,
+                                  double speed_mps, double most_mps2, double step_s);
 
-}  // namespace s4tp::world
+}  // namespace s4tp::adversary

@@ -9,8 +9,10 @@
 #include "sim_host/world/judge/reasons.hpp"
 #include "sim_host/world/traffic/box.hpp"
 
-namespace s4tp::world {
+namespace s4tp::judge {
 namespace {
+
+using traffic::Cause;
 
 constexpr double kStoodFor_s = 1.0;
 constexpr double kZonePad_m = 3.0;  // a car beside its lane's centre touches a little before or behind a zone
@@ -21,12 +23,12 @@ constexpr double kSameWay_rad = 0.25 * std::numbers::pi;  // headings differ by 
 
 struct Party {
   const Journey* journey = nullptr;
-  const CarState* car = nullptr;
+  const traffic::CarState* car = nullptr;
   bool ours = false;
 };
 
 Verdict blame(const Party& party, Cause cause) {
-  return {party.ours ? Fault::kEgo : Fault::kOther, cause};
+  return {party.ours ? traffic::Fault::kEgo : traffic::Fault::kOther, cause};
 }
 
 /// A zone on both ways, with the group in which the first meets it.
@@ -49,7 +51,7 @@ std::optional<SharedZone> zone_of_touch(const Evidence& evidence, const Party& s
           other_m < entry_m - kZonePad_m || other_m > *exit_m + kZonePad_m) {
         continue;
       }
-      if (!found || found->zone.meeting.rule == Rule::kFirstCome) {
+      if (!found || found->zone.meeting.rule == map::Rule::kFirstCome) {
         found = SharedZone{group, zone};
       }
     }
@@ -111,10 +113,10 @@ std::optional<Verdict> on_a_zone(const Law& law, const Evidence& evidence, const
   if (!ours) {
     return std::nullopt;
   }
-  if (ours->zone.meeting.rule == Rule::kFirstYields) {
+  if (ours->zone.meeting.rule == map::Rule::kFirstYields) {
     return by_priority(law, evidence, ego, other, *ours, time_s);
   }
-  if (ours->zone.meeting.rule == Rule::kFirstHasPriority) {
+  if (ours->zone.meeting.rule == map::Rule::kFirstHasPriority) {
     const std::optional<SharedZone> theirs = seen_by(evidence, other, ours->zone);
     return theirs ? std::optional(by_priority(law, evidence, other, ego, *theirs, time_s)) : std::nullopt;
   }
@@ -123,23 +125,23 @@ std::optional<Verdict> on_a_zone(const Law& law, const Evidence& evidence, const
   return blame(we_later ? ego : other, Cause::kEnteredLater);
 }
 
-bool over_the_line(const Network& network, const CarState& car) {
-  if (car.lane == kNoLane) {
+bool over_the_line(const map::Network& network, const traffic::CarState& car) {
+  if (car.lane == map::kNoLane) {
     return true;
   }
-  const NetworkLane& lane = network.lanes[static_cast<std::size_t>(car.lane)];
+  const map::Lane& lane = network.lanes[static_cast<std::size_t>(car.lane)];
   const double bend_1pm = std::abs(lane.centre.at(lane.centre.project(car.centre).s_m).curvature_1pm);
   const double swept_m = 0.125 * bend_1pm * car.length_m * car.length_m;
-  const auto points = corners(box_of(car));
-  return std::any_of(points.begin(), points.end(), [&](Vec2 corner) {
+  const auto points = traffic::corners(traffic::box_of(car));
+  return std::any_of(points.begin(), points.end(), [&](map::Vec2 corner) {
     return std::abs(lane.centre.project(corner).d_m) > 0.5 * lane.width_m + swept_m + kOverLine_m;
   });
 }
 
-bool changed_lane_lately(const Law& law, const Network& network, const Journey& journey) {
+bool changed_lane_lately(const Law& law, const map::Network& network, const Journey& journey) {
   for (std::size_t i = 1; i < journey.points.size(); ++i) {
-    const NetworkLane& from = network.lanes[static_cast<std::size_t>(journey.points[i - 1].lane)];
-    const LaneId to = journey.points[i].lane;
+    const map::Lane& from = network.lanes[static_cast<std::size_t>(journey.points[i - 1].lane)];
+    const map::LaneId to = journey.points[i].lane;
     if (journey.points[i].time_s >= journey.points.back().time_s - law.settle_s &&
         (to == from.left || to == from.right)) {
       return true;
@@ -154,8 +156,8 @@ Verdict by_line(const Party& ego, const Party& other, Cause cause, const Strayed
   return blame(strayed(other) && !strayed(ego) ? other : ego, cause);
 }
 
-Verdict nose_to_tail(const Law& law, const Evidence& evidence, const RouteGuide& guide, const Party& front,
-                     const Party& rear, double time_s) {
+Verdict nose_to_tail(const Law& law, const Evidence& evidence, const map::RouteGuide& guide,
+                     const Party& front, const Party& rear, double time_s) {
   const double since_s = ahead_since_s(*front.journey, *rear.journey, time_s);
   if (since_s > time_s - law.settle_s && since_s <= time_s && rear.journey->seen_at(since_s) &&
       !left_gap(law, *front.journey, *rear.journey, since_s)) {
@@ -170,27 +172,27 @@ Verdict nose_to_tail(const Law& law, const Evidence& evidence, const RouteGuide&
 
 }  // namespace
 
-Verdict attribute(const Network& network, const RouteGuide& guide, std::span<const Snapshot> history,
-                  int other, const Law& law) {
+Verdict attribute(const map::Network& network, const map::RouteGuide& guide,
+                  std::span<const traffic::Snapshot> history, int other, const Law& law) {
   const Evidence evidence(network, history, &guide);
   const double time_s = history.back().time_s;
   const Party us{evidence.journey_of(0), &evidence.snapshots().back().ego, true};
   const Party them{evidence.journey_of(other), nullptr, false};
   if (us.journey == nullptr || them.journey == nullptr || !us.journey->seen_at(time_s) ||
       !them.journey->seen_at(time_s)) {
-    return {Fault::kEgo, Cause::kUnclear};
+    return {traffic::Fault::kEgo, Cause::kUnclear};
   }
   const Party car{them.journey, &evidence.state_of(other, time_s), false};
   if (const std::optional<Verdict> verdict = on_a_zone(law, evidence, us, car, time_s)) {
     return *verdict;
   }
-  const double turned_rad = std::abs(wrap_angle(car.car->heading_rad - us.car->heading_rad));
+  const double turned_rad = std::abs(map::wrap_angle(car.car->heading_rad - us.car->heading_rad));
   if (turned_rad > std::numbers::pi - kSameWay_rad) {
     return by_line(us, car, Cause::kOncoming,
                    [&](const Party& party) { return over_the_line(network, *party.car); });
   }
   if (turned_rad > kSameWay_rad) {
-    return {Fault::kEgo, Cause::kUnclear};
+    return {traffic::Fault::kEgo, Cause::kUnclear};
   }
   const double dx = car.car->centre.x - us.car->centre.x;
   const double dy = car.car->centre.y - us.car->centre.y;
@@ -207,4 +209,4 @@ Verdict attribute(const Network& network, const RouteGuide& guide, std::span<con
   });
 }
 
-}  // namespace s4tp::world
+}  // namespace s4tp::judge

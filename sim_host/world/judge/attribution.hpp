@@ -22,17 +22,17 @@
 #include "sim_host/world/map/network.hpp"
 #include "sim_host/world/traffic/recording.hpp"
 
-namespace s4tp::world {
+namespace s4tp::judge {
 
 struct Verdict {
-  Fault fault = Fault::kNone;
-  Cause cause = Cause::kNone;
+  traffic::Fault fault = traffic::Fault::kNone;
+  traffic::Cause cause = traffic::Cause::kNone;
 };
 
 /// \param guide    the ego's route
 /// \param history  snapshots every 0.1 s up to and including the touch; lanes as engines label them
 /// \param other    whom the ego touches
-[[nodiscard]] Verdict attribute(const Network& network, const RouteGuide& guide,
-                                std::span<const Snapshot> history, int other, const Law& law = {});
+[[nodiscard]] Verdict attribute(const map::Network& network, const map::RouteGuide& guide,
+                                std::span<const traffic::Snapshot> history, int other, const Law& law = {});
 
-}  // namespace s4tp::world
+}  // namespace s4tp::judge

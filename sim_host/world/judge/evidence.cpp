@@ -8,41 +8,43 @@
 #include "sim_host/world/map/lane_of.hpp"
 #include "sim_host/world/traffic/box.hpp"
 
-namespace s4tp::world {
+namespace s4tp::judge {
 namespace {
 
-bool within(const NetworkLane& lane, Vec2 point) {
+bool within(const map::Lane& lane, map::Vec2 point) {
   return std::abs(lane.centre.project(point).d_m) <= 0.5 * lane.width_m;
 }
 
-const CarState* find(const Snapshot& snapshot, int id) {
+const traffic::CarState* find(const traffic::Snapshot& snapshot, int id) {
   if (id == 0) {
     return &snapshot.ego;
   }
   const auto car = std::find_if(snapshot.others.begin(), snapshot.others.end(),
-                                [&](const CarState& state) { return state.id == id; });
+                                [&](const traffic::CarState& state) { return state.id == id; });
   return car == snapshot.others.end() ? nullptr : &*car;
 }
 
 }  // namespace
 
-LaneId lane_under(const Network& network, const CarState& car) {
-  if (car.lane == kNoLane || within(lane_of(network, car.lane), car.centre)) {
+map::LaneId lane_under(const map::Network& network, const traffic::CarState& car) {
+  if (car.lane == map::kNoLane || within(map::lane_of(network, car.lane), car.centre)) {
     return car.lane;
   }
-  for (const LaneId beside : {lane_of(network, car.lane).left, lane_of(network, car.lane).right}) {
-    if (beside != kNoLane && within(lane_of(network, beside), car.centre)) {
+  for (const map::LaneId beside :
+       {map::lane_of(network, car.lane).left, map::lane_of(network, car.lane).right}) {
+    if (beside != map::kNoLane && within(map::lane_of(network, beside), car.centre)) {
       return beside;
     }
   }
   return car.lane;
 }
 
-Evidence::Evidence(const Network& network, std::span<const Snapshot> snapshots, const RouteGuide* ego_guide)
+Evidence::Evidence(const map::Network& network, std::span<const traffic::Snapshot> snapshots,
+                   const map::RouteGuide* ego_guide)
     : road_(network), snapshots_(snapshots.begin(), snapshots.end()) {
-  for (Snapshot& snapshot : snapshots_) {
-    snapshot.ego.lane = snapshot.time_s < 0.0 ? kNoLane : lane_under(network, snapshot.ego);
-    for (CarState& car : snapshot.others) {
+  for (traffic::Snapshot& snapshot : snapshots_) {
+    snapshot.ego.lane = snapshot.time_s < 0.0 ? map::kNoLane : lane_under(network, snapshot.ego);
+    for (traffic::CarState& car : snapshot.others) {
       car.lane = lane_under(network, car);
     }
   }
@@ -62,15 +64,15 @@ std::vector<ZoneGroup> Evidence::groups_of(const Journey& journey) const {
   return zone_groups(road_, journey.stretches, journey.length_m);
 }
 
-const Snapshot& Evidence::snapshot_at(double time_s) const {
+const traffic::Snapshot& Evidence::snapshot_at(double time_s) const {
   const auto after =
       std::upper_bound(snapshots_.begin(), snapshots_.end(), time_s + 1e-6,
-                       [](double time, const Snapshot& snapshot) { return time < snapshot.time_s; });
+                       [](double time, const traffic::Snapshot& snapshot) { return time < snapshot.time_s; });
   return after == snapshots_.begin() ? snapshots_.front() : *(after - 1);
 }
 
-const CarState& Evidence::state_of(int id, double time_s) const {
-  const CarState* state = find(snapshot_at(time_s), id);
+const traffic::CarState& Evidence::state_of(int id, double time_s) const {
+  const traffic::CarState* state = find(snapshot_at(time_s), id);
   if (state == nullptr) {
     throw std::logic_error("car " + std::to_string(id) + " was not there");
   }
@@ -78,7 +80,7 @@ const CarState& Evidence::state_of(int id, double time_s) const {
 }
 
 bool Evidence::in_sight(int from, int to, double time_s) const {
-  return !hidden(state_of(from, time_s), state_of(to, time_s), snapshot_at(time_s).others);
+  return !traffic::hidden(state_of(from, time_s), state_of(to, time_s), snapshot_at(time_s).others);
 }
 
 double Evidence::stood_s(const Law& law, const Journey& journey, double time_s) const {
@@ -114,8 +116,8 @@ Entry Evidence::entry_of(const Law& law, const Journey& entering, const ZoneGrou
   entry.other_to_zone_m = other_entry_m(zone, other).value_or(0.0) - then.odometer_m;
   entry.other_to_end_m = other_exit_m(zone, other).value_or(0.0) - then.odometer_m;
   entry.other_mps = then.speed_mps;
-  entry.other_limit_mps = std::max(lane_of(road_.network(), then.lane).speed_limit_mps,
-                                   lane_of(road_.network(), zone.meeting.other).speed_limit_mps);
+  entry.other_limit_mps = std::max(map::lane_of(road_.network(), then.lane).speed_limit_mps,
+                                   map::lane_of(road_.network(), zone.meeting.other).speed_limit_mps);
   entry.bumpers_m = 0.5 * (entering.length_m + other.length_m);
   entry.in_sight = in_sight(other.id, entering.id, time_s);
   for (auto point = entering.points.rbegin(); point != entering.points.rend(); ++point) {
@@ -133,4 +135,4 @@ Entry Evidence::entry_of(const Law& law, const Journey& entering, const ZoneGrou
   return entry;
 }
 
-}  // namespace s4tp::world
+}  // namespace s4tp::judge

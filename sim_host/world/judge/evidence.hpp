@@ -7,27 +7,30 @@
 #include "sim_host/world/judge/law.hpp"
 #include "sim_host/world/judge/standing.hpp"
 
-namespace s4tp::world {
+namespace s4tp::judge {
 
 /// The lane whose strip the box centre is in: the car's own, or one beside it. A car is labelled with the
 /// lane it is going to before it has crossed the line.
-[[nodiscard]] LaneId lane_under(const Network& network, const CarState& car);
+[[nodiscard]] map::LaneId lane_under(const map::Network& network, const traffic::CarState& car);
 
 class Evidence {
  public:
   /// \param network  must outlive it  \param snapshots  every 0.1 s
   /// \param ego_guide  the ego's route; null: the ego is no party, as it is in the pre-roll, which the
   /// traffic does not see it in
-  Evidence(const Network& network, std::span<const Snapshot> snapshots, const RouteGuide* ego_guide);
+  Evidence(const map::Network& network, std::span<const traffic::Snapshot> snapshots,
+           const map::RouteGuide* ego_guide);
 
-  [[nodiscard]] const RoadIndex& road() const { return road_; }
-  [[nodiscard]] const std::vector<Snapshot>& snapshots() const { return snapshots_; }  ///< lanes driven on
+  [[nodiscard]] const traffic::RoadIndex& road() const { return road_; }
+  [[nodiscard]] const std::vector<traffic::Snapshot>& snapshots() const {
+    return snapshots_;
+  }  ///< lanes driven on
   [[nodiscard]] const std::vector<Journey>& journeys() const { return journeys_; }
   [[nodiscard]] const Journey* journey_of(int id) const;  ///< null: never seen on a lane
   [[nodiscard]] std::vector<ZoneGroup> groups_of(const Journey& journey) const;
 
   /// \pre both were there then; the ego is the car 0
-  [[nodiscard]] const CarState& state_of(int id, double time_s) const;
+  [[nodiscard]] const traffic::CarState& state_of(int id, double time_s) const;
   [[nodiscard]] bool in_sight(int from, int to, double time_s) const;
   /// How long a car has stood without a break up to a time.
   [[nodiscard]] double stood_s(const Law& law, const Journey& journey, double time_s) const;
@@ -41,11 +44,11 @@ class Evidence {
   [[nodiscard]] std::optional<double> other_exit_m(const ZoneOnWay& zone, const Journey& other) const;
 
  private:
-  [[nodiscard]] const Snapshot& snapshot_at(double time_s) const;
+  [[nodiscard]] const traffic::Snapshot& snapshot_at(double time_s) const;
 
-  RoadIndex road_;
-  std::vector<Snapshot> snapshots_;
+  traffic::RoadIndex road_;
+  std::vector<traffic::Snapshot> snapshots_;
   std::vector<Journey> journeys_;
 };
 
-}  // namespace s4tp::world
+}  // namespace s4tp::judge

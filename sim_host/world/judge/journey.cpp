@@ -5,7 +5,7 @@
 
 #include "sim_host/world/map/lane_of.hpp"
 
-namespace s4tp::world {
+namespace s4tp::judge {
 namespace {
 
 constexpr std::size_t kChainMax = 4;  // lanes passed in 0.1 s: seams between edges are 1 m long
@@ -13,15 +13,16 @@ constexpr double kAhead_m = 100.0;
 constexpr double kStep_s = 0.1;
 
 /// Lanes from `from` to `to` going forward, both included; empty: not within reach.
-std::vector<LaneId> chain(const Network& network, LaneId from, LaneId to, std::size_t most) {
+std::vector<map::LaneId> chain(const map::Network& network, map::LaneId from, map::LaneId to,
+                               std::size_t most) {
   if (from == to) {
     return {from};
   }
   if (most <= 1) {
     return {};
   }
-  for (const LaneId next : lane_of(network, from).successors) {
-    std::vector<LaneId> rest = chain(network, next, to, most - 1);
+  for (const map::LaneId next : map::lane_of(network, from).successors) {
+    std::vector<map::LaneId> rest = chain(network, next, to, most - 1);
     if (!rest.empty()) {
       rest.insert(rest.begin(), from);
       return rest;
@@ -31,17 +32,17 @@ std::vector<LaneId> chain(const Network& network, LaneId from, LaneId to, std::s
 }
 
 /// Appends a point, and what lanes the car has come to since the last one.
-void go_on(const Network& network, Journey& journey, Vec2 centre_before, JourneyPoint now) {
+void go_on(const map::Network& network, Journey& journey, map::Vec2 centre_before, JourneyPoint now) {
   const JourneyPoint before = journey.points.back();
-  const std::vector<LaneId> lanes = chain(network, before.lane, now.lane, kChainMax);
+  const std::vector<map::LaneId> lanes = chain(network, before.lane, now.lane, kChainMax);
   if (lanes.empty()) {  // a change of lane
-    const double from_m = lane_of(network, now.lane).centre.project(centre_before).s_m;
+    const double from_m = map::lane_of(network, now.lane).centre.project(centre_before).s_m;
     now.odometer_m = before.odometer_m + now.s_m - from_m;
     journey.stretches.push_back({now.lane, now.odometer_m - now.s_m, before.odometer_m, now.odometer_m});
   } else {
     double start_m = before.odometer_m - before.s_m;
     for (std::size_t i = 0; i + 1 < lanes.size(); ++i) {
-      start_m += lane_of(network, lanes[i]).centre.length_m();
+      start_m += map::lane_of(network, lanes[i]).centre.length_m();
       journey.stretches.push_back({lanes[i + 1], start_m, before.odometer_m, 0.0});
     }
     now.odometer_m = start_m + now.s_m;
@@ -68,7 +69,7 @@ double Journey::time_at(double odometer_m) const {
                              (there->odometer_m - before.odometer_m);
 }
 
-std::optional<double> Journey::odometer_at(LaneId lane, double s_m) const {
+std::optional<double> Journey::odometer_at(map::LaneId lane, double s_m) const {
   for (const Stretch& stretch : stretches) {
     const double odometer_m = stretch.start_m + s_m;
     if (stretch.lane == lane && stretch.from_m < odometer_m && odometer_m <= stretch.until_m) {
@@ -78,7 +79,7 @@ std::optional<double> Journey::odometer_at(LaneId lane, double s_m) const {
   return std::nullopt;
 }
 
-std::optional<double> Journey::time_at(LaneId lane, double s_m) const {
+std::optional<double> Journey::time_at(map::LaneId lane, double s_m) const {
   const std::optional<double> odometer_m = odometer_at(lane, s_m);
   if (!odometer_m || *odometer_m > points.back().odometer_m) {
     return std::nullopt;
@@ -97,18 +98,19 @@ bool Journey::seen_at(double time_s) const {
   return time_s > points.front().time_s - 1e-6 && time_s < points.back().time_s + kStep_s;
 }
 
-std::vector<Journey> journeys_of(const Network& network, std::span<const Snapshot> snapshots, bool with_ego) {
+std::vector<Journey> journeys_of(const map::Network& network, std::span<const traffic::Snapshot> snapshots,
+                                 bool with_ego) {
   struct Last {
     std::size_t journey = 0;
-    Vec2 centre;
+    map::Vec2 centre;
   };
   std::vector<Journey> journeys;
   std::map<int, Last> last;
-  const auto see = [&](double time_s, const CarState& car) {
-    if (car.lane == kNoLane) {
+  const auto see = [&](double time_s, const traffic::CarState& car) {
+    if (car.lane == map::kNoLane) {
       return;
     }
-    const double s_m = lane_of(network, car.lane).centre.project(car.centre).s_m;
+    const double s_m = map::lane_of(network, car.lane).centre.project(car.centre).s_m;
     const JourneyPoint now{time_s, car.lane, s_m, 0.0, car.speed_mps, car.acceleration_mps2};
     const auto [entry, fresh] = last.try_emplace(car.id, Last{journeys.size(), car.centre});
     if (fresh) {
@@ -118,29 +120,29 @@ std::vector<Journey> journeys_of(const Network& network, std::span<const Snapsho
       entry->second.centre = car.centre;
     }
   };
-  for (const Snapshot& snapshot : snapshots) {
+  for (const traffic::Snapshot& snapshot : snapshots) {
     if (with_ego) {
       see(snapshot.time_s, snapshot.ego);
     }
-    for (const CarState& car : snapshot.others) {
+    for (const traffic::CarState& car : snapshot.others) {
       see(snapshot.time_s, car);
     }
   }
   return journeys;
 }
 
-void extend(const Network& network, const RouteGuide* guide, Journey& journey) {
+void extend(const map::Network& network, const map::RouteGuide* guide, Journey& journey) {
   Stretch* last = &journey.stretches.back();
   const double end_m = journey.points.back().odometer_m + kAhead_m;
   while (true) {
-    const NetworkLane& lane = lane_of(network, last->lane);
+    const map::Lane& lane = map::lane_of(network, last->lane);
     last->until_m = end_m;
     const double next_start_m = last->start_m + lane.centre.length_m();
-    LaneId next = lane.successors.size() == 1 ? lane.successors.front() : kNoLane;
-    if (guide != nullptr && guide->advice(last->lane).next != kNoLane) {
+    map::LaneId next = lane.successors.size() == 1 ? lane.successors.front() : map::kNoLane;
+    if (guide != nullptr && guide->advice(last->lane).next != map::kNoLane) {
       next = guide->advice(last->lane).next;
     }
-    if (next == kNoLane || next_start_m >= end_m) {
+    if (next == map::kNoLane || next_start_m >= end_m) {
       return;
     }
     journey.stretches.push_back({next, next_start_m, last->from_m, end_m});
@@ -148,4 +150,4 @@ void extend(const Network& network, const RouteGuide* guide, Journey& journey) {
   }
 }
 
-}  // namespace s4tp::world
+}  // namespace s4tp::judge

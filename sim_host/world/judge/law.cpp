@@ -4,7 +4,7 @@
 
 #include "sim_host/world/traffic/traffic_driver.hpp"
 
-namespace s4tp::world {
+namespace s4tp::judge {
 namespace {
 
 /// Way covered in a time while speeding up to at most `top_mps`.
@@ -26,7 +26,7 @@ bool clear(const Law& law, const Entry& entry) {
     return false;
   }
   if (!entry.merging) {
-    return time_to_cover_s(entry.other_to_zone_m, entry.other_mps, law.acceleration_mps2, top_mps) >=
+    return traffic::time_to_cover_s(entry.other_to_zone_m, entry.other_mps, law.acceleration_mps2, top_mps) >=
            entry.gone_after_s;
   }
   const double gap_m = entry.other_to_end_m - entry.bumpers_m -
@@ -77,4 +77,4 @@ Licence licence_of(const Law& law, const Entry& entry) {
   return Licence::kNone;
 }
 
-}  // namespace s4tp::world
+}  // namespace s4tp::judge

@@ -21,11 +21,11 @@
 /// | LAW-003 | L2    | if the other stands and has seen one's nose at the line for `shown_s`; where  |
 /// |         |       | both have stood for `deadlock_s` any one may                                  |
 ///
-/// A zone is ground that two lanes share (NetworkConflict); a group is all zones between two places where a
+/// A zone is ground that two lanes share (map::Conflict); a group is all zones between two places where a
 /// car can stand without being on any (standing.hpp). At first-come zones nothing is owed before somebody is
 /// inside. Source: method.md 4.9; RSS: Shalev-Shwartz, Shammah, Shashua 2017.
 
-namespace s4tp::world {
+namespace s4tp::judge {
 
 /// RSS along a lane: the one behind answers after `reaction_s`, until then gaining speed, and brakes with at
 /// least `braking_mps2`; the one ahead brakes with at most `front_braking_mps2`.
@@ -87,4 +87,4 @@ struct Entry {
 /// The first of LAW-001, LAW-002 and LAW-003 that holds. Merging, "gone" asks for the RSS gap behind it.
 [[nodiscard]] Licence licence_of(const Law& law, const Entry& entry);
 
-}  // namespace s4tp::world
+}  // namespace s4tp::judge

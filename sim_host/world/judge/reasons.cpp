@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace s4tp::world {
+namespace s4tp::judge {
 namespace {
 
 constexpr double kAhead_m = 15.0;  // bumper to bumper and to the line: closer is a reason
@@ -12,10 +12,10 @@ constexpr double kBeside_m = 2.0;  // of the own straight way
 constexpr double kLately_s = 3.0;  // a breach of the law is answered so long
 constexpr double kZoneAhead_m = 30.0;
 
-bool somebody_ahead(const Snapshot& now) {
+bool somebody_ahead(const traffic::Snapshot& now) {
   const double c = std::cos(now.ego.heading_rad);
   const double s = std::sin(now.ego.heading_rad);
-  return std::any_of(now.others.begin(), now.others.end(), [&](const CarState& car) {
+  return std::any_of(now.others.begin(), now.others.end(), [&](const traffic::CarState& car) {
     const double dx = car.centre.x - now.ego.centre.x;
     const double dy = car.centre.y - now.ego.centre.y;
     const double ahead = c * dx + s * dy;
@@ -26,14 +26,14 @@ bool somebody_ahead(const Snapshot& now) {
 
 bool gives_way(const ZoneGroup& group) {
   return std::any_of(group.zones.begin(), group.zones.end(),
-                     [](const ZoneOnWay& zone) { return zone.meeting.rule != Rule::kFirstHasPriority; });
+                     [](const ZoneOnWay& zone) { return zone.meeting.rule != map::Rule::kFirstHasPriority; });
 }
 
 /// Somebody entered a zone ahead against the ego's priority without licence, lately.
 bool priority_broken(const Law& law, const Evidence& evidence, const Journey& ego, const ZoneGroup& ahead,
                      double time_s) {
   for (const ZoneOnWay& zone : ahead.zones) {
-    if (zone.meeting.rule != Rule::kFirstHasPriority) {
+    if (zone.meeting.rule != map::Rule::kFirstHasPriority) {
       continue;
     }
     for (const Journey& other : evidence.journeys()) {
@@ -92,14 +92,15 @@ bool left_gap(const Law& law, const Journey& front, const Journey& rear, double 
                         rss_gap_m(law.rss, behind.speed_mps, ahead.speed_mps);
 }
 
-std::optional<Reason> reason_to_stand(const Law& law, const Evidence& evidence, const RouteGuide& guide,
+std::optional<Reason> reason_to_stand(const Law& law, const Evidence& evidence, const map::RouteGuide& guide,
                                       double time_s) {
   const Journey* ego = evidence.journey_of(0);
   if (ego == nullptr || !ego->seen_at(time_s)) {
     return std::nullopt;
   }
-  const auto now = std::find_if(evidence.snapshots().rbegin(), evidence.snapshots().rend(),
-                                [&](const Snapshot& snapshot) { return snapshot.time_s <= time_s + 1e-6; });
+  const auto now =
+      std::find_if(evidence.snapshots().rbegin(), evidence.snapshots().rend(),
+                   [&](const traffic::Snapshot& snapshot) { return snapshot.time_s <= time_s + 1e-6; });
   if (now != evidence.snapshots().rend() && somebody_ahead(*now)) {
     return Reason::kQueue;
   }
@@ -119,7 +120,7 @@ std::optional<Reason> reason_to_stand(const Law& law, const Evidence& evidence, 
       return Reason::kLawBroken;
     }
   }
-  const RouteGuide::Advice& advice = guide.advice(here.lane);
+  const map::RouteGuide::Advice& advice = guide.advice(here.lane);
   const double lane_ends_m = here.odometer_m - here.s_m + advice.remaining_m;
   if (advice.changes_needed != 0 && std::min(lane_ends_m, group_entry_m) - nose_m < kAhead_m) {
     return Reason::kLaneChange;
@@ -130,4 +131,4 @@ std::optional<Reason> reason_to_stand(const Law& law, const Evidence& evidence, 
   return std::nullopt;
 }
 
-}  // namespace s4tp::world
+}  // namespace s4tp::judge

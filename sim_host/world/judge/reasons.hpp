@@ -5,7 +5,7 @@
 
 #include "sim_host/world/judge/evidence.hpp"
 
-namespace s4tp::world {
+namespace s4tp::judge {
 
 enum class Reason {
   kQueue,       ///< somebody close ahead in its way
@@ -16,7 +16,7 @@ enum class Reason {
 
 /// LAW-030 The ego's at a time, the first that holds; none: it stands without reason.
 [[nodiscard]] std::optional<Reason> reason_to_stand(const Law& law, const Evidence& evidence,
-                                                    const RouteGuide& guide, double time_s);
+                                                    const map::RouteGuide& guide, double time_s);
 
 /// Since when one car has been in the lane ahead of another one; minus infinity: always.
 /// \pre both were there at `time_s`
@@ -25,4 +25,4 @@ enum class Reason {
 /// Whether one who came into the lane ahead of another one left it the RSS gap. \pre both were there then
 [[nodiscard]] bool left_gap(const Law& law, const Journey& front, const Journey& rear, double time_s);
 
-}  // namespace s4tp::world
+}  // namespace s4tp::judge

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-namespace s4tp::world {
+namespace s4tp::judge {
 namespace {
 
-constexpr double kUsualLength_m = 5.0;  // NetworkConflict's boxes
+constexpr double kUsualLength_m = 5.0;  // map::Conflict's boxes
 constexpr double kPlace_m = 0.5;        // between two zones: so much room and a car may stand there
 
 }  // namespace
@@ -14,11 +14,12 @@ double longer_by_m(double length_m) {
   return 0.5 * (length_m - kUsualLength_m);
 }
 
-std::vector<ZoneGroup> zone_groups(const RoadIndex& road, std::span<const Stretch> way, double length_m) {
+std::vector<ZoneGroup> zone_groups(const traffic::RoadIndex& road, std::span<const Stretch> way,
+                                   double length_m) {
   const double grown_m = longer_by_m(length_m);
   std::vector<ZoneOnWay> zones;
   for (const Stretch& stretch : way) {
-    for (const Meeting& meeting : road.meetings(stretch.lane)) {
+    for (const traffic::Meeting& meeting : road.meetings(stretch.lane)) {
       const ZoneOnWay zone{stretch.lane, meeting, stretch.start_m + meeting.entry_m - grown_m,
                            stretch.start_m + meeting.exit_m + grown_m};
       if (zone.exit_m > stretch.from_m && zone.entry_m <= stretch.until_m) {
@@ -44,4 +45,4 @@ bool may_stand(std::span<const ZoneGroup> groups, double at_m) {
                       [&](const ZoneGroup& group) { return at_m > group.entry_m && at_m < group.exit_m; });
 }
 
-}  // namespace s4tp::world
+}  // namespace s4tp::judge

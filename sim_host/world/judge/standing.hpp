@@ -15,13 +15,13 @@
 #include "sim_host/world/judge/journey.hpp"
 #include "sim_host/world/traffic/traffic_view.hpp"
 
-namespace s4tp::world {
+namespace s4tp::judge {
 
 /// A zone as the box centre meets it, in metres of the way (`Stretch::start_m`); grown by what the car is
 /// longer than 5 m.
 struct ZoneOnWay {
-  LaneId lane = kNoLane;
-  Meeting meeting;
+  map::LaneId lane = map::kNoLane;
+  traffic::Meeting meeting;
   double entry_m = 0.0;
   double exit_m = 0.0;
 };
@@ -33,7 +33,7 @@ struct ZoneGroup {
 };
 
 /// All groups of a way, in order.
-[[nodiscard]] std::vector<ZoneGroup> zone_groups(const RoadIndex& road, std::span<const Stretch> way,
+[[nodiscard]] std::vector<ZoneGroup> zone_groups(const traffic::RoadIndex& road, std::span<const Stretch> way,
                                                  double length_m);
 
 /// \param at_m  of the box centre on the way
@@ -42,4 +42,4 @@ struct ZoneGroup {
 /// What a zone's arc lengths are of another car, for its length.
 [[nodiscard]] double longer_by_m(double length_m);
 
-}  // namespace s4tp::world
+}  // namespace s4tp::judge

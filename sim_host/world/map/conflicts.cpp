@@ -9,7 +9,7 @@
 
 #include "sim_host/world/map/junction_links.hpp"
 
-namespace s4tp::world {
+namespace s4tp::map {
 namespace {
 
 constexpr double kStep_m = 0.25;
@@ -61,11 +61,11 @@ std::size_t steps_apart(const Box& a, const Box& b) {
   return gap_m > 0.0 ? static_cast<std::size_t>(gap_m / kStep_m) : 0;
 }
 
-const NetworkLane& lane_at(const std::vector<NetworkLane>& lanes, LaneId lane) {
+const Lane& lane_at(const std::vector<Lane>& lanes, LaneId lane) {
   return lanes[static_cast<std::size_t>(lane)];
 }
 
-void append_places(const std::vector<NetworkLane>& lanes, LaneId lane, double from_m, double to_m,
+void append_places(const std::vector<Lane>& lanes, LaneId lane, double from_m, double to_m,
                    std::vector<Place>& places) {
   const Polyline& centre = lane_at(lanes, lane).centre;
   const int steps = std::max(1, static_cast<int>(std::ceil((to_m - from_m) / kStep_m)));
@@ -76,7 +76,7 @@ void append_places(const std::vector<NetworkLane>& lanes, LaneId lane, double fr
   }
 }
 
-std::vector<Place> places_along(const std::vector<NetworkLane>& lanes, const Link& link) {
+std::vector<Place> places_along(const std::vector<Lane>& lanes, const Link& link) {
   std::vector<Place> places;
   const auto length = [&](LaneId lane) { return lane_at(lanes, lane).centre.length_m(); };
   append_places(lanes, link.from, std::max(0.0, length(link.from) - kReach_m), length(link.from), places);
@@ -108,13 +108,13 @@ Rule rule_of(const Link& first, std::size_t first_index, const Link& second, std
 }
 
 /// Cars that follow each other or drive side by side keep apart by themselves: no conflict.
-bool follow_or_accompany(const std::vector<NetworkLane>& lanes, const Link& first, const Link& second) {
+bool follow_or_accompany(const std::vector<Lane>& lanes, const Link& first, const Link& second) {
   const auto edge = [&](LaneId lane) -> const std::string& { return lane_at(lanes, lane).edge; };
   return first.from == second.from || (edge(first.from) == edge(second.from) &&
                                        edge(first.to) == edge(second.to) && first.to != second.to);
 }
 
-bool joined(const std::vector<NetworkLane>& lanes, LaneId first, LaneId second) {
+bool joined(const std::vector<Lane>& lanes, LaneId first, LaneId second) {
   const auto leads_to = [&](LaneId from, LaneId to) {
     const std::vector<LaneId>& successors = lane_at(lanes, from).successors;
     return std::find(successors.begin(), successors.end(), to) != successors.end();
@@ -122,11 +122,11 @@ bool joined(const std::vector<NetworkLane>& lanes, LaneId first, LaneId second) 
   return first == second || leads_to(first, second) || leads_to(second, first);
 }
 
-using Found = std::map<std::pair<LaneId, LaneId>, NetworkConflict>;
+using Found = std::map<std::pair<LaneId, LaneId>, Conflict>;
 
 void add_touch(Found& found, const Place& a, const Place& b, Rule rule) {
   const auto [entry, is_new] = found.try_emplace({a.lane, b.lane});
-  NetworkConflict& conflict = entry->second;
+  Conflict& conflict = entry->second;
   if (is_new) {
     conflict = {a.lane, b.lane, rule, a.s_m, a.s_m, b.s_m, b.s_m};
   }
@@ -142,7 +142,7 @@ void merge_into(Found& all, const Found& of_pair) {
   for (const auto& [lanes, conflict] : of_pair) {
     const auto [entry, is_new] = all.try_emplace(lanes, conflict);
     if (!is_new) {
-      NetworkConflict& known = entry->second;
+      Conflict& known = entry->second;
       known.rule = known.rule == conflict.rule ? known.rule : Rule::kFirstCome;
       known.first_entry_m = std::min(known.first_entry_m, conflict.first_entry_m);
       known.first_exit_m = std::max(known.first_exit_m, conflict.first_exit_m);
@@ -165,7 +165,7 @@ Rule seen_from_the_other(Rule rule) {
 }
 
 /// Where the boxes of vehicles on two links of a junction touch.
-Found touches(const std::vector<NetworkLane>& lanes, const std::vector<Place>& first,
+Found touches(const std::vector<Lane>& lanes, const std::vector<Place>& first,
               const std::vector<Place>& second, Rule rule, double spare_m) {
   Found found;
   for (const Place& a : first) {
@@ -181,7 +181,7 @@ Found touches(const std::vector<NetworkLane>& lanes, const std::vector<Place>& f
   return found;
 }
 
-void add_conflicts(Found& all, const std::vector<NetworkLane>& lanes, const Junction& junction) {
+void add_conflicts(Found& all, const std::vector<Lane>& lanes, const Junction& junction) {
   std::vector<std::vector<Place>> places;
   for (const Link& link : junction.links) {
     places.push_back(link.from == kNoLane ? std::vector<Place>{} : places_along(lanes, link));
@@ -204,17 +204,16 @@ void add_conflicts(Found& all, const std::vector<NetworkLane>& lanes, const Junc
 
 }  // namespace
 
-std::vector<NetworkConflict> find_conflicts(const std::vector<NetworkLane>& lanes,
-                                            const std::vector<Junction>& junctions) {
+std::vector<Conflict> find_conflicts(const std::vector<Lane>& lanes, const std::vector<Junction>& junctions) {
   Found all;
   for (const Junction& junction : junctions) {
     add_conflicts(all, lanes, junction);
   }
-  std::vector<NetworkConflict> conflicts;
+  std::vector<Conflict> conflicts;
   for (const auto& entry : all) {
     conflicts.push_back(entry.second);
   }
   return conflicts;
 }
 
-}  // namespace s4tp::world
+}  // namespace s4tp::map

@@ -1,6 +1,6 @@
 #include "sim_host/world/map/escaped.hpp"
 
-namespace s4tp::world {
+namespace s4tp::map {
 
 std::string escaped(const std::string& text) {
   std::string result;
@@ -25,4 +25,4 @@ std::string escaped(const std::string& text) {
   return result;
 }
 
-}  // namespace s4tp::world
+}  // namespace s4tp::map

@@ -3,9 +3,9 @@
 
 #include <string>
 
-namespace s4tp::world {
+namespace s4tp::map {
 
 /// For text and for attributes in double quotes.
 [[nodiscard]] std::string escaped(const std::string& text);
 
-}  // namespace s4tp::world
+}  // namespace s4tp::map

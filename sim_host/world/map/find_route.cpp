@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace s4tp::world {
+namespace s4tp::map {
 namespace {
 
 constexpr double kChange_m = 20.0;
@@ -39,7 +39,7 @@ Search search_from(const Network& network, const std::vector<LaneId>& starts) {
         open.emplace(at_m + step_m, next);
       }
     };
-    const NetworkLane& lane = network.lanes[static_cast<std::size_t>(id)];
+    const Lane& lane = network.lanes[static_cast<std::size_t>(id)];
     for (const LaneId next : lane.successors) {
       reach(next, lane.centre.length_m());
     }
@@ -56,7 +56,7 @@ std::vector<std::string> edges_to(const Network& network, const Search& search, 
     return edges;
   }
   for (LaneId at = to; at != kNoLane; at = search.before[static_cast<std::size_t>(at)]) {
-    const NetworkLane& lane = network.lanes[static_cast<std::size_t>(at)];
+    const Lane& lane = network.lanes[static_cast<std::size_t>(at)];
     if (!lane.in_junction && (edges.empty() || edges.back() != lane.edge)) {
       edges.push_back(lane.edge);
     }
@@ -69,8 +69,8 @@ std::vector<std::string> edges_to(const Network& network, const Search& search, 
 
 std::vector<std::string> find_route(const Network& network, LaneId from, double from_s_m, LaneId to,
                                     double to_s_m) {
-  const NetworkLane& start = network.lanes.at(static_cast<std::size_t>(from));
-  const NetworkLane& goal = network.lanes.at(static_cast<std::size_t>(to));
+  const Lane& start = network.lanes.at(static_cast<std::size_t>(from));
+  const Lane& goal = network.lanes.at(static_cast<std::size_t>(to));
   const auto no_way = [&](const std::string& why) {
     return std::runtime_error("no way for a car leads from lane \"" + start.name + "\" to lane \"" +
                               goal.name + "\": " + why);
@@ -112,4 +112,4 @@ std::vector<std::string> find_route(const Network& network, const std::string& f
   return edges;
 }
 
-}  // namespace s4tp::world
+}  // namespace s4tp::map

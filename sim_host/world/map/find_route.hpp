@@ -6,7 +6,7 @@
 
 #include "sim_host/world/map/network.hpp"
 
-namespace s4tp::world {
+namespace s4tp::map {
 
 /// Shortest drivable way between two places, lane changes included: each counts as 20 m, so that a way that
 /// needs none wins over one that is a little shorter.
@@ -19,4 +19,4 @@ namespace s4tp::world {
 [[nodiscard]] std::vector<std::string> find_route(const Network& network, const std::string& from_edge,
                                                   const std::string& to_edge);
 
-}  // namespace s4tp::world
+}  // namespace s4tp::map

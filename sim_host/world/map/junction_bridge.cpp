@@ -3,7 +3,7 @@
 
 #include "sim_host/world/map/junction_links.hpp"
 
-namespace s4tp::world {
+namespace s4tp::map {
 namespace {
 
 constexpr double kTouching_m = 0.1;
@@ -35,17 +35,17 @@ bool close_to(const Polyline& line, const std::vector<Vec2>& points) {
 
 }  // namespace
 
-void round_turn(NetworkLane& turn, const NetworkLane& from, const NetworkLane& to) {
+void round_turn(Lane& turn, const Lane& from, const Lane& to) {
   if (!has_corner(turn.centre)) {
     return;
   }
-  const std::optional<NetworkLane> arc = bridge_between(from, to);
+  const std::optional<Lane> arc = bridge_between(from, to);
   if (arc && close_to(arc->centre, turn.centre.points())) {
     turn.centre = arc->centre;
   }
 }
 
-std::optional<NetworkLane> bridge_between(const NetworkLane& from, const NetworkLane& to) {
+std::optional<Lane> bridge_between(const Lane& from, const Lane& to) {
   const PolylinePose start = from.centre.at(from.centre.length_m());
   const PolylinePose end = to.centre.at(0.0);
   const double chord_m = std::hypot(end.point.x - start.point.x, end.point.y - start.point.y);
@@ -70,7 +70,7 @@ std::optional<NetworkLane> bridge_between(const NetworkLane& from, const Network
     };
     points.push_back({blend(a.x, b.x, c.x, d.x), blend(a.y, b.y, c.y, d.y)});
   }
-  NetworkLane bridge;
+  Lane bridge;
   bridge.in_junction = true;
   bridge.centre = Polyline(points);
   bridge.sumo_length_m = bridge.centre.length_m();
@@ -83,4 +83,4 @@ std::optional<NetworkLane> bridge_between(const NetworkLane& from, const Network
   return bridge;
 }
 
-}  // namespace s4tp::world
+}  // namespace s4tp::map

@@ -8,7 +8,7 @@
 
 #include "sim_host/world/map/network.hpp"
 
-namespace s4tp::world {
+namespace s4tp::map {
 
 /// One way through a junction.
 struct Link {
@@ -27,15 +27,15 @@ struct Junction {
 };
 
 /// Finds by geometry where cars on different ways through a junction would touch.
-[[nodiscard]] std::vector<NetworkConflict> find_conflicts(const std::vector<NetworkLane>& lanes,
-                                                          const std::vector<Junction>& junctions);
+[[nodiscard]] std::vector<Conflict> find_conflicts(const std::vector<Lane>& lanes,
+                                                   const std::vector<Junction>& junctions);
 
 /// A lane through a junction that has none: an arc from the end of one lane to the start of another, as fast
 /// as SUMO lets cars turn. \return nothing where the two touch
-[[nodiscard]] std::optional<NetworkLane> bridge_between(const NetworkLane& from, const NetworkLane& to);
+[[nodiscard]] std::optional<Lane> bridge_between(const Lane& from, const Lane& to);
 
 /// netconvert draws turns with few corners and tighter in the middle than a car can turn. One with corners is
 /// put on the arc between its lanes where that stays within 2 m of it.
-void round_turn(NetworkLane& turn, const NetworkLane& from, const NetworkLane& to);
+void round_turn(Lane& turn, const Lane& from, const Lane& to);
 
-}  // namespace s4tp::world
+}  // namespace s4tp::map

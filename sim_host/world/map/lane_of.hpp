@@ -5,11 +5,11 @@
 
 #include "sim_host/world/map/network.hpp"
 
-namespace s4tp::world {
+namespace s4tp::map {
 
 /// \pre id is one of the network's
-[[nodiscard]] inline const NetworkLane& lane_of(const Network& network, LaneId id) {
+[[nodiscard]] inline const Lane& lane_of(const Network& network, LaneId id) {
   return network.lanes[static_cast<std::size_t>(id)];
 }
 
-}  // namespace s4tp::world
+}  // namespace s4tp::map

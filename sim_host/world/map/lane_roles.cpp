@@ -5,20 +5,20 @@
 #include <deque>
 #include <numbers>
 
-namespace s4tp::world {
+namespace s4tp::map {
 namespace {
 
 constexpr double kStraight_rad = 45.0 / 180.0 * std::numbers::pi;
 constexpr double kTurnedRound_rad = 150.0 / 180.0 * std::numbers::pi;
 
-const NetworkLane& lane_at(const Network& network, LaneId lane) {
+const Lane& lane_at(const Network& network, LaneId lane) {
   return network.lanes[static_cast<std::size_t>(lane)];
 }
 
 /// The lane itself, or the one that a way through a junction leads to.
 LaneId after_junction(const Network& network, LaneId lane) {
   for (std::size_t hops = 0; hops < network.lanes.size(); ++hops) {
-    const NetworkLane& at = lane_at(network, lane);
+    const Lane& at = lane_at(network, lane);
     if (!at.in_junction || at.successors.empty()) {
       break;
     }
@@ -36,7 +36,7 @@ double turn_rad(const Network& network, LaneId from, LaneId to) {
 }
 
 bool yields(const Network& network, LaneId lane) {
-  return std::any_of(network.conflicts.begin(), network.conflicts.end(), [&](const NetworkConflict& each) {
+  return std::any_of(network.conflicts.begin(), network.conflicts.end(), [&](const Conflict& each) {
     return (each.first == lane && each.rule == Rule::kFirstYields) ||
            (each.second == lane && each.rule == Rule::kFirstHasPriority);
   });
@@ -61,7 +61,7 @@ std::vector<bool> lanes_of_ours(const Network& network, const RouteGuide& guide)
   }
   while (!open.empty()) {
     const LaneId from = open.front();
-    const NetworkLane& lane = lane_at(network, from);
+    const Lane& lane = lane_at(network, from);
     open.pop_front();
     reach(lane.left);
     reach(lane.right);
@@ -108,7 +108,7 @@ std::vector<int> lane_ranks(const Network& network, const RouteGuide& guide) {
       improve(at, kConflicting);
     }
   };
-  for (const NetworkConflict& each : network.conflicts) {
+  for (const Conflict& each : network.conflicts) {
     if (rank_of(each.first) == kRoute) {
       conflicting(each.second);
     }
@@ -134,4 +134,4 @@ bool yields_at_end(const Network& network, const RouteGuide& guide, LaneId lane)
   return next != kNoLane ? must(next) : std::any_of(all.begin(), all.end(), must);
 }
 
-}  // namespace s4tp::world
+}  // namespace s4tp::map

@@ -6,7 +6,7 @@
 
 #include "sim_host/world/map/network.hpp"
 
-namespace s4tp::world {
+namespace s4tp::map {
 
 /// `Ours` is every lane that one can come to from the route by driving forward and changing lanes, without
 /// turning round (a missed turn still leads onto lanes of ours), and every lane that leads straight onto the
@@ -21,4 +21,4 @@ namespace s4tp::world {
 /// counts.
 [[nodiscard]] bool yields_at_end(const Network& network, const RouteGuide& guide, LaneId lane);
 
-}  // namespace s4tp::world
+}  // namespace s4tp::map

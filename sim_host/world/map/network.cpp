@@ -2,18 +2,17 @@
 
 #include <algorithm>
 
-namespace s4tp::world {
+namespace s4tp::map {
 
 LaneId Network::find(const std::string& lane_name) const {
-  const auto found = std::find_if(lanes.begin(), lanes.end(),
-                                  [&](const NetworkLane& lane) { return lane.name == lane_name; });
+  const auto found =
+      std::find_if(lanes.begin(), lanes.end(), [&](const Lane& lane) { return lane.name == lane_name; });
   return found == lanes.end() ? kNoLane : static_cast<LaneId>(found - lanes.begin());
 }
 
 LaneId Network::lane_of(const std::string& edge, int index) const {
-  const auto found = std::find_if(lanes.begin(), lanes.end(), [&](const NetworkLane& lane) {
-    return lane.index == index && lane.edge == edge;
-  });
+  const auto found = std::find_if(lanes.begin(), lanes.end(),
+                                  [&](const Lane& lane) { return lane.index == index && lane.edge == edge; });
   return found == lanes.end() ? kNoLane : static_cast<LaneId>(found - lanes.begin());
 }
 
@@ -30,4 +29,4 @@ std::vector<LaneId> Network::lanes_of(const std::string& edge) const {
   return found;
 }
 
-}  // namespace s4tp::world
+}  // namespace s4tp::map

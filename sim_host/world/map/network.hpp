@@ -8,12 +8,12 @@
 
 #include "sim_host/world/map/polyline.hpp"
 
-namespace s4tp::world {
+namespace s4tp::map {
 
 using LaneId = int;  ///< index into Network::lanes
 inline constexpr LaneId kNoLane = -1;
 
-struct NetworkLane {
+struct Lane {
   std::string name;  ///< SUMO's lane id, such as "south_in_0" or ":cross_3_0"
   std::string edge;
   int index = 0;  ///< SUMO's within the edge, 0 is the rightmost; those cars may not use are left out
@@ -35,7 +35,7 @@ enum class Rule { kFirstYields, kFirstHasPriority, kFirstCome };
 /// spare around those the network calls foes) on each. Lanes that merge stay in conflict up to the end of
 /// both. At least one of the two is inside the junction. NET-002 every pair whose boxes can touch is listed
 /// once, with the network's own rule.
-struct NetworkConflict {
+struct Conflict {
   LaneId first = kNoLane;
   LaneId second = kNoLane;
   Rule rule = Rule::kFirstCome;
@@ -46,8 +46,8 @@ struct NetworkConflict {
 };
 
 struct Network {
-  std::vector<NetworkLane> lanes;
-  std::vector<NetworkConflict> conflicts;
+  std::vector<Lane> lanes;
+  std::vector<Conflict> conflicts;
 
   /// \return kNoLane when there is no such lane
   [[nodiscard]] LaneId find(const std::string& lane_name) const;
@@ -95,4 +95,4 @@ class RouteGuide {
   std::vector<Advice> advice_;  ///< of each of them
 };
 
-}  // namespace s4tp::world
+}  // namespace s4tp::map

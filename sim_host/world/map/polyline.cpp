@@ -6,7 +6,7 @@
 #include <numbers>
 #include <stdexcept>
 
-namespace s4tp::world {
+namespace s4tp::map {
 namespace {
 
 constexpr double kSamePoint_m = 1e-6;
@@ -150,4 +150,4 @@ Polyline Polyline::part(double from_m, double to_m) const {
   return Polyline(inside);
 }
 
-}  // namespace s4tp::world
+}  // namespace s4tp::map

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace s4tp::world {
+namespace s4tp::map {
 
 struct Vec2 {
   double x = 0.0;
@@ -51,4 +51,4 @@ class Polyline {
 /// To [-pi, pi).
 [[nodiscard]] double wrap_angle(double angle_rad);
 
-}  // namespace s4tp::world
+}  // namespace s4tp::map

@@ -6,7 +6,7 @@
 
 #include "sim_host/world/map/network.hpp"
 
-namespace s4tp::world {
+namespace s4tp::map {
 namespace {
 
 /// A way from a lane of one edge of the route to a lane of the next.
@@ -71,7 +71,7 @@ class Builder {
   }
 
  private:
-  const NetworkLane& lane(LaneId id) const { return network_.lanes[static_cast<std::size_t>(id)]; }
+  const Lane& lane(LaneId id) const { return network_.lanes[static_cast<std::size_t>(id)]; }
   double length(LaneId id) const { return lane(id).centre.length_m(); }
   RouteGuide::Advice& advice_of(LaneId id) { return advice_[static_cast<std::size_t>(id)]; }
   Plan& plan(LaneId id) { return plan_[static_cast<std::size_t>(id)]; }
@@ -173,4 +173,4 @@ const RouteGuide::Advice& RouteGuide::advice(LaneId lane) const {
                                                  : advice_[static_cast<std::size_t>(found - lanes_.begin())];
 }
 
-}  // namespace s4tp::world
+}  // namespace s4tp::map

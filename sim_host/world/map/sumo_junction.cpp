@@ -7,7 +7,7 @@
 #include "sim_host/world/map/sumo_lane.hpp"
 #include "sim_host/world/map/xml_values.hpp"
 
-namespace s4tp::world {
+namespace s4tp::map {
 namespace {
 
 // NET-004. Shapes are followed step by step, so a number in a small file must not say how many steps that are.
@@ -18,8 +18,7 @@ constexpr std::size_t kPartsOfWay = 100;            // lanes in a row, inside a 
 
 class JunctionReader {
  public:
-  JunctionReader(const std::vector<NetworkLane>& lanes, const NetworkNames& names)
-      : lanes_(lanes), names_(names) {}
+  JunctionReader(const std::vector<Lane>& lanes, const NetworkNames& names) : lanes_(lanes), names_(names) {}
 
   /// The link that a lane inside a junction belongs to, and its index among the junction's requests: intLanes
   /// lists the lanes in their order, of a link in two parts the second one.
@@ -78,7 +77,7 @@ class JunctionReader {
   }
 
  private:
-  const NetworkLane& lane(LaneId id) const { return lanes_[static_cast<std::size_t>(id)]; }
+  const Lane& lane(LaneId id) const { return lanes_[static_cast<std::size_t>(id)]; }
 
   Link link_through(LaneId inside) const {
     Link link;
@@ -110,18 +109,18 @@ class JunctionReader {
     return link;
   }
 
-  const std::vector<NetworkLane>& lanes_;
+  const std::vector<Lane>& lanes_;
   const NetworkNames& names_;
 };
 
 }  // namespace
 
-std::vector<Junction> read_junctions(const pugi::xml_node& net, const std::vector<NetworkLane>& lanes,
+std::vector<Junction> read_junctions(const pugi::xml_node& net, const std::vector<Lane>& lanes,
                                      const NetworkNames& names) {
   return JunctionReader(lanes, names).read(net);
 }
 
-void check_through(const NetworkLane& inside, double length_m) {
+void check_through(const Lane& inside, double length_m) {
   if (length_m > kLongestThroughJunction_m) {
     fail_at("lane \"" + inside.name + "\"", "its way through the junction is " +
                                                 std::to_string(std::lround(length_m)) +
@@ -129,4 +128,4 @@ void check_through(const NetworkLane& inside, double length_m) {
   }
 }
 
-}  // namespace s4tp::world
+}  // namespace s4tp::map

@@ -9,7 +9,7 @@
 
 #include "sim_host/world/map/junction_links.hpp"
 
-namespace s4tp::world {
+namespace s4tp::map {
 
 /// What junctions name: lanes and edges.
 struct NetworkNames {
@@ -19,11 +19,10 @@ struct NetworkNames {
 };
 
 /// \param lanes  linked with each other
-[[nodiscard]] std::vector<Junction> read_junctions(const pugi::xml_node& net,
-                                                   const std::vector<NetworkLane>& lanes,
+[[nodiscard]] std::vector<Junction> read_junctions(const pugi::xml_node& net, const std::vector<Lane>& lanes,
                                                    const NetworkNames& names);
 
 /// \throws when a way through a junction is longer than 1000 m (NET-004)
-void check_through(const NetworkLane& inside, double length_m);
+void check_through(const Lane& inside, double length_m);
 
-}  // namespace s4tp::world
+}  // namespace s4tp::map

@@ -7,7 +7,7 @@
 
 #include "sim_host/world/map/xml_values.hpp"
 
-namespace s4tp::world {
+namespace s4tp::map {
 namespace {
 
 constexpr double kDefaultWidth_m = 3.2;      // SUMO's own
@@ -66,9 +66,9 @@ bool change_open(const pugi::xml_node& lane, const char* side) {
   return allowed.empty() || names_cars(allowed);
 }
 
-std::optional<NetworkLane> read_lane(const pugi::xml_node& node, const std::string& edge, bool in_junction,
-                                     const std::string& where) {
-  NetworkLane lane;
+std::optional<Lane> read_lane(const pugi::xml_node& node, const std::string& edge, bool in_junction,
+                              const std::string& where) {
+  Lane lane;
   lane.name = node.attribute("id").value();
   lane.edge = edge;
   lane.in_junction = in_junction;
@@ -89,4 +89,4 @@ std::optional<NetworkLane> read_lane(const pugi::xml_node& node, const std::stri
   return lane;
 }
 
-}  // namespace s4tp::world
+}  // namespace s4tp::map

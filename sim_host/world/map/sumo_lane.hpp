@@ -8,7 +8,7 @@
 
 #include "sim_host/world/map/network.hpp"
 
-namespace s4tp::world {
+namespace s4tp::map {
 
 [[noreturn]] void fail_at(const std::string& where, const std::string& what);
 [[nodiscard]] double lane_number(const pugi::xml_node& node, const char* name, double missing,
@@ -18,7 +18,7 @@ namespace s4tp::world {
 /// \param side  "changeLeft", "changeRight"
 [[nodiscard]] bool change_open(const pugi::xml_node& lane, const char* side);
 /// Everything but its index and its neighbours. \return nothing where a junction's lane is but a point
-[[nodiscard]] std::optional<NetworkLane> read_lane(const pugi::xml_node& node, const std::string& edge,
-                                                   bool in_junction, const std::string& where);
+[[nodiscard]] std::optional<Lane> read_lane(const pugi::xml_node& node, const std::string& edge,
+                                            bool in_junction, const std::string& where);
 
-}  // namespace s4tp::world
+}  // namespace s4tp::map

@@ -13,7 +13,7 @@
 #include "sim_host/world/map/sumo_lane.hpp"
 #include "sim_host/world/map/xml_values.hpp"
 
-namespace s4tp::world {
+namespace s4tp::map {
 namespace {
 
 // NET-004. Shapes are followed step by step, so a number in a small file must not say how many steps that are.
@@ -46,7 +46,7 @@ class Reader {
       }
     }
     check_lengths();
-    for (NetworkLane& each : network_.lanes) {
+    for (Lane& each : network_.lanes) {
       const bool whole = each.in_junction && each.predecessors.size() == 1 && each.successors.size() == 1;
       if (whole && !lane(each.predecessors[0]).in_junction && !lane(each.successors[0]).in_junction) {
         round_turn(each, lane(each.predecessors[0]), lane(each.successors[0]));
@@ -91,7 +91,7 @@ class Reader {
       if (walked || !open_to_cars(node)) {
         continue;
       }
-      std::optional<NetworkLane> lane = read_lane(node, id, function == "internal", where);
+      std::optional<Lane> lane = read_lane(node, id, function == "internal", where);
       if (!lane) {
         continue;  // no longer than a point, as at a node that only ends one edge: passed over
       }
@@ -160,7 +160,7 @@ class Reader {
           if (connection.open) {
             const LaneId before = names_.lane_of.at(from);
             const LaneId after = names_.lane_of.at(connection.to);
-            if (std::optional<NetworkLane> bridge = bridge_between(lane(before), lane(after))) {
+            if (std::optional<Lane> bridge = bridge_between(lane(before), lane(after))) {
               inside = name + "_0";
               bridge->name = inside;
               bridge->edge = name;
@@ -197,7 +197,7 @@ class Reader {
 
   void check_lengths() const {
     double together_m = 0.0;
-    for (const NetworkLane& each : network_.lanes) {
+    for (const Lane& each : network_.lanes) {
       together_m += each.centre.length_m();
       check_density(each);
       if (each.in_junction) check_through(each, each.centre.length_m());
@@ -208,7 +208,7 @@ class Reader {
     }
   }
 
-  static void check_density(const NetworkLane& lane) {
+  static void check_density(const Lane& lane) {
     const double most = kPointsBeside + kPointsPerMetre * lane.centre.length_m();
     if (static_cast<double>(lane.centre.points().size()) > most) {
       fail_at("lane \"" + lane.name + "\"", "its shape has " + std::to_string(lane.centre.points().size()) +
@@ -236,13 +236,13 @@ class Reader {
   /// lanes are neighbours like those before and after it.
   void join_seams() {
     std::set<std::string> crossed;
-    for (const NetworkConflict& conflict : network_.conflicts) {
+    for (const Conflict& conflict : network_.conflicts) {
       crossed.insert(lane(conflict.first).edge);
       crossed.insert(lane(conflict.second).edge);
     }
     for (std::size_t i = 0; i + 1 < network_.lanes.size(); ++i) {  // lanes of an edge stand together
-      NetworkLane& right = network_.lanes[i];
-      NetworkLane& left = network_.lanes[i + 1];
+      Lane& right = network_.lanes[i];
+      Lane& left = network_.lanes[i + 1];
       if (right.in_junction && right.edge == left.edge && left.index == right.index + 1 &&
           crossed.count(right.edge) == 0) {
         right.left = static_cast<LaneId>(i) + 1;
@@ -251,7 +251,7 @@ class Reader {
     }
   }
 
-  const NetworkLane& lane(LaneId id) const { return network_.lanes[static_cast<std::size_t>(id)]; }
+  const Lane& lane(LaneId id) const { return network_.lanes[static_cast<std::size_t>(id)]; }
 
   Network network_;
   NetworkNames names_;
@@ -274,4 +274,4 @@ Network load_network(const std::filesystem::path& file) {
   }
 }
 
-}  // namespace s4tp::world
+}  // namespace s4tp::map

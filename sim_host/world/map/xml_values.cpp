@@ -5,7 +5,7 @@
 #include <sstream>
 #include <stdexcept>
 
-namespace s4tp::world {
+namespace s4tp::map {
 
 std::optional<double> number_in(const std::string& text) {
   const std::size_t from = text.find_first_not_of(" \t\n\r");
@@ -42,4 +42,4 @@ pugi::xml_document parse_xml(const std::string& file) {
   return document;
 }
 
-}  // namespace s4tp::world
+}  // namespace s4tp::map

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace s4tp::world {
+namespace s4tp::map {
 
 /// The whole text as a finite number.
 [[nodiscard]] std::optional<double> number_in(const std::string& text);
@@ -16,4 +16,4 @@ namespace s4tp::world {
 /// \throws std::runtime_error naming file and byte
 [[nodiscard]] pugi::xml_document parse_xml(const std::string& file);
 
-}  // namespace s4tp::world
+}  // namespace s4tp::map

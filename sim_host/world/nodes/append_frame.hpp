@@ -6,7 +6,7 @@
 #include "firmware/wire/codec.hpp"
 #include "firmware/wire/e2e.hpp"
 
-namespace s4tp::world {
+namespace s4tp::nodes {
 
 /// A message with a value that the wire cannot carry is not said.
 template <class Message>
@@ -17,4 +17,4 @@ void append(const Message& message, wire::E2eSender& sender, std::vector<wire::F
   frames.push_back(frame);
 }
 
-}  // namespace s4tp::world
+}  // namespace s4tp::nodes

@@ -7,7 +7,7 @@
 
 #include "sim_host/world/map/lane_roles.hpp"
 
-namespace s4tp::world {
+namespace s4tp::nodes {
 namespace {
 
 constexpr double kTolerance_m = 0.03;
@@ -24,9 +24,9 @@ std::size_t index(int i) {
   return static_cast<std::size_t>(i);
 }
 
-double distance_to(const Polyline& line, Vec2 point) {
+double distance_to(const map::Polyline& line, map::Vec2 point) {
   const double s = std::clamp(line.project(point).s_m, 0.0, line.length_m());
-  const Vec2 nearest = line.at(s).point;
+  const map::Vec2 nearest = line.at(s).point;
   return std::hypot(nearest.x - point.x, nearest.y - point.y);
 }
 
@@ -49,24 +49,25 @@ void reassign(std::map<int, int>& slots, const std::vector<int>& wanted, int slo
 
 }  // namespace
 
-MapNode::MapNode(const Network& network, const RouteGuide& guide, Vec2 origin, double horizon_m)
+MapNode::MapNode(const map::Network& network, const map::RouteGuide& guide, map::Vec2 origin,
+                 double horizon_m)
     : network_(network), guide_(guide), origin_(origin), horizon_m_(horizon_m) {
   split_into_parts();
   split_conflicts();
 }
 
-const wire::Map& MapNode::update(Vec2 position) {
+const wire::Map& MapNode::update(map::Vec2 position) {
   choose_lanes(position);
   choose_conflicts();
   return map_;
 }
 
 void MapNode::split_into_parts() {
-  const std::vector<bool> ours = lanes_of_ours(network_, guide_);
-  const std::vector<int> ranks = lane_ranks(network_, guide_);
+  const std::vector<bool> ours = map::lanes_of_ours(network_, guide_);
+  const std::vector<int> ranks = map::lane_ranks(network_, guide_);
   for (std::size_t i = 0; i < network_.lanes.size(); ++i) {
-    const Polyline& centre = network_.lanes[i].centre;
-    std::vector<Polyline> lines;
+    const map::Polyline& centre = network_.lanes[i].centre;
+    std::vector<map::Polyline> lines;
     const int fewest = static_cast<int>(std::ceil(centre.length_m() / kMaxPart_m));
     const int most = kMostPerLane + kMostPerPart * fewest;
     for (int count = fewest;; count = std::min(most, count + std::max(1, count / 8))) {
@@ -75,7 +76,7 @@ void MapNode::split_into_parts() {
       bool fits = true;
       for (int k = 0; k < count && fits; ++k) {
         const double step_m = centre.length_m() / count;
-        const Polyline whole = centre.part(k * step_m, (k + 1) * step_m);
+        const map::Polyline whole = centre.part(k * step_m, (k + 1) * step_m);
         lines.push_back(whole.simplified(points, kTolerance_m));
         fits = lines.back().points().size() <= index(wire::kMaxLanePoints);
       }
@@ -87,7 +88,7 @@ void MapNode::split_into_parts() {
     const double step_m = centre.length_m() / static_cast<double>(lines.size());
     for (std::size_t k = 0; k < lines.size(); ++k) {
       Part part;
-      part.lane = static_cast<LaneId>(i);
+      part.lane = static_cast<map::LaneId>(i);
       part.from_m = static_cast<double>(k) * step_m;
       part.to_m = part.from_m + step_m;
       part.scale = lines[k].length_m() / step_m;
@@ -101,8 +102,8 @@ void MapNode::split_into_parts() {
 }
 
 void MapNode::fill_record(Part& part, bool ours, bool last) const {
-  const NetworkLane& lane = network_.lanes[index(part.lane)];
-  const RouteGuide::Advice& advice = guide_.advice(part.lane);
+  const map::Lane& lane = network_.lanes[index(part.lane)];
+  const map::RouteGuide::Advice& advice = guide_.advice(part.lane);
   const auto left_over = [&](double from_start_m) {
     return static_cast<float>(std::clamp(from_start_m - part.from_m, 0.0, kMaxRoute_m));
   };
@@ -116,10 +117,10 @@ void MapNode::fill_record(Part& part, bool ours, bool last) const {
   record.width_m = static_cast<float>(std::min(lane.width_m, kMaxWidth_m));
   record.route_remaining_m = left_over(advice.remaining_m);
   record.goal_distance_m = left_over(advice.goal_distance_m);
-  if (last && yields_at_end(network_, guide_, part.lane)) {
+  if (last && map::yields_at_end(network_, guide_, part.lane)) {
     record.stop_line_m = static_cast<float>(part.line.length_m());
   }
-  for (const Vec2& point : part.line.points()) {
+  for (const map::Vec2& point : part.line.points()) {
     record.x_m[record.point_count] = static_cast<float>(point.x - origin_.x);
     record.y_m[record.point_count] = static_cast<float>(point.y - origin_.y);
     ++record.point_count;
@@ -133,7 +134,7 @@ void MapNode::split_conflicts() {
   const auto local = [](const Part& part, double s_m) {
     return static_cast<float>((std::clamp(s_m, part.from_m, part.to_m) - part.from_m) * part.scale);
   };
-  for (const NetworkConflict& each : network_.conflicts) {
+  for (const map::Conflict& each : network_.conflicts) {
     const auto [first_begin, first_end] = parts_of_lane_[index(each.first)];
     const auto [second_begin, second_end] = parts_of_lane_[index(each.second)];
     for (int i = first_begin; i < first_end; ++i) {
@@ -160,7 +161,7 @@ void MapNode::split_conflicts() {
   }
 }
 
-void MapNode::choose_lanes(Vec2 position) {
+void MapNode::choose_lanes(map::Vec2 position) {
   struct Candidate {
     int part;
     int rank;
@@ -213,24 +214,24 @@ void MapNode::choose_conflicts() {
 
 wire::Lane MapNode::linked(int part_number) const {
   const Part& part = parts_[index(part_number)];
-  const NetworkLane& lane = network_.lanes[index(part.lane)];
+  const map::Lane& lane = network_.lanes[index(part.lane)];
   wire::Lane record = part.record;
   if (part_number + 1 < parts_of_lane_[index(part.lane)].second) {
     record.successors[0] = slot_of(part_number + 1);
   } else {
-    std::vector<LaneId> next = lane.successors;  // of more than the wire can tell, the route's own first
+    std::vector<map::LaneId> next = lane.successors;  // of more than the wire can tell, the route's own first
     std::stable_partition(next.begin(), next.end(),
-                          [&](LaneId each) { return each == guide_.advice(part.lane).next; });
+                          [&](map::LaneId each) { return each == guide_.advice(part.lane).next; });
     int count = 0;
-    for (const LaneId each : next) {
+    for (const map::LaneId each : next) {
       const std::uint8_t slot = slot_of(parts_of_lane_[index(each)].first);
       if (slot != wire::kNoLane && count < 3) {
         record.successors[count++] = slot;
       }
     }
   }
-  record.left = lane.left == kNoLane ? wire::kNoLane : slot_of(part_beside(part, lane.left));
-  record.right = lane.right == kNoLane ? wire::kNoLane : slot_of(part_beside(part, lane.right));
+  record.left = lane.left == map::kNoLane ? wire::kNoLane : slot_of(part_beside(part, lane.left));
+  record.right = lane.right == map::kNoLane ? wire::kNoLane : slot_of(part_beside(part, lane.right));
   return record;
 }
 
@@ -240,8 +241,8 @@ std::uint8_t MapNode::slot_of(int part) const {
 }
 
 /// Of a neighbour in parts, the one beside the middle of ours.
-int MapNode::part_beside(const Part& part, LaneId neighbour) const {
-  const Vec2 middle = part.line.at(0.5 * part.line.length_m()).point;
+int MapNode::part_beside(const Part& part, map::LaneId neighbour) const {
+  const map::Vec2 middle = part.line.at(0.5 * part.line.length_m()).point;
   const double s_m = network_.lanes[index(neighbour)].centre.project(middle).s_m;
   const auto [begin, end] = parts_of_lane_[index(neighbour)];
   int beside = begin;
@@ -251,4 +252,4 @@ int MapNode::part_beside(const Part& part, LaneId neighbour) const {
   return beside;
 }
 
-}  // namespace s4tp::world
+}  // namespace s4tp::nodes

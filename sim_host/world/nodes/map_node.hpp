@@ -10,13 +10,14 @@
 #include "firmware/wire/lane_map.hpp"
 #include "sim_host/world/map/network.hpp"
 
-namespace s4tp::world {
+namespace s4tp::nodes {
 
 class MapNode {
  public:
   /// \param network, guide  must outlive the node  \param origin  network coordinates of the odometry frame's
   /// origin
-  MapNode(const Network& network, const RouteGuide& guide, Vec2 origin, double horizon_m = 150.0);
+  MapNode(const map::Network& network, const map::RouteGuide& guide, map::Vec2 origin,
+          double horizon_m = 150.0);
 
   /// Chooses the lanes around `position` (network coordinates) and fills the wire map.
   ///
@@ -27,17 +28,17 @@ class MapNode {
   ///
   /// MAP-003 Over 64: the route, then lanes in conflict with it and those leading there, then neighbours,
   /// then the rest, nearest first; those left out are counted.
-  const wire::Map& update(Vec2 position);
+  const wire::Map& update(map::Vec2 position);
 
  private:
   /// A lane as it goes over the wire: the whole of a network lane, or a part of it.
   struct Part {
-    LaneId lane = kNoLane;
+    map::LaneId lane = map::kNoLane;
     double from_m = 0.0;  ///< along the network's lane
     double to_m = 0.0;
     double scale = 1.0;  ///< length of the vertices sent per metre of the network's lane
     int rank = 0;        ///< MAP-003, 0 first
-    Polyline line;       ///< as sent, network coordinates
+    map::Polyline line;  ///< as sent, network coordinates
     wire::Lane record;   ///< without links
   };
   /// A conflict between two parts.
@@ -51,15 +52,15 @@ class MapNode {
   void split_into_parts();
   void fill_record(Part& part, bool ours, bool last) const;
   void split_conflicts();
-  void choose_lanes(Vec2 position);
+  void choose_lanes(map::Vec2 position);
   void choose_conflicts();
   [[nodiscard]] wire::Lane linked(int part) const;
   [[nodiscard]] std::uint8_t slot_of(int part) const;
-  [[nodiscard]] int part_beside(const Part& part, LaneId neighbour) const;
+  [[nodiscard]] int part_beside(const Part& part, map::LaneId neighbour) const;
 
-  const Network& network_;
-  const RouteGuide& guide_;
-  Vec2 origin_;
+  const map::Network& network_;
+  const map::RouteGuide& guide_;
+  map::Vec2 origin_;
   double horizon_m_;
   std::vector<Part> parts_;
   std::vector<std::pair<int, int>> parts_of_lane_;  ///< first, and one beyond the last
@@ -69,4 +70,4 @@ class MapNode {
   wire::Map map_;
 };
 
-}  // namespace s4tp::world
+}  // namespace s4tp::nodes

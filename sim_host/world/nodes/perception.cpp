@@ -7,7 +7,7 @@
 
 #include "sim_host/world/traffic/box.hpp"
 
-namespace s4tp::world {
+namespace s4tp::nodes {
 namespace {
 
 constexpr int kFramesPerTick = 12;
@@ -18,13 +18,13 @@ float clamped(double value, double low, double high) {
   return static_cast<float>(std::clamp(value, low, high));
 }
 
-double distance_m(const CarState& a, const CarState& b) {
+double distance_m(const traffic::CarState& a, const traffic::CarState& b) {
   return std::hypot(a.centre.x - b.centre.x, a.centre.y - b.centre.y);
 }
 
 }  // namespace
 
-Perception::Perception(const PerceptionOptions& options, Vec2 origin, std::uint64_t seed)
+Perception::Perception(const scenario::PerceptionOptions& options, map::Vec2 origin, std::uint64_t seed)
     : options_(options), origin_(origin), random_(seed) {}
 
 double Perception::noisy(double value, double deviation) {
@@ -47,13 +47,13 @@ std::uint8_t Perception::wire_id(int car) {
   return ids_[car] = last_id_;
 }
 
-wire::Track Perception::track_of(const CarState& car) {
+wire::Track Perception::track_of(const traffic::CarState& car) {
   wire::Track track;
   track.id = wire_id(car.id);
   track.x_m = clamped(noisy(car.centre.x - origin_.x, options_.position_noise_m), -1310.0, 1310.0);
   track.y_m = clamped(noisy(car.centre.y - origin_.y, options_.position_noise_m), -1310.0, 1310.0);
   track.heading_rad =
-      clamped(wrap_angle(noisy(car.heading_rad, options_.heading_noise_rad)), -3.1408, 3.1408);
+      clamped(map::wrap_angle(noisy(car.heading_rad, options_.heading_noise_rad)), -3.1408, 3.1408);
   track.speed_mps = clamped(noisy(car.speed_mps, options_.speed_noise_mps), 0.0, 60.0);
   track.acceleration_mps2 = clamped(car.acceleration_mps2, -12.8, 12.7);
   track.yaw_rate_radps = clamped(car.yaw_rate_radps, -1.28, 1.27);
@@ -62,17 +62,17 @@ wire::Track Perception::track_of(const CarState& car) {
   return track;
 }
 
-void Perception::observe(const CarState& ego, const std::vector<CarState>& others,
+void Perception::observe(const traffic::CarState& ego, const std::vector<traffic::CarState>& others,
                          std::uint32_t vehicle_time_ms) {
-  std::vector<CarState> seen;
-  for (const CarState& car : others) {
+  std::vector<traffic::CarState> seen;
+  for (const traffic::CarState& car : others) {
     const bool missed = options_.dropout > 0.0 && random_.uniform() < options_.dropout;
     if (!missed && distance_m(ego, car) <= options_.range_m &&
-        !(options_.occlusion && hidden(ego, car, others))) {
+        !(options_.occlusion && traffic::hidden(ego, car, others))) {
       seen.push_back(car);
     }
   }
-  std::stable_sort(seen.begin(), seen.end(), [&](const CarState& a, const CarState& b) {
+  std::stable_sort(seen.begin(), seen.end(), [&](const traffic::CarState& a, const traffic::CarState& b) {
     return distance_m(ego, a) < distance_m(ego, b);
   });
   Pending pending;
@@ -87,7 +87,7 @@ void Perception::observe(const CarState& ego, const std::vector<CarState>& other
   // An id is remembered while its car is anywhere around: a gap of a few lists is no new car.
   std::erase_if(ids_, [&](const auto& entry) {
     return std::none_of(others.begin(), others.end(),
-                        [&](const CarState& car) { return car.id == entry.first; });
+                        [&](const traffic::CarState& car) { return car.id == entry.first; });
   });
   pending_.push_back(std::move(pending));
 }
@@ -103,4 +103,4 @@ void Perception::publish(std::uint32_t vehicle_time_ms, std::vector<wire::Frame>
   }
 }
 
-}  // namespace s4tp::world
+}  // namespace s4tp::nodes

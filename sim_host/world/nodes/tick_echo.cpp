@@ -3,7 +3,7 @@
 #include "firmware/wire/codec.hpp"
 #include "firmware/wire/e2e.hpp"
 
-namespace s4tp::world {
+namespace s4tp::nodes {
 namespace {
 
 constexpr unsigned kEchoMask = 0xFFF;
@@ -17,4 +17,4 @@ bool answers_tick(const wire::Frame& frame, unsigned tick, unsigned oldest, bool
   return ((tick - command.tick) & kEchoMask) <= oldest;
 }
 
-}  // namespace s4tp::world
+}  // namespace s4tp::nodes

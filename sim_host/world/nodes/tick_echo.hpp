@@ -3,7 +3,7 @@
 
 #include "firmware/wire/frame.hpp"
 
-namespace s4tp::world {
+namespace s4tp::nodes {
 
 inline constexpr unsigned kOldestEcho = 10;  ///< in real time: ticks an answer may be late
 
@@ -11,4 +11,4 @@ inline constexpr unsigned kOldestEcho = 10;  ///< in real time: ticks an answer 
 /// \param first   no answer came so far: the ECU does not trust the first TICK it sees and echoes 0
 [[nodiscard]] bool answers_tick(const wire::Frame& frame, unsigned tick, unsigned oldest, bool first);
 
-}  // namespace s4tp::world
+}  // namespace s4tp::nodes

@@ -5,7 +5,7 @@
 
 #include "sim_host/world/traffic/box.hpp"
 
-namespace s4tp::world {
+namespace s4tp::nodes {
 namespace {
 
 constexpr double kStep_s = 0.001;
@@ -18,25 +18,25 @@ double side_force(double slip_rad, double stiffness_npr, double limit_n) {
 
 }  // namespace
 
-void Vehicle::place(Vec2 box_centre, double heading_rad, double speed_mps) {
+void Vehicle::place(map::Vec2 box_centre, double heading_rad, double speed_mps) {
   heading_rad_ = heading_rad;
   speed_mps_ = speed_mps;
   side_speed_mps_ = yaw_rate_radps_ = acceleration_mps2_ = drive_mps2_ = steering_rad_ = 0.0;
   gravity_centre_ = {0.0, 0.0};
-  const Vec2 offset = this->box_centre();
+  const map::Vec2 offset = this->box_centre();
   gravity_centre_ = {box_centre.x - offset.x, box_centre.y - offset.y};
 }
 
-Vec2 Vehicle::ahead_of_gravity_centre(double along_m) const {
+map::Vec2 Vehicle::ahead_of_gravity_centre(double along_m) const {
   return {gravity_centre_.x + along_m * std::cos(heading_rad_),
           gravity_centre_.y + along_m * std::sin(heading_rad_)};
 }
 
-Vec2 Vehicle::rear_axle() const {
+map::Vec2 Vehicle::rear_axle() const {
   return ahead_of_gravity_centre(parameters_.front_axle_m - parameters_.wheelbase_m);
 }
 
-Vec2 Vehicle::box_centre() const {
+map::Vec2 Vehicle::box_centre() const {
   return ahead_of_gravity_centre(parameters_.front_axle_m - parameters_.wheelbase_m -
                                  parameters_.rear_overhang_m + 0.5 * parameters_.length_m);
 }
@@ -96,11 +96,11 @@ void Vehicle::step(double acceleration_mps2, double steering_rad) {
     stand();
     return;
   }
-  heading_rad_ = wrap_angle(heading_rad_ + kStep_s * yaw_rate_radps_);
+  heading_rad_ = map::wrap_angle(heading_rad_ + kStep_s * yaw_rate_radps_);
   const double c = std::cos(heading_rad_);
   const double s = std::sin(heading_rad_);
   gravity_centre_.x += kStep_s * (speed_mps_ * c - side_speed_mps_ * s);
   gravity_centre_.y += kStep_s * (speed_mps_ * s + side_speed_mps_ * c);
 }
 
-}  // namespace s4tp::world
+}  // namespace s4tp::nodes

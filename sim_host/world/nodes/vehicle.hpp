@@ -12,7 +12,7 @@
 
 #include "sim_host/world/map/polyline.hpp"
 
-namespace s4tp::world {
+namespace s4tp::nodes {
 
 struct VehicleParameters {
   double wheelbase_m = 2.9;
@@ -41,15 +41,15 @@ class Vehicle {
   explicit Vehicle(const VehicleParameters& parameters = {}) : parameters_(parameters) {}
 
   /// Sets the car down with its box centre there, rolling straight ahead.
-  void place(Vec2 box_centre, double heading_rad, double speed_mps);
+  void place(map::Vec2 box_centre, double heading_rad, double speed_mps);
 
   /// WORLD-001 One millisecond towards the commanded acceleration and road-wheel angle. At a standstill the
   /// car stays exactly where it is until drive is applied; it never rolls backwards.
   void step(double acceleration_mps2, double steering_rad);
 
   [[nodiscard]] const VehicleParameters& parameters() const { return parameters_; }
-  [[nodiscard]] Vec2 rear_axle() const;
-  [[nodiscard]] Vec2 box_centre() const;
+  [[nodiscard]] map::Vec2 rear_axle() const;
+  [[nodiscard]] map::Vec2 box_centre() const;
   [[nodiscard]] double heading_rad() const { return heading_rad_; }
   [[nodiscard]] double speed_mps() const { return speed_mps_; }  ///< along the car, at the rear axle
   [[nodiscard]] double acceleration_mps2() const { return acceleration_mps2_; }
@@ -59,10 +59,10 @@ class Vehicle {
  private:
   void actuate(double acceleration_mps2, double steering_rad);
   void stand();
-  [[nodiscard]] Vec2 ahead_of_gravity_centre(double along_m) const;
+  [[nodiscard]] map::Vec2 ahead_of_gravity_centre(double along_m) const;
 
   VehicleParameters parameters_;
-  Vec2 gravity_centre_;
+  map::Vec2 gravity_centre_;
   double heading_rad_ = 0.0;
   double speed_mps_ = 0.0;
   double side_speed_mps_ = 0.0;  ///< at the centre of gravity, left positive
@@ -72,4 +72,4 @@ class Vehicle {
   double steering_rad_ = 0.0;
 };
 
-}  // namespace s4tp::world
+}  // namespace s4tp::nodes

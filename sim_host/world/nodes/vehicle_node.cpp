@@ -6,7 +6,7 @@
 #include "sim_host/world/nodes/append_frame.hpp"
 #include "sim_host/world/traffic/box.hpp"
 
-namespace s4tp::world {
+namespace s4tp::nodes {
 namespace {
 
 constexpr int kCommandAgeMax_ticks = 10;
@@ -18,7 +18,7 @@ float clamped(double value, double low, double high) {
 
 }  // namespace
 
-VehicleNode::VehicleNode(const SensorOptions& sensors, Vec2 origin, std::uint64_t seed)
+VehicleNode::VehicleNode(const SensorOptions& sensors, map::Vec2 origin, std::uint64_t seed)
     : sensors_(sensors), origin_(origin), random_(seed) {}
 
 void VehicleNode::receive(const wire::Frame& frame) {
@@ -84,11 +84,11 @@ void VehicleNode::publish(std::uint32_t vehicle_time_ms, bool engaged, std::vect
         clamped(noisy(poses_.front().rear_axle.x - origin_.x, sensors_.position_noise_m), -1310.0, 1310.0);
     pose.y_m =
         clamped(noisy(poses_.front().rear_axle.y - origin_.y, sensors_.position_noise_m), -1310.0, 1310.0);
-    pose.heading_rad =
-        clamped(wrap_angle(noisy(poses_.front().heading_rad, sensors_.heading_noise_rad)), -3.1412, 3.1412);
+    pose.heading_rad = clamped(map::wrap_angle(noisy(poses_.front().heading_rad, sensors_.heading_noise_rad)),
+                               -3.1412, 3.1412);
     pose.age_10ms = static_cast<std::uint8_t>(poses_.size() - 1);
     append(pose, pose_sender_, frames);
   }
 }
 
-}  // namespace s4tp::world
+}  // namespace s4tp::nodes

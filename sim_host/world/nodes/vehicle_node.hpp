@@ -11,7 +11,7 @@
 #include "sim_host/world/nodes/vehicle.hpp"
 #include "sim_host/world/traffic/random.hpp"
 
-namespace s4tp::world {
+namespace s4tp::nodes {
 
 /// Errors of the car's own sensors, as standard deviations; the wire quantises in any case.
 struct SensorOptions {
@@ -27,7 +27,7 @@ struct SensorOptions {
 class VehicleNode {
  public:
   /// \param origin  of the odometry frame, network coordinates
-  VehicleNode(const SensorOptions& sensors, Vec2 origin, std::uint64_t seed);
+  VehicleNode(const SensorOptions& sensors, map::Vec2 origin, std::uint64_t seed);
 
   [[nodiscard]] Vehicle& vehicle() { return vehicle_; }
   [[nodiscard]] const Vehicle& vehicle() const { return vehicle_; }
@@ -50,13 +50,13 @@ class VehicleNode {
   void end_of_tick();
 
   struct TimedPose {
-    Vec2 rear_axle;
+    map::Vec2 rear_axle;
     double heading_rad = 0.0;
   };
   Vehicle vehicle_;
   SensorOptions sensors_;
-  Vec2 origin_;
-  Random random_;
+  map::Vec2 origin_;
+  traffic::Random random_;
   std::deque<TimedPose> poses_;  ///< oldest first, as many as the latency asks for
   wire::E2eReceiver command_receiver_;
   wire::E2eSender motion_sender_;
@@ -69,4 +69,4 @@ class VehicleNode {
   int command_age_ticks_ = 0;
 };
 
-}  // namespace s4tp::world
+}  // namespace s4tp::nodes

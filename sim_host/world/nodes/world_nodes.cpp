@@ -6,7 +6,7 @@
 #include "firmware/wire/version.hpp"
 #include "sim_host/world/nodes/append_frame.hpp"
 
-namespace s4tp::world {
+namespace s4tp::nodes {
 namespace {
 
 constexpr int kMapFramesPerTick = 3;
@@ -22,11 +22,11 @@ double on_the_wire(double coordinate_m) {
 
 }  // namespace
 
-WorldNodes::WorldNodes(const Network& network, const RouteGuide& guide, Vec2 origin,
-                       const PerceptionOptions& perception, std::uint64_t seed)
+WorldNodes::WorldNodes(const map::Network& network, const map::RouteGuide& guide, map::Vec2 origin,
+                       const scenario::PerceptionOptions& perception, std::uint64_t seed)
     : origin_(origin), perception_(perception, origin, seed), map_node_(network, guide, origin) {}
 
-void WorldNodes::publish_map(std::uint32_t now_ms, Vec2 ego, std::vector<wire::Frame>& frames) {
+void WorldNodes::publish_map(std::uint32_t now_ms, map::Vec2 ego, std::vector<wire::Frame>& frames) {
   if (now_ms % kMapUpdate_ms == 10U) {
     map_sender_.update(map_node_.update(ego));
   }
@@ -41,8 +41,8 @@ void WorldNodes::publish_map(std::uint32_t now_ms, Vec2 ego, std::vector<wire::F
   }
 }
 
-void WorldNodes::publish(std::uint32_t now_ms, const CarState& ego, const std::vector<CarState>& others,
-                         std::vector<wire::Frame>& frames) {
+void WorldNodes::publish(std::uint32_t now_ms, const traffic::CarState& ego,
+                         const std::vector<traffic::CarState>& others, std::vector<wire::Frame>& frames) {
   if (now_ms % 100U == kPerceptionPhase_ms) {
     perception_.observe(ego, others, now_ms);
   }
@@ -63,4 +63,4 @@ void WorldNodes::publish(std::uint32_t now_ms, const CarState& ego, const std::v
   append(tick, tick_sender_, frames);
 }
 
-}  // namespace s4tp::world
+}  // namespace s4tp::nodes

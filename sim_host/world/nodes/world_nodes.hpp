@@ -10,22 +10,22 @@
 #include "sim_host/world/nodes/perception.hpp"
 #include "sim_host/world/traffic/recording.hpp"
 
-namespace s4tp::world {
+namespace s4tp::nodes {
 
 class WorldNodes {
  public:
   /// \param origin  of the odometry frame, network coordinates  \param seed  of perception's noise
-  WorldNodes(const Network& network, const RouteGuide& guide, Vec2 origin,
-             const PerceptionOptions& perception, std::uint64_t seed);
+  WorldNodes(const map::Network& network, const map::RouteGuide& guide, map::Vec2 origin,
+             const scenario::PerceptionOptions& perception, std::uint64_t seed);
 
   /// Appends this tick's frames, TICK last. \param now_ms  a multiple of 10
-  void publish(std::uint32_t now_ms, const CarState& ego, const std::vector<CarState>& others,
-               std::vector<wire::Frame>& frames);
+  void publish(std::uint32_t now_ms, const traffic::CarState& ego,
+               const std::vector<traffic::CarState>& others, std::vector<wire::Frame>& frames);
 
  private:
-  void publish_map(std::uint32_t now_ms, Vec2 ego, std::vector<wire::Frame>& frames);
+  void publish_map(std::uint32_t now_ms, map::Vec2 ego, std::vector<wire::Frame>& frames);
 
-  Vec2 origin_;
+  map::Vec2 origin_;
   Perception perception_;
   MapNode map_node_;
   wire::MapSender map_sender_;
@@ -35,4 +35,4 @@ class WorldNodes {
   bool map_shown_ = false;
 };
 
-}  // namespace s4tp::world
+}  // namespace s4tp::nodes

@@ -9,7 +9,7 @@
 #include "sim_host/world/scenario/perception_preset.hpp"
 #include "sim_host/world/scenario/toml_table.hpp"
 
-namespace s4tp::world {
+namespace s4tp::scenario {
 namespace {
 
 constexpr int kTicksMax = 1'000'000;  // beyond the longest pre-roll and time limit
@@ -94,4 +94,4 @@ void write_cut(const Cut& cut, const std::string& heading, const std::filesystem
   if (!stream) throw std::runtime_error(file.string() + ": cannot be written");
 }
 
-}  // namespace s4tp::world
+}  // namespace s4tp::scenario

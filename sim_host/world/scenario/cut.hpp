@@ -9,7 +9,7 @@
 
 #include "firmware/wire/frame.hpp"
 
-namespace s4tp::world {
+namespace s4tp::scenario {
 
 class TomlTable;
 
@@ -32,4 +32,4 @@ struct Cut {
 /// \param heading  for its first line \throws std::runtime_error naming the file
 void write_cut(const Cut& cut, const std::string& heading, const std::filesystem::path& folder);
 
-}  // namespace s4tp::world
+}  // namespace s4tp::scenario

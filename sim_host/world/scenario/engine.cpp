@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-namespace s4tp::world {
+namespace s4tp::scenario {
 
 const std::vector<std::string>& engine_names() {
   static const std::vector<std::string> names{"builtin", "sumo", "adversary"};  // in the order of Engine
@@ -18,4 +18,4 @@ Engine engine_of(const std::string& name) {
   return static_cast<Engine>(found - engine_names().begin());
 }
 
-}  // namespace s4tp::world
+}  // namespace s4tp::scenario

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace s4tp::world {
+namespace s4tp::scenario {
 
 /// kAdversary: the built-in traffic, whose drivers do to the ego the worst that the law leaves them.
 enum class Engine { kBuiltin, kSumo, kAdversary };
@@ -14,4 +14,4 @@ enum class Engine { kBuiltin, kSumo, kAdversary };
 /// \throws std::invalid_argument naming those there are
 [[nodiscard]] Engine engine_of(const std::string& name);
 
-}  // namespace s4tp::world
+}  // namespace s4tp::scenario

@@ -9,7 +9,7 @@
 #include "sim_host/world/map/xml_values.hpp"
 #include "sim_host/world/scenario/vehicle_types.hpp"
 
-namespace s4tp::world {
+namespace s4tp::scenario {
 namespace {
 
 constexpr double kTimeMax_s = 1e6;
@@ -31,7 +31,7 @@ double time_of(const pugi::xml_node& node, const char* name, double missing_s) {
   std::vector<double> parts;  // the last one first
   std::istringstream text(node.attribute(name).value());
   for (std::string part; std::getline(text, part, ':');) {
-    parts.insert(parts.begin(), number_in(part).value_or(2.0 * kTimeMax_s));
+    parts.insert(parts.begin(), map::number_in(part).value_or(2.0 * kTimeMax_s));
   }
   static constexpr double kUnits_s[] = {1.0, 60.0, 3600.0, 86400.0};
   double time_s = parts.empty() || parts.size() == 2 || parts.size() > 4 ? 2.0 * kTimeMax_s : 0.0;
@@ -55,7 +55,7 @@ void read_spacing(const pugi::xml_node& node, const pugi::xml_node& interval, De
   const double per_hour =
       attribute_number(node, "perHour", attribute_number(node, "vehsPerHour", 0.0, 0.0, 1e6), 0.0, 1e6);
   if (period.rfind("exp(", 0) == 0 && period.back() == ')') {
-    const double rate = number_in(period.substr(4, period.size() - 5)).value_or(0.0);
+    const double rate = map::number_in(period.substr(4, period.size() - 5)).value_or(0.0);
     if (!(rate > 0.0 && rate <= 100.0)) {
       fail_at(node, quoted(node, "period") + ": expected exp(RATE), vehicles a second, above 0");
     }
@@ -92,7 +92,7 @@ void read_depart(const pugi::xml_node& node, DepartWish& wish) {
   } else if (lane == "best" || lane == "best_prob") {
     wish.lane = DepartWish::Lane::kBest;
   } else {
-    const std::optional<double> number = number_in(lane);
+    const std::optional<double> number = map::number_in(lane);
     if (!number || *number < 0.0 || *number > 99.0) {
       fail_at(node, quoted(node, "departLane") +
                         ": expected a lane's number, first, random, free, allowed or best");
@@ -119,4 +119,4 @@ void read_depart(const pugi::xml_node& node, DepartWish& wish) {
   }
 }
 
-}  // namespace s4tp::world
+}  // namespace s4tp::scenario

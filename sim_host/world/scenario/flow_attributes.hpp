@@ -7,7 +7,7 @@
 
 #include "sim_host/world/scenario/traffic_demand.hpp"
 
-namespace s4tp::world {
+namespace s4tp::scenario {
 
 [[noreturn]] void fail_at(const pugi::xml_node& node, const std::string& what);
 /// "NAME="VALUE"", as errors name an attribute.
@@ -18,4 +18,4 @@ namespace s4tp::world {
 void read_spacing(const pugi::xml_node& node, const pugi::xml_node& interval, DemandFlow& flow);
 void read_depart(const pugi::xml_node& node, DepartWish& wish);
 
-}  // namespace s4tp::world
+}  // namespace s4tp::scenario

@@ -3,7 +3,7 @@
 #include <cstdarg>
 #include <cstdio>
 
-namespace s4tp::world {
+namespace s4tp::scenario {
 
 std::string format(const char* pattern, ...) {
   char text[400];
@@ -14,4 +14,4 @@ std::string format(const char* pattern, ...) {
   return text;
 }
 
-}  // namespace s4tp::world
+}  // namespace s4tp::scenario

@@ -4,7 +4,7 @@
 #include <functional>
 #include <string>
 
-namespace s4tp::world {
+namespace s4tp::scenario {
 
 /// "a, b, c". \param name_of  what of each one is its name
 template <class Names, class NameOf = std::identity>
@@ -14,4 +14,4 @@ template <class Names, class NameOf = std::identity>
   return text;
 }
 
-}  // namespace s4tp::world
+}  // namespace s4tp::scenario

@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-namespace s4tp::world {
+namespace s4tp::scenario {
 
 const std::vector<std::string>& perception_names() {
   static const std::vector<std::string> names{"ideal", "real"};
@@ -23,4 +23,4 @@ PerceptionOptions perception_preset(const std::string& name) {
   return options;
 }
 
-}  // namespace s4tp::world
+}  // namespace s4tp::scenario

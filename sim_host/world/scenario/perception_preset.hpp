@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace s4tp::world {
+namespace s4tp::scenario {
 
 /// Imperfections; all off by default (the wire quantises in any case).
 struct PerceptionOptions {
@@ -28,4 +28,4 @@ struct PerceptionOptions {
 /// \throws std::invalid_argument naming those there are
 [[nodiscard]] PerceptionOptions perception_preset(const std::string& name);
 
-}  // namespace s4tp::world
+}  // namespace s4tp::scenario

@@ -8,11 +8,11 @@
 #include "sim_host/world/scenario/traffic_limits.hpp"
 #include "sim_host/world/scenario/vehicle_types.hpp"
 
-namespace s4tp::world {
+namespace s4tp::scenario {
 namespace {
 
 std::vector<std::string> edges_of(const pugi::xml_node& node) {
-  const std::vector<std::string> edges = words_in(node.attribute("edges").value());
+  const std::vector<std::string> edges = map::words_in(node.attribute("edges").value());
   if (edges.empty()) {
     fail_at(node, "edges: expected at least one edge");
   }
@@ -42,7 +42,7 @@ RouteChoices::Choice RouteChoices::of(const pugi::xml_node& node) {
     append(node, node.attribute("route").value(), 1.0, choice);
     return choice;
   }
-  std::vector<std::string> stations = words_in(node.attribute("via").value());
+  std::vector<std::string> stations = map::words_in(node.attribute("via").value());
   for (const char* end : {"from", "to"}) {
     if (!node.attribute(end)) {
       fail_at(node, "expected a route, or from and to edges (zones and junctions as ends are not known)");
@@ -54,7 +54,7 @@ RouteChoices::Choice RouteChoices::of(const pugi::xml_node& node) {
   // Longer than the network is, it passes an edge again, from where it is left out anyway.
   for (std::size_t i = 1; i < stations.size() && edges.size() <= network_.lanes.size(); ++i) {
     try {
-      const std::vector<std::string> on = find_route(network_, stations[i - 1], stations[i]);
+      const std::vector<std::string> on = map::find_route(network_, stations[i - 1], stations[i]);
       edges.insert(edges.end(), on.begin() + 1, on.end());
     } catch (const std::runtime_error& error) {
       fail_at(node, error.what());
@@ -117,11 +117,11 @@ RouteChoices::Choice RouteChoices::distribution(const pugi::xml_node& node) {
       named_[route.attribute("id").value()] = {{own, 1.0}};
     }
   }
-  const std::vector<std::string> names = words_in(node.attribute("routes").value());
-  const std::vector<std::string> weights = words_in(node.attribute("probabilities").value());
+  const std::vector<std::string> names = map::words_in(node.attribute("routes").value());
+  const std::vector<std::string> weights = map::words_in(node.attribute("probabilities").value());
   for (std::size_t i = 0; i < names.size(); ++i) {
     const double weight = weights.empty()      ? 1.0
-                          : i < weights.size() ? number_in(weights[i]).value_or(-1.0)
+                          : i < weights.size() ? map::number_in(weights[i]).value_or(-1.0)
                                                : -1.0;
     if (weight < 0.0) {
       fail_at(node, "probabilities: expected a number of 0 and more for each of routes");
@@ -134,4 +134,4 @@ RouteChoices::Choice RouteChoices::distribution(const pugi::xml_node& node) {
   return choice;
 }
 
-}  // namespace s4tp::world
+}  // namespace s4tp::scenario

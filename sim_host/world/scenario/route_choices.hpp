@@ -9,14 +9,14 @@
 
 #include "sim_host/world/map/network.hpp"
 
-namespace s4tp::world {
+namespace s4tp::scenario {
 
 class RouteChoices {
  public:
   /// One route or, of a distribution, several, each once, with their weights.
   using Choice = std::map<std::size_t, double>;  ///< by index for edges()
 
-  explicit RouteChoices(const Network& network) : network_(network) {}
+  explicit RouteChoices(const map::Network& network) : network_(network) {}
 
   /// Takes every <route> and <routeDistribution> among the children of `root`.
   void read(const pugi::xml_node& root);
@@ -33,11 +33,11 @@ class RouteChoices {
   void append(const pugi::xml_node& node, const std::string& name, double weight, Choice& to);
   Choice distribution(const pugi::xml_node& node);
 
-  const Network& network_;
+  const map::Network& network_;
   std::vector<std::vector<std::string>> ways_;
   std::map<std::vector<std::string>, std::size_t> way_index_;
   std::map<std::string, Choice> named_;
   std::size_t count_ = 0;  ///< of all that was built
 };
 
-}  // namespace s4tp::world
+}  // namespace s4tp::scenario

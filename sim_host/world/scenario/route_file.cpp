@@ -12,7 +12,7 @@
 #include "sim_host/world/scenario/traffic_limits.hpp"
 #include "sim_host/world/scenario/vehicle_types.hpp"
 
-namespace s4tp::world {
+namespace s4tp::scenario {
 namespace {
 
 /// Draws made for a flow before the episode begins.
@@ -26,7 +26,7 @@ double draws_of(const DemandFlow& flow) {
 
 class Reader {
  public:
-  explicit Reader(const Network& network) : network_(network), choices_(network) {}
+  explicit Reader(const map::Network& network) : network_(network), choices_(network) {}
 
   Demand read(const pugi::xml_node& root) {
     types_.read(root);
@@ -135,13 +135,13 @@ class Reader {
         edges.erase(again, edges.end());
       }
       TrafficRoute route{edges, -1, -1};
-      if (const std::optional<double> lane = number_in(arrival);
+      if (const std::optional<double> lane = map::number_in(arrival);
           lane &&
-          network_.lane_of(edges.back(), static_cast<int>(std::clamp(*lane, -1.0, 99.0))) != kNoLane) {
+          network_.lane_of(edges.back(), static_cast<int>(std::clamp(*lane, -1.0, 99.0))) != map::kNoLane) {
         route.end_lane = static_cast<int>(*lane);
       }
       if (flow.depart.lane == DepartWish::Lane::kNumber &&
-          network_.lane_of(edges.front(), flow.depart.lane_number) == kNoLane) {
+          network_.lane_of(edges.front(), flow.depart.lane_number) == map::kNoLane) {
         fail_at(node,
                 quoted(node, "departLane") + ": edge \"" + edges.front() + "\" has no such lane for cars");
       }
@@ -155,7 +155,7 @@ class Reader {
     const auto [entry, is_new] = index_.try_emplace({route.edges, route.end_lane}, demand_.routes.size());
     if (is_new) {
       try {
-        guided_ += RouteGuide(network_, route.edges, kNoLane, 0.0).size();
+        guided_ += map::RouteGuide(network_, route.edges, map::kNoLane, 0.0).size();
       } catch (const std::runtime_error& error) {
         index_.erase(entry);
         fail_at(node, error.what());
@@ -170,7 +170,7 @@ class Reader {
     return entry->second;
   }
 
-  const Network& network_;
+  const map::Network& network_;
   VehicleTypes types_;
   RouteChoices choices_;
   std::size_t guided_ = 0;  ///< lanes along demand_.routes
@@ -182,8 +182,8 @@ class Reader {
 
 }  // namespace
 
-Demand load_demand(const std::filesystem::path& file, const Network& network) {
-  const pugi::xml_document document = parse_xml(file.string());
+Demand load_demand(const std::filesystem::path& file, const map::Network& network) {
+  const pugi::xml_document document = map::parse_xml(file.string());
   pugi::xml_node root = document.child("routes");
   root = root ? root : document.child("additional");
   if (!root) {
@@ -196,4 +196,4 @@ Demand load_demand(const std::filesystem::path& file, const Network& network) {
   }
 }
 
-}  // namespace s4tp::world
+}  // namespace s4tp::scenario

@@ -7,11 +7,11 @@
 #include "sim_host/world/map/network.hpp"
 #include "sim_host/world/scenario/traffic_demand.hpp"
 
-namespace s4tp::world {
+namespace s4tp::scenario {
 
 /// Reads vehicles, trips (routed here), flows, vehicle types, routes and their distributions. Persons,
 /// containers, stops, rail and ships are left out with a note; so are vehicles other than cars whose way cars
 /// may not take. SCN-003 \throws std::runtime_error naming file, element and what was expected
-[[nodiscard]] Demand load_demand(const std::filesystem::path& file, const Network& network);
+[[nodiscard]] Demand load_demand(const std::filesystem::path& file, const map::Network& network);
 
-}  // namespace s4tp::world
+}  // namespace s4tp::scenario

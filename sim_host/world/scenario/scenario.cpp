@@ -14,7 +14,7 @@
 #include "sim_host/world/scenario/traffic_table.hpp"
 #include "sim_host/world/scenario/utf8.hpp"
 
-namespace s4tp::world {
+namespace s4tp::scenario {
 namespace {
 
 constexpr double kReach_m = 1300.0;  ///< of Pose on the bus, with something to spare
@@ -22,10 +22,10 @@ constexpr double kEnd = std::numeric_limits<double>::infinity();  ///< of a lane
 constexpr double kAsTheLane = -1.0;                               ///< the lane's end, the lane's limit
 
 /// Lane by SUMO's name.
-LaneId read_lane(TomlTable& table, const std::string& key, const Network& network) {
+map::LaneId read_lane(TomlTable& table, const std::string& key, const map::Network& network) {
   const std::string name = table.text(key);
-  const LaneId lane = network.find(name);
-  if (lane == kNoLane || network.lanes[static_cast<std::size_t>(lane)].in_junction) {
+  const map::LaneId lane = network.find(name);
+  if (lane == map::kNoLane || network.lanes[static_cast<std::size_t>(lane)].in_junction) {
     table.fail(key, "the network has no lane \"" + name + "\" outside junctions that cars may use");
   }
   return lane;
@@ -41,7 +41,7 @@ double read_or(TomlTable& table, const std::string& key, double missing, double 
 }
 
 /// A position as SUMO counts it, along the lane's shape.
-double along_shape(const TomlTable& table, const std::string& key, const NetworkLane& lane, double s_m) {
+double along_shape(const TomlTable& table, const std::string& key, const map::Lane& lane, double s_m) {
   const double shape_m = lane.centre.length_m();
   if (s_m == kEnd) {
     return shape_m;
@@ -56,12 +56,12 @@ double along_shape(const TomlTable& table, const std::string& key, const Network
 }
 
 /// The odometry frame of the bus begins where the ego does.
-void check_reach(const Network& network, const Mission& mission) {
-  const Vec2 origin =
+void check_reach(const map::Network& network, const Mission& mission) {
+  const map::Vec2 origin =
       network.lanes[static_cast<std::size_t>(mission.start_lane)].centre.at(mission.start_s_m).point;
   for (const std::string& edge : mission.edges) {
-    for (const LaneId lane : network.lanes_of(edge)) {
-      for (const Vec2 point : network.lanes[static_cast<std::size_t>(lane)].centre.points()) {
+    for (const map::LaneId lane : network.lanes_of(edge)) {
+      for (const map::Vec2 point : network.lanes[static_cast<std::size_t>(lane)].centre.points()) {
         const bool on_the_way = edge != mission.edges.front() && edge != mission.edges.back();
         if (on_the_way && std::max(std::abs(point.x - origin.x), std::abs(point.y - origin.y)) > kReach_m) {
           throw std::runtime_error("edge \"" + edge +
@@ -71,7 +71,7 @@ void check_reach(const Network& network, const Mission& mission) {
       }
     }
   }
-  const Vec2 goal =
+  const map::Vec2 goal =
       network.lanes[static_cast<std::size_t>(mission.goal_lane)].centre.at(mission.goal_s_m).point;
   if (std::max(std::abs(goal.x - origin.x), std::abs(goal.y - origin.y)) > kReach_m) {
     throw std::runtime_error(
@@ -79,13 +79,13 @@ void check_reach(const Network& network, const Mission& mission) {
   }
 }
 
-Mission read_mission(TomlTable table, const Network& network) {
+Mission read_mission(TomlTable table, const map::Network& network) {
   Mission mission;
   mission.start_lane = read_lane(table, "start_lane", network);
   mission.goal_lane = read_lane(table, "goal_lane", network);
   mission.start_s_m = table.number("start_pos_m", 5.0, 0.0, 1e6);
-  const NetworkLane& start = network.lanes[static_cast<std::size_t>(mission.start_lane)];
-  const NetworkLane& goal = network.lanes[static_cast<std::size_t>(mission.goal_lane)];
+  const map::Lane& start = network.lanes[static_cast<std::size_t>(mission.start_lane)];
+  const map::Lane& goal = network.lanes[static_cast<std::size_t>(mission.goal_lane)];
   mission.goal_s_m = read_or(table, "goal_pos_m", kAsTheLane, 1e6, kEnd);
   mission.entry_time_s = table.number("entry_time_s", mission.entry_time_s, 0.0, 600.0);
   mission.time_limit_s = table.number("time_limit_s", mission.time_limit_s, 1.0, 3600.0);
@@ -95,8 +95,8 @@ Mission read_mission(TomlTable table, const Network& network) {
   mission.goal_s_m = along_shape(table, "goal_pos_m", goal, mission.goal_s_m);
   try {
     mission.edges =
-        find_route(network, mission.start_lane, mission.start_s_m, mission.goal_lane, mission.goal_s_m);
-    RouteGuide(network, mission.edges, mission.goal_lane, mission.goal_s_m);
+        map::find_route(network, mission.start_lane, mission.start_s_m, mission.goal_lane, mission.goal_s_m);
+    map::RouteGuide(network, mission.edges, mission.goal_lane, mission.goal_s_m);
     check_reach(network, mission);
   } catch (const std::runtime_error& error) {
     table.fail("goal_lane", error.what());
@@ -168,7 +168,7 @@ Scenario load(const std::filesystem::path& path, const std::string& flavour, boo
   }
   scenario.files.push_back(scenario.network_file);
   network.no_other_keys();
-  scenario.network = load_network(scenario.network_file);
+  scenario.network = map::load_network(scenario.network_file);
   static_cast<void>(table.require("mission"));
   scenario.mission = read_mission(table.table("mission"), scenario.network);
   read_traffic(table.table("traffic"), scenario);
@@ -194,7 +194,7 @@ std::filesystem::path scenario_path(const std::filesystem::path& shipped, const 
                            "; your own is a folder that holds a scenario.toml");
 }
 
-RouteGuide mission_guide(const Scenario& scenario) {
+map::RouteGuide mission_guide(const Scenario& scenario) {
   const Mission& mission = scenario.mission;
   return {scenario.network, mission.edges, mission.goal_lane, mission.goal_s_m};
 }
@@ -203,4 +203,4 @@ Scenario load_scenario(const std::filesystem::path& path, const std::string& fla
   return load(path, flavour, true);
 }
 
-}  // namespace s4tp::world
+}  // namespace s4tp::scenario

@@ -9,14 +9,14 @@
 #include "sim_host/world/map/network.hpp"
 #include "sim_host/world/scenario/traffic_demand.hpp"
 
-namespace s4tp::world {
+namespace s4tp::scenario {
 
 struct Mission {
-  LaneId start_lane = 0;
+  map::LaneId start_lane = 0;
   double start_s_m = 0.0;  ///< of the box centre, at entry
   double start_speed_mps = 8.0;
   std::vector<std::string> edges;  ///< route, from the start lane's edge to the goal lane's
-  LaneId goal_lane = 0;
+  map::LaneId goal_lane = 0;
   double goal_s_m = 0.0;
   double entry_time_s = 4.0;   ///< the ECU takes over
   double time_limit_s = 80.0;  ///< after entry
@@ -30,7 +30,7 @@ struct Scenario {
   std::filesystem::path folder;
   std::filesystem::path network_file;
   std::vector<std::filesystem::path> route_files;  ///< the episode of seed s takes file s modulo their number
-  Network network;
+  map::Network network;
   Mission mission;
   std::vector<FlowGroup> flows;              ///< where there are no route files
   std::vector<Demand> demands;               ///< what the route files say, in their order
@@ -40,7 +40,7 @@ struct Scenario {
 };
 
 /// The way of the mission. \param scenario  its network must outlive the guide
-[[nodiscard]] RouteGuide mission_guide(const Scenario& scenario);
+[[nodiscard]] map::RouteGuide mission_guide(const Scenario& scenario);
 
 /// Reads a scenario.toml, named itself or by its folder, and the files it names.
 /// \param flavour  which [flavour.NAME] to put over the rest; empty or "smarts": the file as it is written
@@ -52,4 +52,4 @@ struct Scenario {
 [[nodiscard]] std::filesystem::path scenario_path(const std::filesystem::path& shipped,
                                                   const std::string& name);
 
-}  // namespace s4tp::world
+}  // namespace s4tp::scenario

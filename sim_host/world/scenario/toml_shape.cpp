@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace s4tp::world {
+namespace s4tp::scenario {
 namespace {
 
 /// \return where the string that begins at `at` has ended; the text's end when it does not
@@ -72,4 +72,4 @@ void check_toml_shape(std::string_view text) {
   }
 }
 
-}  // namespace s4tp::world
+}  // namespace s4tp::scenario

@@ -4,7 +4,7 @@
 
 #include <string_view>
 
-namespace s4tp::world {
+namespace s4tp::scenario {
 
 inline constexpr int kTomlNesting = 32;             ///< brackets and braces within each other, at most
 inline constexpr int kTomlKeyParts = 32;            ///< of a dotted key, at most
@@ -15,4 +15,4 @@ inline constexpr std::size_t kTomlBytes = 1 << 20;  ///< of a file, at most
 /// std::runtime_error naming the line and what is accepted
 void check_toml_shape(std::string_view text);
 
-}  // namespace s4tp::world
+}  // namespace s4tp::scenario

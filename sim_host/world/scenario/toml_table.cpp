@@ -9,7 +9,7 @@
 #include "sim_host/world/scenario/toml_shape.hpp"
 #include "sim_host/world/scenario/whole_file.hpp"
 
-namespace s4tp::world {
+namespace s4tp::scenario {
 namespace {
 
 const toml::value& no_keys() {
@@ -177,4 +177,4 @@ void merge(toml::value& into, const toml::value& over) {
   }
 }
 
-}  // namespace s4tp::world
+}  // namespace s4tp::scenario

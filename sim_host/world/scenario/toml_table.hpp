@@ -9,7 +9,7 @@
 
 #include "sim_host/world/scenario/traffic_demand.hpp"
 
-namespace s4tp::world {
+namespace s4tp::scenario {
 
 /// Every function throws std::runtime_error "FILE: KEY: what is accepted" when the value is none of these.
 class TomlTable {
@@ -52,4 +52,4 @@ class TomlTable {
 /// Puts the values of one document over those of another: tables are merged, anything else is replaced.
 void merge(toml::value& into, const toml::value& over);
 
-}  // namespace s4tp::world
+}  // namespace s4tp::scenario

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace s4tp::world {
+namespace s4tp::scenario {
 
 /// A uniform range to draw from.
 struct Range {
@@ -88,4 +88,4 @@ struct Demand {
   std::vector<std::string> notes;  ///< what was left out because it does no harm, one line each
 };
 
-}  // namespace s4tp::world
+}  // namespace s4tp::scenario

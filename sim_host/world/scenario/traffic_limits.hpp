@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-namespace s4tp::world {
+namespace s4tp::scenario {
 
 /// FILE-003 Cars that a file may let in, at most, and until when they are counted: the longest episode, with
 /// something to spare. Every one is drawn before the episode begins.
@@ -18,4 +18,4 @@ inline constexpr std::size_t kDriversMax = 1'000;      ///< kinds of drivers of 
 inline constexpr double kWeightMax = 1e12;             ///< of one route
 inline constexpr std::size_t kGuidedMax = 2'000'000;   ///< lanes along all different routes, each counted
 
-}  // namespace s4tp::world
+}  // namespace s4tp::scenario

@@ -9,7 +9,7 @@
 #include "sim_host/world/scenario/route_file.hpp"
 #include "sim_host/world/scenario/traffic_limits.hpp"
 
-namespace s4tp::world {
+namespace s4tp::scenario {
 namespace {
 
 constexpr std::size_t kMixMax = 100;
@@ -70,21 +70,21 @@ std::vector<DriverModel> read_drivers(TomlTable& traffic, const std::filesystem:
 }
 
 /// \param lane  SUMO's number; -1: any
-void check_lane_number(const TomlTable& table, const std::string& key, const Network& network,
+void check_lane_number(const TomlTable& table, const std::string& key, const map::Network& network,
                        const std::string& edge, int lane) {
-  if (lane >= 0 && network.lane_of(edge, lane) == kNoLane) {
+  if (lane >= 0 && network.lane_of(edge, lane) == map::kNoLane) {
     table.fail(key, "edge \"" + edge + "\" has no lane " + std::to_string(lane) + " that cars may use");
   }
 }
 
-TrafficRoute read_route(TomlTable table, const Network& network) {
+TrafficRoute read_route(TomlTable table, const map::Network& network) {
   TrafficRoute route;
   route.edges = table.texts("edges");
   route.start_lane = table.integer("start_lane", -1, -1, 99);
   route.end_lane = table.integer("end_lane", -1, -1, 99);
   table.no_other_keys();
   try {
-    RouteGuide(network, route.edges, kNoLane, 0.0);
+    map::RouteGuide(network, route.edges, map::kNoLane, 0.0);
   } catch (const std::runtime_error& error) {
     table.fail("edges", error.what());
   }
@@ -93,7 +93,7 @@ TrafficRoute read_route(TomlTable table, const Network& network) {
   return route;
 }
 
-FlowGroup read_flow(TomlTable table, const Network& network, const std::vector<DriverModel>& drivers) {
+FlowGroup read_flow(TomlTable table, const map::Network& network, const std::vector<DriverModel>& drivers) {
   FlowGroup group;
   group.drivers = drivers;
   for (const TomlTable& route : table.tables("routes")) {
@@ -162,4 +162,4 @@ void read_traffic(TomlTable traffic, Scenario& scenario) {
   traffic.no_other_keys();
 }
 
-}  // namespace s4tp::world
+}  // namespace s4tp::scenario

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace s4tp::world {
+namespace s4tp::scenario {
 
 bool is_utf8(std::string_view text) {
   try {
@@ -25,4 +25,4 @@ void require_utf8(const std::filesystem::path& path) {
       name + ": this name is not UTF-8, and results could not hold it; please rename or link it");
 }
 
-}  // namespace s4tp::world
+}  // namespace s4tp::scenario

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string_view>
 
-namespace s4tp::world {
+namespace s4tp::scenario {
 
 /// As RFC 3629 has it, and as JSON takes it: no overlong forms, no surrogates, nothing above U+10FFFF.
 [[nodiscard]] bool is_utf8(std::string_view text);
@@ -13,4 +13,4 @@ namespace s4tp::world {
 /// \throws std::runtime_error with the name, its other bytes as question marks
 void require_utf8(const std::filesystem::path& path);
 
-}  // namespace s4tp::world
+}  // namespace s4tp::scenario

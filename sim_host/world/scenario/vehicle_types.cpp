@@ -9,7 +9,7 @@
 
 #include "sim_host/world/map/xml_values.hpp"
 
-namespace s4tp::world {
+namespace s4tp::scenario {
 namespace {
 
 /// SUMO's defaults where a class differs from a passenger car: Vehicle_Type_Parameter_Defaults in its manual.
@@ -56,7 +56,7 @@ double attribute_number(const pugi::xml_node& node, const char* name, double mis
   if (!attribute) {
     return missing;
   }
-  const std::optional<double> value = number_in(attribute.value());
+  const std::optional<double> value = map::number_in(attribute.value());
   if (!value || *value < low || *value > high) {
     std::ostringstream what;
     what << element_name(node) << ": " << name << "=\"" << attribute.value() << "\": expected a number";
@@ -79,7 +79,7 @@ void read_speed_factor(const pugi::xml_node& node, DriverModel& model) {
     std::vector<double> values;
     std::istringstream list(numbers);
     for (std::string part; std::getline(list, part, ',');) {
-      values.push_back(number_in(part).value_or(kNone));
+      values.push_back(map::number_in(part).value_or(kNone));
     }
     const bool right = distributed ? values.size() == 2 || values.size() == 4 : values.size() == 1;
     if (!right || !(values[0] > 0.0 && values[0] <= 5.0) ||
@@ -141,11 +141,11 @@ void VehicleTypes::read(const pugi::xml_node& parent) {
       all.push_back(read_type(inner));
       types_[all.back().model.name] = {all.back()};
     }
-    const std::vector<std::string> weights = words_in(node.attribute("probabilities").value());
+    const std::vector<std::string> weights = map::words_in(node.attribute("probabilities").value());
     std::size_t at = 0;
-    for (const std::string& name : words_in(node.attribute("vTypes").value())) {
+    for (const std::string& name : map::words_in(node.attribute("vTypes").value())) {
       const std::vector<VehicleType>* named = find(name);
-      const double weight = at < weights.size() ? number_in(weights[at]).value_or(kNone)
+      const double weight = at < weights.size() ? map::number_in(weights[at]).value_or(kNone)
                             : weights.empty()   ? 1.0
                                                 : kNone;
       if (named == nullptr || weight < 0.0) {
@@ -164,4 +164,4 @@ void VehicleTypes::read(const pugi::xml_node& parent) {
   }
 }
 
-}  // namespace s4tp::world
+}  // namespace s4tp::scenario

@@ -8,7 +8,7 @@
 
 #include "sim_host/world/scenario/traffic_demand.hpp"
 
-namespace s4tp::world {
+namespace s4tp::scenario {
 
 /// kElsewhere: rail, ships, pedestrians: not on the road at all.
 enum class RoadUse { kCar, kOtherOnTheRoad, kElsewhere };
@@ -42,4 +42,4 @@ void read_speed_factor(const pugi::xml_node& node, DriverModel& model);
 [[nodiscard]] double attribute_number(const pugi::xml_node& node, const char* name, double missing,
                                       double low, double high);
 
-}  // namespace s4tp::world
+}  // namespace s4tp::scenario

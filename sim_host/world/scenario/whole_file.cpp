@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <system_error>
 
-namespace s4tp::world {
+namespace s4tp::scenario {
 
 namespace fs = std::filesystem;
 
@@ -21,4 +21,4 @@ std::string whole_file(const fs::path& file, std::uintmax_t most_bytes) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-}  // namespace s4tp::world
+}  // namespace s4tp::scenario

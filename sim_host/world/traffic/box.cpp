@@ -4,8 +4,10 @@
 #include <cmath>
 #include <limits>
 
-namespace s4tp::world {
+namespace s4tp::traffic {
 namespace {
+
+using map::Vec2;
 
 constexpr double kCompetitionLength_m = 3.68;
 constexpr double kCompetitionWidth_m = 1.47;
@@ -127,4 +129,4 @@ double time_to_contact_s(const Box& a, Vec2 velocity_a, const Box& b, Vec2 veloc
   return first <= last ? first : std::numeric_limits<double>::infinity();
 }
 
-}  // namespace s4tp::world
+}  // namespace s4tp::traffic

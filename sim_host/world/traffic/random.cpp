@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace s4tp::world {
+namespace s4tp::traffic {
 
 std::uint64_t next_seed(std::uint64_t seed) {
   std::uint64_t z = seed + 0x9E3779B97F4A7C15U;
@@ -39,4 +39,4 @@ double Random::exponential(double mean) {
   return -mean * std::log(1.0 - uniform());
 }
 
-}  // namespace s4tp::world
+}  // namespace s4tp::traffic

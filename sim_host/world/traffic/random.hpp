@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <random>
 
-namespace s4tp::world {
+namespace s4tp::traffic {
 
 class Random {
  public:
@@ -25,4 +25,4 @@ class Random {
 /// [0, 1), a function of `key`: a draw without a stream.
 [[nodiscard]] double hash_uniform(std::uint64_t key);
 
-}  // namespace s4tp::world
+}  // namespace s4tp::traffic

@@ -1,6 +1,6 @@
 #include "sim_host/world/traffic/recording.hpp"
 
-namespace s4tp::world {
+namespace s4tp::traffic {
 
 const char* cause_words(Fault fault, Cause cause) {
   const bool ours = fault == Fault::kEgo;
@@ -31,4 +31,4 @@ const char* cause_words(Fault fault, Cause cause) {
   return "nothing";
 }
 
-}  // namespace s4tp::world
+}  // namespace s4tp::traffic

@@ -7,12 +7,12 @@
 
 #include "sim_host/world/map/polyline.hpp"
 
-namespace s4tp::world {
+namespace s4tp::traffic {
 
 /// True state of one car at an instant, network coordinates; the point is the box centre.
 struct CarState {
   int id = 0;  ///< 0 is the ego
-  Vec2 centre;
+  map::Vec2 centre;
   double heading_rad = 0.0;
   double speed_mps = 0.0;
   double acceleration_mps2 = 0.0;
@@ -64,11 +64,11 @@ struct Recording {
   std::uint64_t seed = 0;
   int redrawn = 0;  ///< episodes thrown away for an overlap in the first second
   Ending ending = Ending::kRunning;
-  Vec2 goal;                                      ///< where it lies
+  map::Vec2 goal;                                 ///< where it lies
   double goal_distance_m = 0.0;                   ///< Manhattan distance to the goal at the end
   std::vector<Snapshot> snapshots;                ///< every 0.1 s
   std::vector<Collision> collisions;              ///< boxes of the cars' own size
   std::vector<Collision> collisions_competition;  ///< the same with 3.68 x 1.47 m boxes
 };
 
-}  // namespace s4tp::world
+}  // namespace s4tp::traffic

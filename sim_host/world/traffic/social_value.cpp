@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-namespace s4tp::world {
+namespace s4tp::traffic {
 namespace {
 
 constexpr double kCompetitive_rad = -0.2;
@@ -50,4 +50,4 @@ SocialTraits social_traits(double svo_rad) {
   return traits;
 }
 
-}  // namespace s4tp::world
+}  // namespace s4tp::traffic

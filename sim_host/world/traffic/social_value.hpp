@@ -6,7 +6,7 @@
 /// default driver, so that a flavour without orientations is SUMO's traffic; below 0 is competitive, pi/4
 /// prosocial.
 
-namespace s4tp::world {
+namespace s4tp::traffic {
 
 struct SocialTraits {
   // Factors on what the driver's model says.
@@ -28,4 +28,4 @@ struct SocialTraits {
 /// rest. \param svo_rad  limited to -0.2 .. 0.8
 [[nodiscard]] SocialTraits social_traits(double svo_rad);
 
-}  // namespace s4tp::world
+}  // namespace s4tp::traffic

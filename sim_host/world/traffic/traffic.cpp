@@ -5,7 +5,7 @@
 
 #include "sim_host/world/traffic/box.hpp"
 
-namespace s4tp::world {
+namespace s4tp::traffic {
 namespace {
 
 constexpr double kInvites_s = 4.5;  // somebody waiting; it stops a little longer, lest both go at once
@@ -13,21 +13,22 @@ constexpr double kSideGone = 0.75;  // of a change, when the old lane is free ag
 
 }  // namespace
 
-double TrafficCar::offset_m() const {
+double Car::offset_m() const {
   const double p = change_done;
   return change_from_m * (1.0 - p * p * p * (10.0 - 15.0 * p + 6.0 * p * p));
 }
 
-Traffic::Traffic(const Network& network, const std::vector<FlowGroup>& groups, std::uint64_t seed)
+Traffic::Traffic(const map::Network& network, const std::vector<scenario::FlowGroup>& groups,
+                 std::uint64_t seed)
     : road_(std::make_shared<const RoadIndex>(network)), seed_(seed), waiting_(network.lanes.size()) {
   Random random(seed);
   plan_ = std::make_shared<const FlowPlan>(draw_flows(network, groups, kDrawnUntil_s, random));
 }
 
-Traffic::Traffic(const Scenario& scenario, std::uint64_t episode, std::uint64_t seed)
+Traffic::Traffic(const scenario::Scenario& scenario, std::uint64_t episode, std::uint64_t seed)
     : Traffic(scenario.network, scenario.flows, seed) {
   if (!scenario.demands.empty()) {
-    const Mission& mission = scenario.mission;
+    const scenario::Mission& mission = scenario.mission;
     Random random(seed);
     plan_ = std::make_shared<const FlowPlan>(
         draw_demand(scenario.network, scenario.demands[episode % scenario.demands.size()],
@@ -44,10 +45,10 @@ void Traffic::step(const EgoSeen* ego) {
     decide(ego == nullptr ? nullptr : &ego->actor);
   }
   ++ticks_;
-  for (TrafficCar& car : cars_) {
+  for (Car& car : cars_) {
     move(car);
   }
-  std::erase_if(cars_, [](const TrafficCar& car) { return car.lane == kNoLane; });
+  std::erase_if(cars_, [](const Car& car) { return car.lane == map::kNoLane; });
 }
 
 void Traffic::decide(const Actor* ego) {
@@ -72,7 +73,7 @@ std::vector<Actor> Traffic::actors(const Actor* ego) const {
     all.back().queues = ego_queues_;
     all.back().waits_for = ego_waits_for_;
   }
-  for (const TrafficCar& car : cars_) {
+  for (const Car& car : cars_) {
     all.push_back(actor_of(car));
   }
   return all;
@@ -83,7 +84,7 @@ void Traffic::watch_ego(const Actor& ego, const TrafficView& view) {
   Approach approach;
   approach.self = &ego;
   approach.driver = &ego_driver_;
-  approach.wanted_mps = ego.lane == kNoLane ? ego.speed_mps : lane(ego.lane).speed_limit_mps;
+  approach.wanted_mps = ego.lane == map::kNoLane ? ego.speed_mps : lane(ego.lane).speed_limit_mps;
   approach.waited_s = ego_waited_s_;
   approach.leader = view.leader(ego.way, ego.id, ego.length_m);
   const JunctionChoice choice = choose_at_junction(view, approach);
@@ -93,7 +94,7 @@ void Traffic::watch_ego(const Actor& ego, const TrafficView& view) {
   ego_waits_for_ = choice.waits_for;
 }
 
-Actor Traffic::actor_of(const TrafficCar& car) const {
+Actor Traffic::actor_of(const Car& car) const {
   Actor actor;
   actor.id = car.id;
   actor.lane = car.lane;
@@ -106,32 +107,32 @@ Actor Traffic::actor_of(const TrafficCar& car) const {
   actor.queues = car.queues;
   actor.waits_for = car.waits_for;
   actor.lets_go = car.gave_way_s < kInvites_s ? car.lets_go : kNoCar;
-  if (car.leaving != kNoLane) {
+  if (car.leaving != map::kNoLane) {
     actor.also.push_back({car.leaving, -car.s_m});
   }
   return actor;
 }
 
-void Traffic::move(TrafficCar& car) {
+void Traffic::move(Car& car) {
   car.speed_mps = std::max(0.0, car.speed_mps + car.acceleration_mps2 * kTick_s);
   car.s_m += car.speed_mps * kTick_s;
   if (car.change_done < 1.0) {
     car.change_done = std::min(1.0, car.change_done + kTick_s * std::min(1.0 / 3.0, car.speed_mps / 15.0));
     if (car.change_done > kSideGone) {
-      car.leaving = kNoLane;
+      car.leaving = map::kNoLane;
     }
   }
   const double length_m = lane(car.lane).centre.length_m();
   if (car.s_m < length_m) {
     return;
   }
-  const LaneId next = plan_->ways[car.way].guide.advice(car.lane).next;
-  if (next != kNoLane) {
+  const map::LaneId next = plan_->ways[car.way].guide.advice(car.lane).next;
+  if (next != map::kNoLane) {
     car.s_m -= length_m;
     car.lane = next;
-    car.leaving = kNoLane;
+    car.leaving = map::kNoLane;
   } else if (lane(car.lane).edge == plan_->ways[car.way].last_edge) {
-    car.lane = kNoLane;
+    car.lane = map::kNoLane;
     ++finished_;
   } else {
     car.s_m = length_m;
@@ -139,8 +140,8 @@ void Traffic::move(TrafficCar& car) {
   }
 }
 
-void Traffic::clear(LaneId lane, double from_m, double to_m) {
-  std::erase_if(cars_, [&](const TrafficCar& car) {
+void Traffic::clear(map::LaneId lane, double from_m, double to_m) {
+  std::erase_if(cars_, [&](const Car& car) {
     return (car.lane == lane || car.leaving == lane) && car.s_m + 0.5 * car.length_m > from_m &&
            car.s_m - 0.5 * car.length_m < to_m;
   });
@@ -149,7 +150,7 @@ void Traffic::clear(LaneId lane, double from_m, double to_m) {
 std::vector<CarFlags> Traffic::flags() const {
   std::vector<CarFlags> all;
   all.reserve(cars_.size());
-  for (const TrafficCar& car : cars_) {
+  for (const Car& car : cars_) {
     all.push_back({car.id, car.change_done < 1.0, car.speed_mps < 0.1});
   }
   return all;
@@ -158,8 +159,8 @@ std::vector<CarFlags> Traffic::flags() const {
 std::vector<CarState> Traffic::cars() const {
   std::vector<CarState> states;
   states.reserve(cars_.size());
-  for (const TrafficCar& car : cars_) {
-    const PolylinePose pose = lane(car.lane).centre.at(car.s_m);
+  for (const Car& car : cars_) {
+    const map::PolylinePose pose = lane(car.lane).centre.at(car.s_m);
     const double p = car.change_done;
     const double rate = p < 1.0 ? std::min(1.0 / 3.0, car.speed_mps / 15.0) : 0.0;
     const double sideways_mps = -car.change_from_m * 30.0 * p * p * (1.0 - p) * (1.0 - p) * rate;
@@ -169,7 +170,7 @@ std::vector<CarState> Traffic::cars() const {
     state.id = car.id;
     state.centre = {pose.point.x - offset_m * std::sin(pose.heading_rad),
                     pose.point.y + offset_m * std::cos(pose.heading_rad)};
-    state.heading_rad = wrap_angle(pose.heading_rad + std::atan2(sideways_mps, along_mps));
+    state.heading_rad = map::wrap_angle(pose.heading_rad + std::atan2(sideways_mps, along_mps));
     state.speed_mps = car.speed_mps;
     state.acceleration_mps2 = car.speed_mps > 0.0 ? car.acceleration_mps2 : 0.0;
     state.yaw_rate_radps = car.speed_mps * pose.curvature_1pm;
@@ -181,4 +182,4 @@ std::vector<CarState> Traffic::cars() const {
   return states;
 }
 
-}  // namespace s4tp::world
+}  // namespace s4tp::traffic

@@ -6,7 +6,7 @@
 
 #include "sim_host/world/traffic/traffic.hpp"
 
-namespace s4tp::world {
+namespace s4tp::traffic {
 namespace {
 
 // Of sigma times acceleration: costs 2 to 3 % of speed, as SUMO's does.
@@ -15,7 +15,7 @@ constexpr double kFree = std::numeric_limits<double>::infinity();  // nothing is
 
 }  // namespace
 
-double Traffic::wanted_speed_mps(const TrafficCar& car, const std::vector<WayPart>& way) const {
+double Traffic::wanted_speed_mps(const Car& car, const std::vector<WayPart>& way) const {
   double wanted = car.driver.max_speed_mps;
   for (const WayPart& part : way) {
     const double allowed = lane(part.lane).speed_limit_mps * car.driver.speed_factor;
@@ -25,7 +25,7 @@ double Traffic::wanted_speed_mps(const TrafficCar& car, const std::vector<WayPar
   return wanted;
 }
 
-double Traffic::follow(TrafficCar& car, const Actor& self, const TrafficView& view, const Leader& leader,
+double Traffic::follow(Car& car, const Actor& self, const TrafficView& view, const Leader& leader,
                        double wanted_mps) {
   const double free = free_acceleration_mps2(car.driver, car.speed_mps, wanted_mps);
   if (leader.actor == nullptr) {
@@ -34,8 +34,8 @@ double Traffic::follow(TrafficCar& car, const Actor& self, const TrafficView& vi
     return free;
   }
   const int id = leader.actor->id;
-  const bool cut_in = id != car.known_leader && car.known_leader != TrafficCar::kLooking &&
-                      leader.gap_m < car.known_gap_m - 2.0;
+  const bool cut_in =
+      id != car.known_leader && car.known_leader != Car::kLooking && leader.gap_m < car.known_gap_m - 2.0;
   if (cut_in) {
     if (car.surprise != id) {
       car.surprise = id;
@@ -55,10 +55,10 @@ double Traffic::follow(TrafficCar& car, const Actor& self, const TrafficView& vi
                                      leader.actor->speed_mps);
 }
 
-double Traffic::for_lane_end(const TrafficCar& car, const Actor& self, double wanted_mps) const {
+double Traffic::for_lane_end(const Car& car, const Actor& self, double wanted_mps) const {
   const WayPart& last = self.way.back();
-  const bool leads_on =
-      lane(last.lane).edge == plan_->ways[car.way].last_edge || self.guide->advice(last.lane).next != kNoLane;
+  const bool leads_on = lane(last.lane).edge == plan_->ways[car.way].last_edge ||
+                        self.guide->advice(last.lane).next != map::kNoLane;
   if (leads_on) {
     return kFree;
   }
@@ -66,7 +66,7 @@ double Traffic::for_lane_end(const TrafficCar& car, const Actor& self, double wa
   return stopping_acceleration_mps2(car.driver, car.speed_mps, wanted_mps, to_end_m);
 }
 
-double Traffic::for_junction(TrafficCar& car, const JunctionChoice& choice, double wanted_mps) const {
+double Traffic::for_junction(Car& car, const JunctionChoice& choice, double wanted_mps) const {
   car.lets_go = choice.lets_go;
   car.queues = choice.queues;
   car.waits_for = choice.waits_for;
@@ -95,9 +95,9 @@ double Traffic::for_junction(TrafficCar& car, const JunctionChoice& choice, doub
   return kFree;
 }
 
-double Traffic::for_hazard(TrafficCar& car, const JunctionChoice& choice, double wanted_mps) const {
+double Traffic::for_hazard(Car& car, const JunctionChoice& choice, double wanted_mps) const {
   if (choice.hazard != car.hazard) {
-    car.hazard_since_s = car.hazard == TrafficCar::kLooking ? time_s() - car.driver.reaction_s : time_s();
+    car.hazard_since_s = car.hazard == Car::kLooking ? time_s() - car.driver.reaction_s : time_s();
     car.hazard = choice.hazard;
   }
   if (car.hazard < 0 || time_s() - car.hazard_since_s < car.driver.reaction_s) {
@@ -106,7 +106,7 @@ double Traffic::for_hazard(TrafficCar& car, const JunctionChoice& choice, double
   return stopping_acceleration_mps2(car.driver, car.speed_mps, wanted_mps, choice.hazard_m);
 }
 
-double Traffic::acceleration(TrafficCar& car, const Actor& self, const TrafficView& view) {
+double Traffic::acceleration(Car& car, const Actor& self, const TrafficView& view) {
   const double wanted = wanted_speed_mps(car, self.way);
   const Leader leader = view.leader(self.way, car.id, car.length_m);
   double result = towards_merging(car, self, view, leader, wanted, follow(car, self, view, leader, wanted));
@@ -126,4 +126,4 @@ double Traffic::acceleration(TrafficCar& car, const Actor& self, const TrafficVi
   return std::clamp(result, -car.driver.emergency_mps2, car.driver.acceleration_mps2);
 }
 
-}  // namespace s4tp::world
+}  // namespace s4tp::traffic

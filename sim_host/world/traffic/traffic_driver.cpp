@@ -6,9 +6,9 @@
 
 #include "sim_host/world/traffic/social_value.hpp"
 
-namespace s4tp::world {
+namespace s4tp::traffic {
 
-Driver draw_driver(const DriverModel& model, Random& random) {
+Driver draw_driver(const scenario::DriverModel& model, Random& random) {
   Driver driver;
   driver.acceleration_mps2 = model.acceleration_mps2;
   driver.deceleration_mps2 = model.deceleration_mps2;
@@ -103,4 +103,4 @@ double accepted_margin_s(const Driver& driver, double waited_s) {
   return driver.gap_margin_s * (1.0 - 0.75 * impatience);
 }
 
-}  // namespace s4tp::world
+}  // namespace s4tp::traffic

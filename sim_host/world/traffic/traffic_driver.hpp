@@ -6,7 +6,7 @@
 #include "sim_host/world/scenario/traffic_demand.hpp"
 #include "sim_host/world/traffic/random.hpp"
 
-namespace s4tp::world {
+namespace s4tp::traffic {
 
 /// Braking asked of oneself, and of others, where nothing presses.
 inline constexpr double kComfortableBraking_mps2 = 2.0;
@@ -32,7 +32,7 @@ struct Driver {
   bool lane_keeping = false;
 };
 
-[[nodiscard]] Driver draw_driver(const DriverModel& model, Random& random);
+[[nodiscard]] Driver draw_driver(const scenario::DriverModel& model, Random& random);
 
 /// Imperfection at work: how much of a driver's mind is elsewhere, 0 .. 1, another value each second, each
 /// driver's seconds beginning at an instant of their own. A function of its arguments and of nothing else:
@@ -60,4 +60,4 @@ struct Driver {
 /// Margin this driver asks of a gap after having waited so long.
 [[nodiscard]] double accepted_margin_s(const Driver& driver, double waited_s);
 
-}  // namespace s4tp::world
+}  // namespace s4tp::traffic

@@ -11,7 +11,7 @@
 #include "sim_host/world/traffic/recording.hpp"
 #include "sim_host/world/traffic/traffic_view.hpp"
 
-namespace s4tp::world {
+namespace s4tp::traffic {
 
 inline constexpr double kTick_s = 0.01;  ///< of a step
 
@@ -44,7 +44,7 @@ class TrafficEngine {
   [[nodiscard]] virtual std::vector<CarState> cars() const = 0;  ///< the ego is not among them
   [[nodiscard]] virtual std::vector<CarFlags> flags() const = 0;
   /// Takes everybody off a stretch of a lane.
-  virtual void clear(LaneId lane, double from_m, double to_m) = 0;
+  virtual void clear(map::LaneId lane, double from_m, double to_m) = 0;
   [[nodiscard]] virtual int finished() const = 0;  ///< cars that reached the end of their route
   /// The ego driven by the engine's own driver from the mission's entry on; none where we drive it.
   [[nodiscard]] virtual std::optional<CarState> driven_ego() const { return std::nullopt; }
@@ -54,10 +54,10 @@ class TrafficEngine {
 enum class DrivenBy { kNobody, kUs, kEngine };
 
 struct EngineOptions {
-  Engine engine = Engine::kBuiltin;
+  scenario::Engine engine = scenario::Engine::kBuiltin;
   std::uint64_t seed = 0;
   std::uint64_t episode = 0;     ///< chooses among a scenario's own route files
   DrivenBy ego = DrivenBy::kUs;  ///< kEngine: SUMO only
 };
 
-}  // namespace s4tp::world
+}  // namespace s4tp::traffic

@@ -7,7 +7,7 @@
 
 #include "sim_host/world/traffic/traffic.hpp"
 
-namespace s4tp::world {
+namespace s4tp::traffic {
 namespace {
 
 constexpr double kMinimumBehind_m = 2.5;  // to somebody before whom a car appears
@@ -15,7 +15,7 @@ constexpr double kMinimumBehind_m = 2.5;  // to somebody before whom a car appea
 }  // namespace
 
 /// Whether a car that appeared amid its lane would be too close before somebody.
-bool Traffic::somebody_comes(const TrafficView& view, const TrafficCar& car) const {
+bool Traffic::somebody_comes(const TrafficView& view, const Car& car) const {
   const Leader behind = view.follower(car.lane, car.s_m, -1, car.length_m);
   return behind.actor != nullptr && behind.gap_m < kMinimumBehind_m + behind.actor->speed_mps *
                                                                           behind.actor->speed_mps /
@@ -23,7 +23,7 @@ bool Traffic::somebody_comes(const TrafficView& view, const TrafficCar& car) con
 }
 
 /// The speed at which a car comes in, or nothing: there is no room for it now.
-std::optional<double> Traffic::entry_speed_mps(const TrafficView& view, const TrafficCar& car,
+std::optional<double> Traffic::entry_speed_mps(const TrafficView& view, const Car& car,
                                                const Departure& departure) const {
   if (departure.s_m >= 0.0 && somebody_comes(view, car)) {
     return std::nullopt;
@@ -67,11 +67,11 @@ void Traffic::insert_waiting(const Actor* ego) {
     }
     const std::size_t index = waiting_[id].front();
     const Departure& departure = plan_->departures[index];
-    TrafficCar car;
+    Car car;
     car.id = static_cast<int>(index) + 1;
     car.way = departure.way;
     car.driver = departure.driver;
-    car.lane = static_cast<LaneId>(id);
+    car.lane = static_cast<map::LaneId>(id);
     car.length_m = departure.length_m;
     car.width_m = departure.width_m;
     car.s_m = departure.s_m < 0.0 ? 0.5 * car.length_m + 0.1 : departure.s_m;
@@ -80,13 +80,13 @@ void Traffic::insert_waiting(const Actor* ego) {
       continue;
     }
     car.speed_mps = *speed_mps;
-    car.known_leader = car.hazard = TrafficCar::kLooking;  // nothing there at the start is a surprise
+    car.known_leader = car.hazard = Car::kLooking;  // nothing there at the start is a surprise
     car.next_change_s = time_s() + 1.0;
     const auto place =
-        std::find_if(cars_.begin(), cars_.end(), [&](const TrafficCar& other) { return other.id > car.id; });
+        std::find_if(cars_.begin(), cars_.end(), [&](const Car& other) { return other.id > car.id; });
     cars_.insert(place, std::move(car));
     waiting_[id].pop_front();
   }
 }
 
-}  // namespace s4tp::world
+}  // namespace s4tp::traffic

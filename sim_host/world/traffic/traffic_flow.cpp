@@ -3,14 +3,17 @@
 #include <algorithm>
 #include <numeric>
 
-namespace s4tp::world {
+namespace s4tp::traffic {
 namespace {
 
-RouteGuide guide_for(const Network& network, const TrafficRoute& route) {
+using map::LaneId;
+using scenario::DepartWish;
+
+map::RouteGuide guide_for(const map::Network& network, const scenario::TrafficRoute& route) {
   const LaneId goal = network.lane_of(route.edges.back(), route.end_lane);
-  const LaneId any = goal == kNoLane ? network.lanes_of(route.edges.back()).at(0) : goal;
-  return RouteGuide(network, route.edges, goal,
-                    network.lanes[static_cast<std::size_t>(any)].centre.length_m());
+  const LaneId any = goal == map::kNoLane ? network.lanes_of(route.edges.back()).at(0) : goal;
+  return map::RouteGuide(network, route.edges, goal,
+                         network.lanes[static_cast<std::size_t>(any)].centre.length_m());
 }
 
 /// Index by weight; a single one costs no draw.
@@ -28,15 +31,15 @@ std::size_t draw_index(const std::vector<double>& weights, Random& random) {
   return weights.size() - 1;
 }
 
-const DriverModel& one_of(const std::vector<DriverModel>& drivers, Random& random) {
+const scenario::DriverModel& one_of(const std::vector<scenario::DriverModel>& drivers, Random& random) {
   std::vector<double> weights;
-  for (const DriverModel& driver : drivers) {
+  for (const scenario::DriverModel& driver : drivers) {
     weights.push_back(driver.weight);
   }
   return drivers[draw_index(weights, random)];
 }
 
-Departure departure_of(double time_s, std::size_t way, LaneId lane, const DriverModel& model,
+Departure departure_of(double time_s, std::size_t way, LaneId lane, const scenario::DriverModel& model,
                        Random& random) {
   Departure departure{time_s, way, lane, draw_driver(model, random)};
   departure.length_m = model.length_m;
@@ -50,24 +53,24 @@ void sort_by_time(FlowPlan& plan) {
 }
 
 /// When the cars of a flow want to enter.
-std::vector<double> times_of(const DemandFlow& flow, double until_s, Random& random) {
+std::vector<double> times_of(const scenario::DemandFlow& flow, double until_s, Random& random) {
   std::vector<double> times;
   const double end_s = std::min(flow.end_s, until_s);
-  const bool exponential = flow.spacing == DemandFlow::Spacing::kExponential;
+  const bool exponential = flow.spacing == scenario::DemandFlow::Spacing::kExponential;
   double time_s = flow.begin_s + (exponential ? random.exponential(flow.period_s) : 0.0);
   while (time_s < end_s && times.size() < static_cast<std::size_t>(flow.number)) {
-    if (flow.spacing != DemandFlow::Spacing::kPerSecond || random.uniform() < flow.probability) {
+    if (flow.spacing != scenario::DemandFlow::Spacing::kPerSecond || random.uniform() < flow.probability) {
       times.push_back(time_s);
     }
-    time_s += exponential                                       ? random.exponential(flow.period_s)
-              : flow.spacing == DemandFlow::Spacing::kPerSecond ? 1.0
-                                                                : flow.period_s;
+    time_s += exponential                                                 ? random.exponential(flow.period_s)
+              : flow.spacing == scenario::DemandFlow::Spacing::kPerSecond ? 1.0
+                                                                          : flow.period_s;
   }
   return times;
 }
 
-LaneId lane_for(const Network& network, const TrafficRoute& route, const RouteGuide& guide,
-                const DepartWish& wish, Random& random) {
+LaneId lane_for(const map::Network& network, const scenario::TrafficRoute& route,
+                const map::RouteGuide& guide, const DepartWish& wish, Random& random) {
   if (wish.lane == DepartWish::Lane::kNumber) {
     return network.lane_of(route.edges.front(), wish.lane_number);
   }
@@ -85,7 +88,7 @@ LaneId lane_for(const Network& network, const TrafficRoute& route, const RouteGu
 }
 
 /// Of the box centre; < 0: the lane's start.
-double start_of(const NetworkLane& lane, const DepartWish& wish, double car_m, Random& random) {
+double start_of(const map::Lane& lane, const DepartWish& wish, double car_m, Random& random) {
   const double length_m = lane.centre.length_m();
   double front_m = wish.position_m < 0.0 ? length_m + wish.position_m : wish.position_m;
   if (wish.position == DepartWish::Position::kBase) {
@@ -99,17 +102,17 @@ double start_of(const NetworkLane& lane, const DepartWish& wish, double car_m, R
 
 }  // namespace
 
-FlowPlan draw_flows(const Network& network, const std::vector<FlowGroup>& groups, double until_s,
-                    Random& random) {
+FlowPlan draw_flows(const map::Network& network, const std::vector<scenario::FlowGroup>& groups,
+                    double until_s, Random& random) {
   FlowPlan plan;
-  for (const FlowGroup& group : groups) {
-    std::vector<TrafficRoute> pool = group.routes;
+  for (const scenario::FlowGroup& group : groups) {
+    std::vector<scenario::TrafficRoute> pool = group.routes;
     const int most = static_cast<int>(pool.size());
     const int chosen = std::min(most, random.integer(std::min(group.choose_low, most), group.choose_high));
     for (int flow = 0; flow < chosen; ++flow) {
       std::swap(pool[static_cast<std::size_t>(flow)],
                 pool[static_cast<std::size_t>(random.integer(flow, most - 1))]);
-      const TrafficRoute& route = pool[static_cast<std::size_t>(flow)];
+      const scenario::TrafficRoute& route = pool[static_cast<std::size_t>(flow)];
       const std::vector<LaneId> start = network.lanes_of(route.edges.front());
       const std::size_t way = plan.ways.size();
       plan.ways.push_back({guide_for(network, route), route.edges.back(), route});
@@ -133,18 +136,19 @@ FlowPlan draw_flows(const Network& network, const std::vector<FlowGroup>& groups
   return plan;
 }
 
-FlowPlan draw_demand(const Network& network, const Demand& demand, double until_s, Random& random) {
+FlowPlan draw_demand(const map::Network& network, const scenario::Demand& demand, double until_s,
+                     Random& random) {
   FlowPlan plan;
-  for (const TrafficRoute& route : demand.routes) {
+  for (const scenario::TrafficRoute& route : demand.routes) {
     plan.ways.push_back({guide_for(network, route), route.edges.back(), route});
   }
-  for (const DemandFlow& flow : demand.flows) {
+  for (const scenario::DemandFlow& flow : demand.flows) {
     for (const double time_s : times_of(flow, until_s, random)) {
       const std::size_t way = flow.routes[draw_index(flow.route_weights, random)];
-      const DriverModel& model = one_of(flow.drivers, random);
+      const scenario::DriverModel& model = one_of(flow.drivers, random);
       const LaneId lane = lane_for(network, demand.routes[way], plan.ways[way].guide, flow.depart, random);
       Departure departure = departure_of(std::max(0.0, time_s), way, lane, model, random);
-      const NetworkLane& on = network.lanes[static_cast<std::size_t>(lane)];
+      const map::Lane& on = network.lanes[static_cast<std::size_t>(lane)];
       departure.s_m = start_of(on, flow.depart, model.length_m, random);
       if (flow.depart.speed == DepartWish::Speed::kNumber) {
         departure.speed_mps = flow.depart.speed_mps;
@@ -158,4 +162,4 @@ FlowPlan draw_demand(const Network& network, const Demand& demand, double until_
   return plan;
 }
 
-}  // namespace s4tp::world
+}  // namespace s4tp::traffic

@@ -11,19 +11,19 @@
 #include "sim_host/world/traffic/random.hpp"
 #include "sim_host/world/traffic/traffic_driver.hpp"
 
-namespace s4tp::world {
+namespace s4tp::traffic {
 
 /// A route that flows in this episode.
 struct FlowRoute {
-  RouteGuide guide;
+  map::RouteGuide guide;
   std::string last_edge;
-  TrafficRoute route;
+  scenario::TrafficRoute route;
 };
 
 struct Departure {
   double time_s = 0.0;
   std::size_t way = 0;  ///< index
-  LaneId lane = kNoLane;
+  map::LaneId lane = map::kNoLane;
   Driver driver;
   double length_m = 5.0;
   double width_m = 1.8;
@@ -41,12 +41,12 @@ struct FlowPlan {
 
 /// WORLD-020 Draws which routes of each group flow, how densely, and every driver; the same seed gives the
 /// same plan. \param until_s  traffic time after which nobody wants to enter
-[[nodiscard]] FlowPlan draw_flows(const Network& network, const std::vector<FlowGroup>& groups,
+[[nodiscard]] FlowPlan draw_flows(const map::Network& network, const std::vector<scenario::FlowGroup>& groups,
                                   double until_s, Random& random);
 
 /// The same from a route file: SUMO's times, and of what it leaves to chance a draw. Where SUMO looks for
 /// room ("free", "last") a lane is drawn and the car waits at its start.
-[[nodiscard]] FlowPlan draw_demand(const Network& network, const Demand& demand, double until_s,
-                                   Random& random);
+[[nodiscard]] FlowPlan draw_demand(const map::Network& network, const scenario::Demand& demand,
+                                   double until_s, Random& random);
 
-}  // namespace s4tp::world
+}  // namespace s4tp::traffic

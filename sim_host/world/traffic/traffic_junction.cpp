@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-namespace s4tp::world {
+namespace s4tp::traffic {
 namespace {
 
 constexpr double kLook_m = 60.0;      // junctions further away are not thought about
@@ -75,9 +75,9 @@ OwnTimes own_times(const Approach& approach, double in_m, double out_m) {
           time_to_cover_s(out_m, std::min(speed, slow_top_mps), kOwnShareOut * acceleration, slow_top_mps)};
 }
 
-bool gap_accepted(const Approach& approach, Rule rule, const OwnTimes& own, const Actor& other,
+bool gap_accepted(const Approach& approach, map::Rule rule, const OwnTimes& own, const Actor& other,
                   Occupation theirs) {
-  if (rule == Rule::kFirstCome && other.speed_mps < kStanding_mps && !theirs.inside_junction) {
+  if (rule == map::Rule::kFirstCome && other.speed_mps < kStanding_mps && !theirs.inside_junction) {
     theirs.from_s += 0.5 * std::max(0.0, approach.waited_s - kPatience_s);
   }
   const double margin_s = accepted_margin_s(*approach.driver, approach.waited_s);
@@ -88,12 +88,12 @@ bool gap_accepted(const Approach& approach, Rule rule, const OwnTimes& own, cons
 bool must_wait(const Approach& approach, const Meeting& meeting, const OwnTimes& own, const Actor& other,
                const Occupation& theirs) {
   switch (meeting.rule) {
-    case Rule::kFirstHasPriority:  // who stands does not start into somebody who has begun
+    case map::Rule::kFirstHasPriority:  // who stands does not start into somebody who has begun
       return approach.self->speed_mps < kStanding_mps && other.committed && other.speed_mps > kStanding_mps &&
              theirs.from_s < own.out_s && own.in_s < theirs.until_s;
-    case Rule::kFirstYields:
+    case map::Rule::kFirstYields:
       return other.lets_go != approach.self->id && !gap_accepted(approach, meeting.rule, own, other, theirs);
-    case Rule::kFirstCome:
+    case map::Rule::kFirstCome:
       break;
   }
   const bool they_first = theirs.inside_junction || theirs.from_s < own.in_s - kOrder_s ||
@@ -108,7 +108,7 @@ bool in_the_way(const OwnTimes& own, const Occupation& theirs) {
 
 /// Whether a driver with right of way stops for somebody who has waited, and goes on doing so.
 bool courteous(const Approach& approach, const Meeting& meeting, const Actor& other, double line_m) {
-  if (meeting.rule != Rule::kFirstHasPriority || approach.committed || line_m < -0.5) {
+  if (meeting.rule != map::Rule::kFirstHasPriority || approach.committed || line_m < -0.5) {
     return false;
   }
   const bool standing = other.speed_mps < kStanding_mps;
@@ -279,4 +279,4 @@ JunctionChoice choose_at_junction(const TrafficView& view, const Approach& appro
   return choice;
 }
 
-}  // namespace s4tp::world
+}  // namespace s4tp::traffic

@@ -20,7 +20,7 @@
 #include "sim_host/world/traffic/traffic_driver.hpp"
 #include "sim_host/world/traffic/traffic_view.hpp"
 
-namespace s4tp::world {
+namespace s4tp::traffic {
 
 /// The driver's own side of it.
 struct Approach {
@@ -52,4 +52,4 @@ struct JunctionChoice {
 
 [[nodiscard]] JunctionChoice choose_at_junction(const TrafficView& view, const Approach& approach);
 
-}  // namespace s4tp::world
+}  // namespace s4tp::traffic

@@ -6,7 +6,7 @@
 
 #include "sim_host/world/traffic/traffic.hpp"
 
-namespace s4tp::world {
+namespace s4tp::traffic {
 namespace {
 
 constexpr double kUrgent_mps2 = 1.0;  // asked on top of the usual where the route needs the change soon
@@ -32,14 +32,13 @@ double towards(const Driver& driver, double speed_mps, double wanted_mps, const 
 }  // namespace
 
 const Driver& Traffic::driver_of(int id) const {
-  const auto car = std::find_if(cars_.begin(), cars_.end(), [&](const TrafficCar& c) { return c.id == id; });
+  const auto car = std::find_if(cars_.begin(), cars_.end(), [&](const Car& c) { return c.id == id; });
   return car != cars_.end() ? car->driver : ego_driver_;
 }
 
-bool Traffic::safe_beside(const TrafficCar& car, const WayPart& beside, const TrafficView& view,
-                          bool urgent) const {
+bool Traffic::safe_beside(const Car& car, const WayPart& beside, const TrafficView& view, bool urgent) const {
   const double safe = urgent ? car.driver.asked_braking_mps2 + kUrgent_mps2 : car.driver.asked_braking_mps2;
-  const RouteGuide& guide = plan_->ways[car.way].guide;
+  const map::RouteGuide& guide = plan_->ways[car.way].guide;
   const std::vector<WayPart> way = view.way_from(beside.lane, -beside.start_m, &guide);
   const Leader ahead = view.leader(way, car.id, car.length_m);
   if (ahead.actor != nullptr && ahead.gap_m < 0.5 * car.driver.min_gap_m) {
@@ -59,9 +58,8 @@ bool Traffic::safe_beside(const TrafficCar& car, const WayPart& beside, const Tr
 }
 
 /// MOBIL's incentive: own gain, and by politeness that of the new follower and of the old one.
-double Traffic::lane_change_gain(const TrafficCar& car, const TrafficView& view,
-                                 const WayPart& beside) const {
-  const RouteGuide& guide = plan_->ways[car.way].guide;
+double Traffic::lane_change_gain(const Car& car, const TrafficView& view, const WayPart& beside) const {
+  const map::RouteGuide& guide = plan_->ways[car.way].guide;
   const std::vector<WayPart> way_now = view.way_from(car.lane, car.s_m, &guide);
   const std::vector<WayPart> way_then = view.way_from(beside.lane, -beside.start_m, &guide);
   const Leader leader_now = view.leader(way_now, car.id, car.length_m);
@@ -95,26 +93,27 @@ double Traffic::lane_change_gain(const TrafficCar& car, const TrafficView& view,
   return own + car.driver.politeness * others;
 }
 
-void Traffic::consider_lane_change(TrafficCar& car, const Actor& self, const TrafficView& view) {
-  const NetworkLane& here = lane(car.lane);
+void Traffic::consider_lane_change(Car& car, const Actor& self, const TrafficView& view) {
+  const map::Lane& here = lane(car.lane);
   if (car.change_done < 1.0 || time_s() < car.next_change_s || here.in_junction ||
       here.centre.length_m() - car.s_m < kRoom_m + kRoomPerSpeed_s * car.speed_mps) {
     return;
   }
   car.next_change_s = time_s() + kLookAgain_s;
-  const RouteGuide& guide = plan_->ways[car.way].guide;
+  const map::RouteGuide& guide = plan_->ways[car.way].guide;
   const int needed = guide.advice(car.lane).changes_needed;
-  LaneId target = kNoLane;
+  map::LaneId target = map::kNoLane;
   if (needed != 0) {
-    const LaneId beside = needed > 0 ? here.left : here.right;
+    const map::LaneId beside = needed > 0 ? here.left : here.right;
     const bool urgent = here.centre.length_m() - car.s_m < kUrgent_m;
-    if (beside != kNoLane && safe_beside(car, {beside, -car.s_m}, view, urgent)) {
+    if (beside != map::kNoLane && safe_beside(car, {beside, -car.s_m}, view, urgent)) {
       target = beside;
     }
   } else if (!car.driver.lane_keeping) {
     double best = car.driver.change_threshold_mps2;
-    for (const LaneId beside : {here.left, here.right}) {
-      if (beside == kNoLane || !guide.advice(beside).on_route || guide.advice(beside).changes_needed != 0) {
+    for (const map::LaneId beside : {here.left, here.right}) {
+      if (beside == map::kNoLane || !guide.advice(beside).on_route ||
+          guide.advice(beside).changes_needed != 0) {
         continue;
       }
       const WayPart place{beside, -car.s_m};
@@ -125,30 +124,30 @@ void Traffic::consider_lane_change(TrafficCar& car, const Actor& self, const Tra
       }
     }
   }
-  if (target == kNoLane || !may_change(car, {target, -car.s_m})) {
+  if (target == map::kNoLane || !may_change(car, {target, -car.s_m})) {
     return;
   }
-  const Vec2 place = here.centre.at(self.s_m).point;
-  const PolylineProjection there = lane(target).centre.project(place);
+  const map::Vec2 place = here.centre.at(self.s_m).point;
+  const map::PolylineProjection there = lane(target).centre.project(place);
   car.leaving = car.lane;
   car.lane = target;
   car.s_m = there.s_m;
   car.change_from_m = there.d_m;
   car.change_done = 0.0;
-  car.known_leader = TrafficCar::kLooking;  // it has looked
+  car.known_leader = Car::kLooking;  // it has looked
   car.next_change_s = time_s() + kPause_s;
 }
 
 /// Beside a lane that ends: the next one behind somebody on it lets that one in, or closes up. \param result  what
 /// it would do otherwise
-double Traffic::towards_merging(const TrafficCar& car, const Actor& self, const TrafficView& view,
+double Traffic::towards_merging(const Car& car, const Actor& self, const TrafficView& view,
                                 const Leader& leader, double wanted_mps, double result) const {
-  const NetworkLane& here = lane(car.lane);
+  const map::Lane& here = lane(car.lane);
   if ((car.driver.courtesy <= 0.0 && car.driver.rivalry <= 0.0) || here.successors.empty()) {
     return result;
   }
   for (const Actor& other : view.actors()) {
-    const bool beside = other.lane != kNoLane && (other.lane == here.left || other.lane == here.right);
+    const bool beside = other.lane != map::kNoLane && (other.lane == here.left || other.lane == here.right);
     if (!beside || !lane(other.lane).successors.empty()) {
       continue;
     }
@@ -172,4 +171,4 @@ double Traffic::towards_merging(const TrafficCar& car, const Actor& self, const 
   return result;
 }
 
-}  // namespace s4tp::world
+}  // namespace s4tp::traffic

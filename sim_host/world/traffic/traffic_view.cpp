@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-namespace s4tp::world {
+namespace s4tp::traffic {
 namespace {
 
 constexpr double kSight_m = 120.0;
@@ -13,13 +13,13 @@ constexpr int kLanesBack = 3;
 constexpr double kAsFar_m = 1000.0;    // beyond it nobody asks whether two lanes have parted
 constexpr double kSideBySide_m = 2.3;  // two car widths and half a metre: no longer in each other's way
 
-bool meet(const NetworkLane& a, const NetworkLane& b) {
-  return std::any_of(a.successors.begin(), a.successors.end(), [&](LaneId next) {
+bool meet(const map::Lane& a, const map::Lane& b) {
+  return std::any_of(a.successors.begin(), a.successors.end(), [&](map::LaneId next) {
     return std::find(b.successors.begin(), b.successors.end(), next) != b.successors.end();
   });
 }
 
-double apart_m(const Polyline& a, const Polyline& b) {
+double apart_m(const map::Polyline& a, const map::Polyline& b) {
   const double shorter = std::min({a.length_m(), b.length_m(), kAsFar_m});
   for (double s = 0.0; s < shorter; s += 0.5) {
     if (std::abs(b.project(a.at(s).point).d_m) > kSideBySide_m) {
@@ -29,18 +29,18 @@ double apart_m(const Polyline& a, const Polyline& b) {
   return shorter;
 }
 
-Rule turned(Rule rule) {
-  if (rule == Rule::kFirstCome) {
+map::Rule turned(map::Rule rule) {
+  if (rule == map::Rule::kFirstCome) {
     return rule;
   }
-  return rule == Rule::kFirstYields ? Rule::kFirstHasPriority : Rule::kFirstYields;
+  return rule == map::Rule::kFirstYields ? map::Rule::kFirstHasPriority : map::Rule::kFirstYields;
 }
 
 }  // namespace
 
-RoadIndex::RoadIndex(const Network& network)
+RoadIndex::RoadIndex(const map::Network& network)
     : network_(network), meetings_(network.lanes.size()), siblings_(network.lanes.size()) {
-  for (const NetworkConflict& c : network.conflicts) {
+  for (const map::Conflict& c : network.conflicts) {
     const bool merging = meet(lane(c.first), lane(c.second));
     meetings_[static_cast<std::size_t>(c.first)].push_back(
         {c.second, c.rule, c.first_entry_m, c.first_exit_m, c.second_entry_m, c.second_exit_m, merging});
@@ -48,9 +48,9 @@ RoadIndex::RoadIndex(const Network& network)
                                                              c.second_exit_m, c.first_entry_m, c.first_exit_m,
                                                              merging});
   }
-  for (const NetworkLane& from : network.lanes) {
-    for (const LaneId one : from.successors) {
-      for (const LaneId other : from.successors) {
+  for (const map::Lane& from : network.lanes) {
+    for (const map::LaneId one : from.successors) {
+      for (const map::LaneId other : from.successors) {
         if (one != other) {
           siblings_[static_cast<std::size_t>(one)].push_back(
               {other, apart_m(lane(other).centre, lane(one).centre)});
@@ -64,7 +64,7 @@ TrafficView::TrafficView(const RoadIndex& road, std::vector<Actor> actors)
     : road_(road), actors_(std::move(actors)), occupants_(road.network().lanes.size()) {
   for (std::size_t i = 0; i < actors_.size(); ++i) {
     Actor& actor = actors_[i];
-    if (actor.lane == kNoLane) {
+    if (actor.lane == map::kNoLane) {
       continue;
     }
     actor.way = way_from(actor.lane, actor.s_m, actor.guide);
@@ -75,13 +75,13 @@ TrafficView::TrafficView(const RoadIndex& road, std::vector<Actor> actors)
   }
 }
 
-std::vector<WayPart> TrafficView::way_from(LaneId lane, double s_m, const RouteGuide* guide) const {
+std::vector<WayPart> TrafficView::way_from(map::LaneId lane, double s_m, const map::RouteGuide* guide) const {
   std::vector<WayPart> way;
   double start_m = -s_m;
-  while (lane != kNoLane && start_m < kSight_m && way.size() < kWayPartsMax) {
+  while (lane != map::kNoLane && start_m < kSight_m && way.size() < kWayPartsMax) {
     way.push_back({lane, start_m});
     start_m += road_.lane(lane).centre.length_m();
-    lane = guide != nullptr ? guide->advice(lane).next : kNoLane;
+    lane = guide != nullptr ? guide->advice(lane).next : map::kNoLane;
   }
   return way;
 }
@@ -140,9 +140,9 @@ void TrafficView::merging_leader(const WayPart& part, int self, int unseen, bool
   }
 }
 
-Leader TrafficView::follower(LaneId lane, double s_m, int self, double length_m) const {
+Leader TrafficView::follower(map::LaneId lane, double s_m, int self, double length_m) const {
   struct Reach {
-    LaneId lane = kNoLane;
+    map::LaneId lane = map::kNoLane;
     double start_m = 0.0;  ///< how far the place lies ahead of the lane's start
     int back = 0;
   };
@@ -159,7 +159,7 @@ Leader TrafficView::follower(LaneId lane, double s_m, int self, double length_m)
         nearest = {&actor, gap_m, false};
       }
     }
-    for (const LaneId before : road_.lane(here.lane).predecessors) {
+    for (const map::LaneId before : road_.lane(here.lane).predecessors) {
       if (here.back < kLanesBack && here.start_m < kSight_m) {
         open.push_back({before, here.start_m + road_.lane(before).centre.length_m(), here.back + 1});
       }
@@ -168,4 +168,4 @@ Leader TrafficView::follower(LaneId lane, double s_m, int self, double length_m)
   return nearest;
 }
 
-}  // namespace s4tp::world
+}  // namespace s4tp::traffic

@@ -8,24 +8,24 @@
 
 #include "sim_host/world/map/network.hpp"
 
-namespace s4tp::world {
+namespace s4tp::traffic {
 
 inline constexpr int kNoCar = -1;  ///< no car's id
 
 /// A lane of somebody's way; `start_m` is the distance from the box centre to its start (negative: behind).
 struct WayPart {
-  LaneId lane = kNoLane;
+  map::LaneId lane = map::kNoLane;
   double start_m = 0.0;
 };
 
 /// A car as other drivers see it; the ego is one like any other.
 struct Actor {
   int id = 0;  ///< 0 is the ego
-  LaneId lane = kNoLane;
+  map::LaneId lane = map::kNoLane;
   double s_m = 0.0;
   double speed_mps = 0.0;
   double length_m = 5.0;
-  const RouteGuide* guide = nullptr;
+  const map::RouteGuide* guide = nullptr;
   bool committed = false;      ///< to the junction ahead: has accepted a gap and cannot well stop any more
   double waited_s = 0.0;       ///< standing near a stop line so far
   int lets_go = kNoCar;        ///< id of somebody waiting whom it lets go first
@@ -37,8 +37,8 @@ struct Actor {
 
 /// A conflict as seen from one of its lanes.
 struct Meeting {
-  LaneId other = kNoLane;
-  Rule rule = Rule::kFirstCome;  ///< "first" is the lane it is seen from
+  map::LaneId other = map::kNoLane;
+  map::Rule rule = map::Rule::kFirstCome;  ///< "first" is the lane it is seen from
   double entry_m = 0.0;
   double exit_m = 0.0;
   double other_entry_m = 0.0;
@@ -48,27 +48,27 @@ struct Meeting {
 
 /// Lane that leaves the same lane as another one; cars on it stand in each other's way up to there.
 struct Sibling {
-  LaneId lane = kNoLane;
+  map::LaneId lane = map::kNoLane;
   double apart_m = 0.0;
 };
 
 /// What can be known of a network beforehand.
 class RoadIndex {
  public:
-  explicit RoadIndex(const Network& network);
-  [[nodiscard]] const Network& network() const { return network_; }
-  [[nodiscard]] const NetworkLane& lane(LaneId id) const {
+  explicit RoadIndex(const map::Network& network);
+  [[nodiscard]] const map::Network& network() const { return network_; }
+  [[nodiscard]] const map::Lane& lane(map::LaneId id) const {
     return network_.lanes[static_cast<std::size_t>(id)];
   }
-  [[nodiscard]] const std::vector<Meeting>& meetings(LaneId id) const {
+  [[nodiscard]] const std::vector<Meeting>& meetings(map::LaneId id) const {
     return meetings_[static_cast<std::size_t>(id)];
   }
-  [[nodiscard]] const std::vector<Sibling>& siblings(LaneId id) const {
+  [[nodiscard]] const std::vector<Sibling>& siblings(map::LaneId id) const {
     return siblings_[static_cast<std::size_t>(id)];
   }
 
  private:
-  const Network& network_;
+  const map::Network& network_;
   std::vector<std::vector<Meeting>> meetings_;
   std::vector<std::vector<Sibling>> siblings_;
 };
@@ -87,20 +87,21 @@ class TrafficView {
   [[nodiscard]] const RoadIndex& road() const { return road_; }
 
   /// The way a car would take from a place.
-  [[nodiscard]] std::vector<WayPart> way_from(LaneId lane, double s_m, const RouteGuide* guide) const;
+  [[nodiscard]] std::vector<WayPart> way_from(map::LaneId lane, double s_m,
+                                              const map::RouteGuide* guide) const;
   /// Nearest car ahead on a way, cars that have just turned off it and those merging into it included.
   /// \param unseen  somebody who does not count
   [[nodiscard]] Leader leader(const std::vector<WayPart>& way, int self, double length_m,
                               int unseen = kNoCar) const;
   /// Nearest car behind a place of a lane and of what leads into it; `gap_m` as with a leader.
-  [[nodiscard]] Leader follower(LaneId lane, double s_m, int self, double length_m) const;
+  [[nodiscard]] Leader follower(map::LaneId lane, double s_m, int self, double length_m) const;
 
  private:
   struct Occupant {
     std::size_t actor = 0;
     double s_m = 0.0;
   };
-  [[nodiscard]] const std::vector<Occupant>& occupants(LaneId lane) const {
+  [[nodiscard]] const std::vector<Occupant>& occupants(map::LaneId lane) const {
     return occupants_[static_cast<std::size_t>(lane)];
   }
   void merging_leader(const WayPart& part, int self, int unseen, bool inside, double length_m,
@@ -111,4 +112,4 @@ class TrafficView {
   std::vector<std::vector<Occupant>> occupants_;
 };
 
-}  // namespace s4tp::world
+}  // namespace s4tp::traffic
