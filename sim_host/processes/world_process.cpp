@@ -24,7 +24,6 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 using std::chrono::steady_clock;
 
-constexpr seconds kLinkBackWithin{30};
 constexpr milliseconds kLook{50};
 constexpr milliseconds kTick{10};
 constexpr int kToldUnanswered = 5;
@@ -121,7 +120,7 @@ class Session {
       if (stop_) return;
       ++result_.unanswered;
       tell_unanswered();
-      if (link_was_down_) answered = steady_clock::now();
+      if (link_was_down_ && usable()) answered = steady_clock::now();  // it is back
       if (ecu_lives() && steady_clock::now() < answered + milliseconds(options_.dead_after_ms)) continue;
       out_ << "no answer from the ECU: it is dead" << std::endl;
       for (int i = 0; i < kTicksToEnd && !world_.finished(); ++i) world_.tick(frames_);
@@ -138,7 +137,7 @@ class Session {
   /// \return whether the ECU answered this tick
   bool await_answer() {
     auto end = steady_clock::now() + milliseconds(options_.answer_within_ms);
-    const auto link_end = steady_clock::now() + kLinkBackWithin;
+    const auto link_end = steady_clock::now() + milliseconds(options_.link_back_within_ms);
     link_was_down_ = false;
     while (!stop_) {
       if (take_frames(0)) return true;

@@ -31,10 +31,11 @@ struct WorldProcessOptions {
   std::optional<std::filesystem::path> log;  ///< every frame of the bus from the first tick on
   /// Also told every frame of that log; time is vehicle time.
   std::function<void(std::uint64_t time_us, const std::vector<wire::Frame>&)> record;
-  std::string ecu_note;             ///< for the log's first line, campaign::ecu_note()
-  int answer_within_ms = 1000;      ///< lock-step: after that the next tick begins all the same
-  int dead_after_ms = 2000;         ///< lock-step: without any answer
-  std::function<bool()> ecu_lives;  ///< may be empty; false ends the wait for it
+  std::string ecu_note;              ///< for the log's first line, campaign::ecu_note()
+  int answer_within_ms = 1000;       ///< lock-step: after that the next tick begins all the same
+  int dead_after_ms = 2000;          ///< lock-step: without any answer
+  int link_back_within_ms = 30'000;  ///< lock-step: so long a link that is down is waited for
+  std::function<bool()> ecu_lives;   ///< may be empty; false ends the wait for it
   hal::linux_host::RealtimeKernel* kernel = nullptr;  ///< realtime: null is the one we run on
   Keys keys;  ///< with authentication; the log has no companion frames then
   /// Lock-step with an ECU that is given little time: so long for each answer, twice that before it is dead.
@@ -57,7 +58,7 @@ struct WorldProcessResult {
 /// PROC-021 Lock-step: the next tick begins when a Command frame whose CRC fits echoes the number of this one
 /// (paced: PROC-025 and not before 10 ms have passed). Without one for answer_within_ms of host time it begins
 /// all the same; PROC-022 after dead_after_ms without any, or when ecu_lives says no, the ECU is dead, and the
-/// episode ends as the world sees fit. While the link is down or off nothing is counted for 30 s. PROC-023
+/// episode ends as the world sees fit. While the link is down or off nothing is counted for link_back_within_ms, if it comes back. PROC-023
 /// Realtime: a tick every 10 ms of host time, whatever the ECU does; a world that is a period late or later
 /// skips ticks, so the car's time stands still for them. The calling thread asks for SCHED_FIFO and keeps it.
 /// PROC-024 A Command frame reaches the car only if its CRC fits and its echo is the present tick's (realtime:

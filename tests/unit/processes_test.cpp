@@ -211,6 +211,26 @@ TEST(WorldProcess, LinkDownStopsTime) {
   EXPECT_NE(run.out.str().find("vcan0: down"), std::string::npos);  // PROC-003
 }
 
+// PROC-022 The link goes down and stays so: an ECU whose link never comes back is dead, like one that is silent.
+TEST(WorldProcess, LinkThatStaysDownIsADeadEcu) {
+  FakeBus bus;
+  ScriptedEcu ecu(bus);
+  WorldRun run;
+  run.options.link_back_within_ms = 100;
+  run.options.dead_after_ms = 300;
+  std::optional<steady_clock::time_point> down;
+  ecu.beside = [&](int tick) {
+    if (tick != 400) return;
+    down = steady_clock::now();
+    bus.link = hal::CanState::kDown;
+    ecu.answers_until = 0;
+  };
+  bus.on_wait = [&] { run.stop = down && steady_clock::now() > *down + std::chrono::seconds(5); };
+  run.run(bus);
+  EXPECT_EQ(run.result.recording.ending, traffic::Ending::kDeadEcu);
+  EXPECT_FALSE(run.stop);
+}
+
 // PROC-023 Sixty ticks take 0.59 s and no less, though the ECU never answers. It asked for priority, was
 // refused, and says so.
 TEST(WorldProcess, RealtimeKeepsItsPace) {
