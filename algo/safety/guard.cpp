@@ -29,7 +29,7 @@ constexpr int kWayOverStride = 2;  // points between those looked at
 constexpr int kJudgeWork = 16;
 constexpr int kGroupWork = 12;
 constexpr int kThreatWork = 14;
-constexpr int kFollowerWork = 90;
+constexpr int kFollowerWork = 115;
 constexpr int kLatchWork = 2;
 constexpr int kWayOverWork = 115;
 
@@ -100,11 +100,18 @@ float Guard::way_over_ends_s_m(std::uint8_t agent_index, const Trajectory& traje
   return trajectory::kNoDeadEndM;
 }
 
-bool Guard::followers_can_brake(const PathContext& context, const Own& own, float brakes_from_s,
-                                float braking_mps2, Verdict& verdict) const {
+bool Guard::followers_can_brake(const PathContext& context, const Trajectory& trajectory, const Own& own,
+                                float brakes_from_s, float braking_mps2, Verdict& verdict) const {
   const auto& rss = parameters_->rss;
   const float half_m = 0.5F * parameters_->vehicle.length_m;
   for (const InLane& behind : context.behind) {
+    // Whoever stands needs no room to brake, only that our box keeps off it.
+    if (behind.speed_mps < kStandingMps) {
+      if (way_over_ends_s_m(behind.agent, trajectory, own) >= trajectory::kNoDeadEndM) continue;
+      verdict.cause = Cause::kFollower;
+      verdict.agent = behind.agent;
+      return false;
+    }
     // From when we are over the line it has its response time, then it brakes down to our speed.
     const float onset_s = context.half_over ? 0.0F : kOverLineS;
     const float from_s = onset_s + rss.response_s;
@@ -232,7 +239,7 @@ Verdict Guard::judge(int path_index, const Trajectory& trajectory) const {
                     occupancy::stopping_way_m(own.speed_at_mps(from_s, 0.0F), braking_mps2)
               : own.stop_s_m(braking_mps2);
       if (stops_s_m > free_s_m) continue;
-      brakes = followers_can_brake(context, own, from_s, braking_mps2, verdict);
+      brakes = followers_can_brake(context, trajectory, own, from_s, braking_mps2, verdict);
       if (!brakes) continue;
       verdict.fail_safe = {max(verdict.fail_safe.branch_s, from_s), braking_mps2};
       break;

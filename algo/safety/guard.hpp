@@ -11,7 +11,8 @@
 /// stand, for a plan that leaves that in time; used it is once we cannot stop before it any more.
 /// GUARD-007 Who cannot stay out of a zone any more leaves it no later than it was to. GUARD-008 Merging
 /// leaves room, in both orders. GUARD-009 A lane change leaves who is behind room to brake, and begins only
-/// when who is ahead is ahead of all of us by the time we are over the line, braking as hard as can be.
+/// when who is ahead is ahead of all of us by the time we are over the line, braking as hard as can be. Whoever stands
+/// there needs no such room: our box keeps off its.
 /// GUARD-010 Whoever drives only what passes, and else the last fail-safe, touches nobody who keeps to the
 /// law. GUARD-011 Who entered a group by right may stand in it, short of one that comes after all and
 /// before we were to be gone, where nobody comes who cannot stop for it and nobody has let us go.
@@ -186,8 +187,9 @@ class Guard {
   /// Where our centre is before a plan brings our box to where the vehicle stands after braking as hard as can be.
   [[nodiscard]] float way_over_ends_s_m(std::uint8_t agent_index, const Trajectory& trajectory,
                                         const Own& own) const;
-  [[nodiscard]] bool followers_can_brake(const PathContext& context, const Own& own, float brakes_from_s,
-                                         float braking_mps2, Verdict& verdict) const;
+  [[nodiscard]] bool followers_can_brake(const PathContext& context, const Trajectory& trajectory,
+                                         const Own& own, float brakes_from_s, float braking_mps2,
+                                         Verdict& verdict) const;
 
   const scene::Scene* scene_ = nullptr;
   const Parameters* parameters_ = nullptr;

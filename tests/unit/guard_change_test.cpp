@@ -178,5 +178,18 @@ TEST(Guard, WhoStandsTooNearBesideAnotherMayOnlyLeaveIt) {
   EXPECT_EQ(cause(1.6F), Cause::kLeader);
 }
 
+// GUARD-009 From rest, 1.2 m on our way over, beside one whose front is as far as our middle: 0.2 m are between us. While it stands
+// we may go on past it at that distance, and not into it; one that rolls is a follower like any other, and has no room.
+TEST(Guard, WhoStandsBesideUsIsPassedAsItStands) {
+  const auto cause = [](float its_mps, float to_m) {
+    Change change;
+    change.in_left_lane(97.5F, its_mps);
+    return change.cause_across(0.0F, 1.0F, 1, 1.2F, to_m);
+  };
+  EXPECT_EQ(cause(0.0F, 1.2F), Cause::kNone);
+  EXPECT_EQ(cause(0.0F, kLaneWidthM), Cause::kFollower);
+  EXPECT_EQ(cause(1.0F, 1.2F), Cause::kFollower);
+}
+
 }  // namespace
 }  // namespace s4tp::safety
