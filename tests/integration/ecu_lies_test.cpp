@@ -58,15 +58,7 @@ TEST(EcuLies, NoNewPlanTakesEffect) {
 TEST(EcuLies, ClockJustBelowItsLimitIsDrivenBy) {
   for (const int percent : {4, -4}) {
     const auto rig = driving_rig();
-    rig->ecu.planner().make = [](const planner::PlannerInput& input, Plan& plan) {
-      Pose pose = input.running != nullptr ? sample(*input.running, input.start_ms).rear_axle
-                                           : shift_ahead(input.ego.rear_axle, 5.0F * kStepS);
-      for (TrajectoryPoint& point : plan.trajectory.points) {
-        point.rear_axle = pose;
-        point.speed_mps = 5.0F;
-        pose = shift_ahead(pose, 5.0F * kStepS);
-      }
-    };
+    rig->ecu.planner().make = plan_straight_on;
     const auto stamp_ms = [percent](int ticks) { return ticks * (1000 + 10 * percent) / 100; };
     for (int i = 0; i < 2000; ++i) {
       rig->interval_ms = static_cast<std::uint16_t>(stamp_ms(i + 1) - stamp_ms(i));

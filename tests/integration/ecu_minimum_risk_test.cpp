@@ -9,13 +9,7 @@ namespace {
 
 /// Straight on at 5 m/s, with a fail-safe that leaves off driving after 1.5 s.
 void drive_straight_on(const planner::PlannerInput& input, Plan& plan) {
-  Pose pose = input.running != nullptr ? sample(*input.running, input.start_ms).rear_axle
-                                       : shift_ahead(input.ego.rear_axle, 5.0F * kStepS);
-  for (TrajectoryPoint& point : plan.trajectory.points) {
-    point.rear_axle = pose;
-    point.speed_mps = 5.0F;
-    pose = shift_ahead(pose, 5.0F * kStepS);
-  }
+  plan_straight_on(input, plan);
   plan.fail_safe = {1.5F, 6.0F};
 }
 

@@ -21,4 +21,15 @@ inline std::unique_ptr<Rig> driving_rig() {
   return rig;
 }
 
+/// A plan straight on at 5 m/s, from the one in force.
+inline void plan_straight_on(const planner::PlannerInput& input, Plan& plan) {
+  Pose pose = input.running != nullptr ? sample(*input.running, input.start_ms).rear_axle
+                                       : shift_ahead(input.ego.rear_axle, 5.0F * kStepS);
+  for (TrajectoryPoint& point : plan.trajectory.points) {
+    point.rear_axle = pose;
+    point.speed_mps = 5.0F;
+    pose = shift_ahead(pose, 5.0F * kStepS);
+  }
+}
+
 }  // namespace s4tp::ecu
