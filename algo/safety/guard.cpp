@@ -106,7 +106,7 @@ bool Guard::followers_can_brake(const PathContext& context, const Trajectory& tr
   const float half_m = 0.5F * parameters_->vehicle.length_m;
   for (const InLane& behind : context.behind) {
     // Whoever stands needs no room to brake, only that our box keeps off it.
-    if (behind.speed_mps < kStandingMps) {
+    if (behind.agent != kUnseen && behind.speed_mps < kStandingMps) {
       if (way_over_ends_s_m(behind.agent, trajectory, own) >= trajectory::kNoDeadEndM) continue;
       verdict.cause = Cause::kFollower;
       verdict.agent = behind.agent;

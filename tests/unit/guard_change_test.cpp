@@ -110,13 +110,14 @@ TEST(Guard, NobodyChangesIntoOneBeside) {
   EXPECT_EQ(change.cause(10.0F, 0.0F, 0), Cause::kNone);
 }
 
-// GUARD-009 GUARD-012 By a list 260 ms old nobody sets out for another lane: somebody may have come into sight there since. In
-// our lane, and 0.5 m on the way already, we go on.
+// GUARD-009 GUARD-012 By a list 260 ms old nobody sets out for another lane, from rest neither: somebody may have come into sight
+// there since. In our lane, and 0.5 m on the way already, we go on.
 TEST(Guard, NobodySetsOutForALaneByAnOldList) {
   for (const std::uint16_t age_ms : {250, 260}) {
     Change change;
     change.scene.known.age_ms = age_ms;
-    EXPECT_EQ(change.cause(10.0F, 0.0F), age_ms > 250 ? Cause::kFollower : Cause::kNone);
+    for (const float speed_mps : {0.0F, 10.0F})
+      EXPECT_EQ(change.cause(speed_mps, 0.0F), age_ms > 250 ? Cause::kFollower : Cause::kNone);
     EXPECT_EQ(change.cause(10.0F, 0.0F, 0), Cause::kNone);
     for (scene::EgoPath& path : change.scene.ego_paths) path.frenet.d_m += 0.5F;
     EXPECT_EQ(change.cause_across(10.0F, 0.0F, 1, 0.5F, kLaneWidthM), Cause::kNone);
