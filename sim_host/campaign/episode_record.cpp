@@ -186,8 +186,10 @@ Part read_part(const std::filesystem::path& file) {
       if (number > 1) {
         part.rows.push_back(row_of(read));
         check_planned(part.header, part.rows.back());
-      } else if (read.at("kind") == kKind && read.value("version", 1) != kVersion) {
-        throw std::invalid_argument("holds version " + std::to_string(read.value("version", 1)) +
+      } else if (const ordered_json version = read.value("version", ordered_json(1));
+                 read.at("kind") == kKind && version != kVersion) {
+        const std::string text = version.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+        throw std::invalid_argument("holds version " + text.substr(0, 60) +
                                     " of the metrics, this program has version " + std::to_string(kVersion) +
                                     "; drive it again, or read it with the program that wrote it");
       } else if (read.at("kind") == kKind) {

@@ -4,25 +4,19 @@
 #include <cmath>
 
 #include "sim_host/world/traffic/box.hpp"
+#include "sim_host/world/traffic/start_zone.hpp"
 
 namespace s4tp::sumo {
 namespace {
 
 constexpr double kStands_mps = 0.1;
-constexpr double kClearHeadway_s = 1.5;
 
 void advance_to_entry(Traffic& traffic, const scenario::Scenario& scenario) {
-  const scenario::Mission& mission = scenario.mission;
-  const long ticks = std::lround(mission.entry_time_s / traffic::kTick_s);
+  const long ticks = std::lround(scenario.mission.entry_time_s / traffic::kTick_s);
   for (long i = 0; i < ticks; ++i) {
     traffic.step(nullptr);
   }
-  const double half_m = 0.5 * traffic::CarState{}.length_m;
-  const double limit_mps =
-      scenario.network.lanes[static_cast<std::size_t>(mission.start_lane)].speed_limit_mps;
-  traffic.clear(mission.start_lane,
-                mission.start_s_m - half_m - kClearHeadway_s * std::max(limit_mps, mission.start_speed_mps),
-                mission.start_s_m + half_m + kClearHeadway_s * mission.start_speed_mps);
+  traffic::free_start_zone(scenario, traffic::CarState{}.length_m, traffic);
 }
 
 bool touches(const traffic::CarState& ego, const std::vector<traffic::CarState>& others) {

@@ -7,13 +7,13 @@
 #include "sim_host/world/engine_factory.hpp"
 #include "sim_host/world/nodes/vehicle.hpp"
 #include "sim_host/world/traffic/box.hpp"
+#include "sim_host/world/traffic/start_zone.hpp"
 
 namespace s4tp::world {
 namespace {
 
 using traffic::CarState;
 
-constexpr double kClearHeadway_s = 1.5;
 constexpr double kUndisturbed_s = 1.0;  // after entry: a touch within it is the draw's fault
 constexpr int kRedrawsMax = 100;
 
@@ -29,16 +29,6 @@ std::unique_ptr<traffic::TrafficEngine> traffic_until(const scenario::Scenario& 
   return fresh;
 }
 
-void free_start_zone(const scenario::Scenario& scenario, traffic::TrafficEngine& traffic) {
-  const scenario::Mission& mission = scenario.mission;
-  const double half_m = 0.5 * nodes::VehicleParameters{}.length_m;
-  const double limit_mps =
-      scenario.network.lanes[static_cast<std::size_t>(mission.start_lane)].speed_limit_mps;
-  traffic.clear(mission.start_lane,
-                mission.start_s_m - half_m - kClearHeadway_s * std::max(limit_mps, mission.start_speed_mps),
-                mission.start_s_m + half_m + kClearHeadway_s * mission.start_speed_mps);
-}
-
 /// Nothing of it depends on the ego, so it is driven before it is shown: who is taken out of the start zone
 /// at entry has never been there, or the ECU would still believe in it.
 std::vector<std::vector<CarState>> run_pre_roll(const scenario::Scenario& scenario, double pre_roll_s,
@@ -52,7 +42,7 @@ std::vector<std::vector<CarState>> run_pre_roll(const scenario::Scenario& scenar
     pre_roll.push_back(traffic.cars());
   }
   const std::vector<CarState> before = traffic.cars();
-  free_start_zone(scenario, traffic);
+  traffic::free_start_zone(scenario, nodes::VehicleParameters{}.length_m, traffic);
   const std::vector<CarState> after = traffic.cars();
   const auto among = [](const std::vector<CarState>& cars, int id) {
     return std::any_of(cars.begin(), cars.end(), [&](const CarState& car) { return car.id == id; });
@@ -67,7 +57,7 @@ bool touched_at_entry(const scenario::Scenario& scenario, const WorldOptions& op
                       const traffic::Locator& locator, std::uint64_t seed) {
   const std::unique_ptr<traffic::TrafficEngine> trial =
       traffic_until(scenario, options, seed, scenario.mission.entry_time_s, traffic::DrivenBy::kUs);
-  free_start_zone(scenario, *trial);
+  traffic::free_start_zone(scenario, nodes::VehicleParameters{}.length_m, *trial);
   const int ticks = static_cast<int>(std::lround(kUndisturbed_s / traffic::kTick_s));
   map::LaneId before = scenario.mission.start_lane;
   for (int i = 0; i <= ticks; ++i) {

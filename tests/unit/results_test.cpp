@@ -65,16 +65,21 @@ TEST(EpisodeRecord, RowsComeBackToTheBit) {
   EXPECT_EQ(to_json(after), to_json(before));
 }
 
-// A record of the program before has other metrics: it is refused, with both versions and what to do.
+// A record of the program before has other metrics: it is refused, with both versions and what to do. So is one whose version is
+// no number of ours: no integer holds the third.
 TEST(EpisodeRecord, OlderRecordsAreRefused) {
   const std::filesystem::path file = scratch("older");
-  std::ofstream(file) << R"({"kind": "s4tp campaign", "planners": ["a"]})" << '\n';
-  try {
-    (void)read_part(file);
-    FAIL();
-  } catch (const std::runtime_error& error) {
-    EXPECT_NE(std::string(error.what()).find("version 1"), std::string::npos) << error.what();
-    EXPECT_NE(std::string(error.what()).find("drive it again"), std::string::npos) << error.what();
+  for (const auto& [said, told] : {std::pair{"", "version 1 "},
+                                   {R"(, "version": "two")", R"(version "two" )"},
+                                   {R"(, "version": 92233720368547758072)", "version 9.22"}}) {
+    std::ofstream(file) << R"({"kind": "s4tp campaign", "planners": ["a"])" << said << "}\n";
+    try {
+      (void)read_part(file);
+      FAIL();
+    } catch (const std::runtime_error& error) {
+      EXPECT_NE(std::string(error.what()).find(told), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what()).find("drive it again"), std::string::npos) << error.what();
+    }
   }
 }
 
