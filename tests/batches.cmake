@@ -4,7 +4,7 @@ set(unit_batches
   "attribution bicycle box branch bus_end bus_name clips clusters codec"
   "candidates candidates_lateral_offset running_plan guard guard_change guard_licence lane_cost_to_go lane_reach legal_occupancy"
   "candump command_check core drf_controller drivable e2e ecu_exchange ecu_inputs ecu_process"
-  "encounters fail_safe families fault_judge fault_script faulty_bus field figures"
+  "encounters fail_safe families fault_judge fault_judge_stop fault_script faulty_bus field figures"
   "foreign_networks gate gate_denial hal_sim heat_map idm_lane ilqr inconsistent_map input_link key_file"
   "lane_gap lane_map lane_path lateral_offset law live_view lockstep_bus log_follower"
   "map_node math meetings metrics mission_check modes network_input optimizer"

@@ -79,9 +79,10 @@ inline constexpr Faults kEndingFaults = kAllFaults & ~(kDegradingFaults | bit(Fa
 /// ECU-105 The minimum-risk manoeuvre is the fail-safe in force, as the guard has shown it: driven on to its branch (out
 /// of the junction, over to the other lane), then braked. While a silent fault stands it is braked; once any ending
 /// fault but the unseen and the silent ones has come, it is braked to the end.
+/// Unseen: what is around, or what to do next, is not known; what the ego does is.
 inline constexpr Faults kUnseenFaults =
     bit(FaultBit::kTracksLost) | bit(FaultBit::kMapLost) | bit(FaultBit::kPlanLost);
-/// What the vehicle says of itself is missing.
+/// Silent: what the ego does is not told.
 inline constexpr Faults kSilentFaults =
     bit(FaultBit::kMotionMissing) | bit(FaultBit::kPoseMissing) | bit(FaultBit::kSteeringMissing);
 

@@ -143,6 +143,33 @@ TEST(SceneBuilder, EgoLaneHasHysteresis) {
   EXPECT_EQ(lane_at(1.2F), 0);
 }
 
+// Two lanes leave from where ours ends, 20 m of the same ground: on it we are on the one that needs fewer lane changes, whichever
+// the map names first.
+TEST(SceneBuilder, WhereLanesPartTakesTheOneThatNeedsFewerChanges) {
+  for (const int fewer : {1, 2}) {
+    LaneMap map;
+    const LaneIndex before = test::add_lane(map, {{-50.0F, 0.0F}, {0.0F, 0.0F}});
+    const LaneIndex parting[] = {test::add_lane(map, {{0.0F, 0.0F}, {20.0F, 0.0F}, {60.0F, 3.2F}}),
+                                 test::add_lane(map, {{0.0F, 0.0F}, {20.0F, 0.0F}, {60.0F, -3.2F}})};
+    for (int i = 0; i < 2; ++i) {
+      map.lanes[before].successors[i] = parting[i];
+      map.lanes[parting[i]].on_route = true;
+      map.lanes[parting[i]].changes_needed = parting[i] == fewer ? -1 : -2;
+    }
+    map.lanes[before].on_route = true;
+    scene::SceneBuilder builder;
+    scene::Scene scene;
+    std::uint32_t now_ms = 0;
+    for (const float x_m : {-5.0F, 2.0F, 10.0F}) {
+      now_ms += 500;
+      EXPECT_EQ(
+          builder.build(now_ms, test::ego_at(x_m, 0.0F, 0.0F, 10.0F), TrackList{}, now_ms, &map, {}, scene),
+          Status::kOk);
+    }
+    EXPECT_EQ(scene.ego_paths[0].path.lanes[0].lane, fewer);
+  }
+}
+
 // The route turns left: our path does too, and its goal and end lie where the route says.
 TEST(SceneBuilder, FollowsTheRouteThroughTheJunction) {
   CrossJunction cross = test::cross_junction();

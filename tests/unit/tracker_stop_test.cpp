@@ -10,11 +10,24 @@
 namespace s4tp::ecu {
 namespace {
 
+/// At 10 m/s.
+EgoState on_the_road(float x_m) {
+  EgoState ego;
+  ego.rear_axle.x_m = x_m;
+  ego.speed_mps = 10.0F;
+  return ego;
+}
+
+/// Straight on at 10 m/s from x = 0; its fail-safe branches after 0.35 s and brakes with 6 m/s^2.
+Plan plan_with_a_branch() {
+  Plan plan = plan_of(straight(10.0), 0);
+  plan.fail_safe = {0.35F, 6.0F};
+  return plan;
+}
+
 // ECU-052 ECU-053: past its end of 3 s a plan is braked along with 4 m/s^2.
 TEST(Tracker, StopsPastThePlansEnd) {
-  EgoState ego;
-  ego.rear_axle.x_m = 30.0F;
-  ego.speed_mps = 10.0F;
+  const EgoState ego = on_the_road(30.0F);
   Tracker tracker;
   const Plan plan = plan_of(straight(10.0), 0);
   EXPECT_NEAR(tracker.follow(plan, 3000, ego, {}).acceleration_mps2, 0.0F, 0.2F);
@@ -25,11 +38,8 @@ TEST(Tracker, StopsPastThePlansEnd) {
 // ECU-095 ECU-053: a plan to drive whose fail-safe branches after 0.35 s is braked along with 6 m/s^2 from
 // then on; one that is a stop itself is followed.
 TEST(Tracker, DrivesTheFailSafePastItsBranch) {
-  EgoState ego;
-  ego.rear_axle.x_m = 3.6F;
-  ego.speed_mps = 10.0F;
-  Plan plan = plan_of(straight(10.0), 0);
-  plan.fail_safe = {0.35F, 6.0F};
+  const EgoState ego = on_the_road(3.6F);
+  Plan plan = plan_with_a_branch();
   Tracker tracker;
   EXPECT_GT(tracker.follow(plan, 350, ego, {}).acceleration_mps2, -1.0F);
   EXPECT_EQ(tracker.follow(plan, 360, ego, {}).acceleration_mps2, -6.0F);
@@ -40,11 +50,8 @@ TEST(Tracker, DrivesTheFailSafePastItsBranch) {
 // ECU-106: a fail-safe that branches after 0.35 s is driven as planned up to there, and braked with 6 m/s^2 from there on, of a
 // plan to drive and of one that is a stop itself; one that branches at once is braked at once.
 TEST(Tracker, DrivesTheFailSafeUpToItsBranch) {
-  EgoState ego;
-  ego.rear_axle.x_m = 3.5F;
-  ego.speed_mps = 10.0F;
-  Plan plan = plan_of(straight(10.0), 0);
-  plan.fail_safe = {0.35F, 6.0F};
+  const EgoState ego = on_the_road(3.5F);
+  Plan plan = plan_with_a_branch();
   for (const PlanKind kind : {PlanKind::kDrive, PlanKind::kMinimumRisk}) {
     plan.kind = kind;
     EXPECT_GT(Tracker().drive_fail_safe(plan, 340, ego, {}).acceleration_mps2, -1.0F);
