@@ -60,6 +60,8 @@ def texts(paragraph):
                 text = re.sub(r"[A-Z]+-\d{3}|\\return", "", paragraph)
         if paragraph.startswith("`") and match is found[0]:
             text = re.sub(r"[A-Z]+-\d{3} ?", "", paragraph[:end])
+        if match.start() and paragraph[match.start() - 2:match.start()] == "| ":  # a row of a table
+            text = re.sub(r"(?:\s*\|)+\s*", "; ", text.strip(" |"))
         yield match[1], re.sub(r"\s+", " ", text).strip(" ,;:()")
 
 

@@ -62,6 +62,11 @@ class Pages(unittest.TestCase):
         self.assertEqual(self.found(), ["docs/a.md: names the test Gate.Steers, which is not there",
                                         f"docs/a.md: names {SECOND}, which no header promises"])
 
+    # A promise that is a row of a table is listed in words, without its bars.
+    def test_a_row_of_a_table_is_listed_in_words(self):
+        self.write("algo/a.hpp", f"/// | id | what | who |\n/// |---|---|---|\n/// | {FIRST} | brakes hard | we |\n")
+        self.assertIn(f"| {FIRST} | brakes hard; we | ", requirements_document.document(self.root)[0])
+
     # A page, and a section of one, that a comment names.
     def test_what_the_code_cites_is_looked_for(self):
         self.write("docs/method.md", "# Method\n## 3 Field\n**4.8 Refinement** x\n")

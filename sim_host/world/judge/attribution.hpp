@@ -2,19 +2,18 @@
 /// Whose fault a touch is and why, from what was recorded and the law alone.
 ///
 /// The first row that fits. "Ours" wherever a row names nobody.
-/// | id      | situation                                                                        | at fault |
-/// cause           |
-/// |---------|----------------------------------------------------------------------------------|----------------|-----------------|
-/// | LAW-020 | on a zone; who had to yield entered without licence, or when the other was there | who had to
-/// | kEntered        | | LAW-021 | the same, licensed, but stands there for want of room beyond the group |
-/// who had to     | kNoRoom         | | LAW-022 | the same, licensed | the other      | kIntoRightful   | |
-/// LAW-023 | on a zone, first come                                                            | the later one
-/// | kEnteredLater   | | LAW-024 | nose to tail; the one in front came into the lane within `settle_s`, no
-/// RSS gap  | it             | kCutIn          | | LAW-025 | nose to tail; we are in front and stand for 1 s
-/// without reason (reasons.hpp)     | we             | kStopped        | | LAW-026 | nose to tail | the one
-/// behind | kRanInto        | | LAW-027 | head-on; one is over its line, the other not | the first      |
-/// kOncoming       | | LAW-028 | side by side; one is over its line or came over it within `settle_s`, not
-/// the other | the first   | kChangedLane    | | LAW-029 | anything else | we             | kUnclear        |
+/// | id      | situation                                                                        | at fault       | cause         |
+/// |---------|----------------------------------------------------------------------------------|----------------|---------------|
+/// | LAW-020 | on a zone; who had to yield entered without licence, or when the other was there | who had to     | kEntered      |
+/// | LAW-021 | the same, licensed, but stands there for want of room beyond the group           | who had to     | kNoRoom       |
+/// | LAW-022 | the same, licensed                                                               | the other      | kIntoRightful |
+/// | LAW-023 | on a zone, first come                                                            | the later one  | kEnteredLater |
+/// | LAW-024 | nose to tail; the one in front came into the lane within settle_s, no RSS gap    | it             | kCutIn        |
+/// | LAW-025 | nose to tail; we are in front and stand for 1 s without reason (reasons.hpp)     | we             | kStopped      |
+/// | LAW-026 | nose to tail                                                                     | the one behind | kRanInto      |
+/// | LAW-027 | head-on; one is over its line, the other not                                     | the first      | kOncoming     |
+/// | LAW-028 | side by side; one is over its line, or came over it in settle_s; the other not    | the first      | kChangedLane  |
+/// | LAW-029 | anything else                                                                    | we             | kUnclear      |
 
 #include <span>
 
