@@ -42,6 +42,17 @@ float stopping_way_m(float speed_mps, float braking_mps2) {
   return square(speed_mps) / (2.0F * braking_mps2);
 }
 
+float braking_way_m(float speed_mps, float acceleration_mps2, float braking_mps2) {
+  const float change_mps2 = acceleration_mps2 + braking_mps2;
+  if (change_mps2 <= 0.0F) return stopping_way_m(speed_mps, braking_mps2);
+  const float time_s = change_mps2 / kHardJerkMps3;
+  const float then_mps = speed_mps + 0.5F * (acceleration_mps2 - braking_mps2) * time_s;
+  if (then_mps <= 0.0F) return speed_mps * time_s;  // at rest before
+  const float meanwhile_m =
+      (speed_mps + (0.5F * acceleration_mps2 - kHardJerkMps3 * time_s / 6.0F) * time_s) * time_s;
+  return meanwhile_m + stopping_way_m(then_mps, braking_mps2);
+}
+
 float latest_time_s(float speed_mps, float braking_mps2, float way_m) {
   if (way_m <= 0.0F) return 0.0F;
   const float left_m2ps2 = square(speed_mps) - 2.0F * braking_mps2 * way_m;

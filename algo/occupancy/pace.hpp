@@ -1,7 +1,8 @@
 #pragma once
 /// Motion along a line in closed form: the one answer to "when is it there" and "how far does it come".
 /// OCC-001 Way, speed and time belong to each other: a vehicle gains speed up to a top speed and keeps it.
-/// OCC-002 Who brakes as hard as it can is the latest to cover a way, or never covers it.
+/// OCC-002 Who brakes as hard as it can is the latest to cover a way, or never covers it. OCC-005 Braking takes its time to
+/// build up.
 
 namespace s4tp::occupancy {
 
@@ -26,6 +27,13 @@ struct Pace {
 
 /// \return way to a standstill [m]. \pre braking_mps2 > 0
 [[nodiscard]] float stopping_way_m(float speed_mps, float braking_mps2);
+
+/// Hardest change of acceleration of our own plans [m/s^3], when they brake hard.
+inline constexpr float kHardJerkMps3 = 40.0F;
+
+/// \return our own way to a standstill [m]: from `acceleration_mps2` the braking builds up with kHardJerkMps3; no
+/// shorter than stopping_way_m. \pre braking_mps2 > 0
+[[nodiscard]] float braking_way_m(float speed_mps, float acceleration_mps2, float braking_mps2);
 
 /// Time a vehicle needs at least that brakes as hard as it can and yet covers `way_m`; kNeverS when it can
 /// stop before. \pre braking_mps2 > 0

@@ -16,6 +16,15 @@ constexpr float kLongestS = 8.0F;
 constexpr float kLookS = static_cast<float>(kHorizonSteps) * kStepS;
 constexpr float kInLaneShare = 0.4F;   // of its width from a lane's centre, a change counts as made
 constexpr float kMissedRoute = 80.0F;  // times lane_route: driving past the last place to change lanes
+constexpr float kLateShare = 4.0F;     // of what progress is worth, each metre past it costs
+
+/// Price of being in the right lane so late: all of a missed route where that takes another change's way, and beyond
+/// that more than the way driven gains.
+float late_cost(float late_by_m, const Parameters& parameters) {
+  const float share = min(1.0F, late_by_m / trajectory::kChangeWayM);
+  return share * kMissedRoute * parameters.scoring.lane_route +
+         kLateShare * parameters.scoring.progress * late_by_m;
+}
 
 /// Price of the lane: how many changes are left, more pressing as the room for them shortens.
 float route_cost(const scene::EgoPath& path, float end_s_m, float end_mps, const Parameters& parameters) {
@@ -24,13 +33,13 @@ float route_cost(const scene::EgoPath& path, float end_s_m, float end_mps, const
   const float room_m = path.route_end_s_m - end_s_m;
   const float count = static_cast<float>(changes);
   const float missed = kMissedRoute * parameters.scoring.lane_route * count;
-  // Whoever cannot stop before the end has missed it. The last place to wait leaves room to change from rest.
+  // The last place to wait leaves room to change from rest. Whoever cannot stop before the end has missed it, by so much.
   const float to_place_m = room_m - trajectory::rear_axle_to_front_m(parameters) -
                            occupancy::stopping_way_m(end_mps, parameters.comfort.braking_mps2);
-  if (to_place_m < 0.0F) return missed;
-  const float shortage = max(0.0F, 1.0F - to_place_m / (trajectory::kChangeWayM * count));
-  const float pressing = 1.0F + kChangeRoomM * count / (room_m + 10.0F);
-  return parameters.scoring.lane_route * count * pressing + missed * square(shortage);
+  const float shortage = clamp(1.0F - to_place_m / (trajectory::kChangeWayM * count), 0.0F, 1.0F);
+  const float pressing = 1.0F + kChangeRoomM * count / (max(room_m, 0.0F) + 10.0F);
+  const float beyond = kLateShare * parameters.scoring.progress * max(0.0F, -to_place_m);
+  return parameters.scoring.lane_route * count * pressing + missed * square(shortage) + beyond;
 }
 
 /// What being in the lane of `path` at the horizon's end costs: time, and lane changes left.
@@ -84,22 +93,23 @@ struct LastPlace {
   float in_lane_m;  ///< so near to that path's centre the change counts as made
   float at_s_m;     ///< of the motion so far
   float at_d_m;
+  float left_m = 0.0F;  ///< to that place sideways, at the last place or the motion's end
   bool passed = false;
-  bool in_time = false;
 
   void go_on(float to_s_m, float to_d_m) {
-    if (!passed && to_s_m >= s_m) {
-      passed = true;
-      const float part = (s_m - at_s_m) / max(to_s_m - at_s_m, 1e-3F);
-      in_time = abs(lerp(at_d_m, to_d_m, part)) <= in_lane_m;
-    }
+    const bool passes = !passed && to_s_m >= s_m;
+    const float part = passes ? (s_m - at_s_m) / max(to_s_m - at_s_m, 1e-3F) : 1.0F;
+    if (!passed) left_m = max(0.0F, abs(lerp(at_d_m, to_d_m, part)) - in_lane_m);
+    passed = passed || passes;
     at_s_m = to_s_m;
     at_d_m = to_d_m;
   }
-  /// Whether the motion, and what it leaves to be changed, is over the line by then.
-  [[nodiscard]] bool holds(float width_m) const {
-    if (passed) return in_time;
-    return at_s_m + trajectory::kChangeWayM * max(0.0F, abs(at_d_m) - in_lane_m) / width_m <= s_m;
+  /// Way that what is left to be changed at the last place takes, and more the further the motion goes past it; before
+  /// that, how far beyond it the change would be made. 0: in time.
+  [[nodiscard]] float late_by_m(float width_m) const {
+    const float way_m = trajectory::kChangeWayM * left_m / width_m;
+    const float past_m = at_s_m - s_m;
+    return passed ? way_m * (1.0F + past_m / trajectory::kChangeWayM) : max(0.0F, past_m + way_m);
   }
 };
 
@@ -173,8 +183,8 @@ CostBreakdown score_motion(const scene::Scene& scene, const LaneCostToGo& cost_t
   cost.lane = parameters.scoring.lane_offset * (offset_sum / samples) + lane;
   if (path.manoeuvre == scene::Manoeuvre::kKeep)
     cost.lane = cost.lane + gap_cost(scene, cost_to_go, path_index, s_m, end_mps, lane, parameters);
-  if (path.manoeuvre != scene::Manoeuvre::kKeep && own.changes_needed != 0 && !last.holds(width_m))
-    cost.lane = cost.lane + kMissedRoute * parameters.scoring.lane_route;
+  if (path.manoeuvre != scene::Manoeuvre::kKeep && own.changes_needed != 0)
+    cost.lane = cost.lane + late_cost(last.late_by_m(width_m), parameters);
   if (other_lane) cost.lane = cost.lane + parameters.scoring.lane_change;
   return cost;
 }

@@ -19,6 +19,7 @@ struct Settling {
   float share;
 };
 constexpr Settling kSettlings[] = {{2.0F, 1.0F}, {0.0F, 1.0F}, {0.0F, 0.6F}, {0.0F, 0.35F}};
+constexpr int kSettlingCount = static_cast<int>(sizeof(kSettlings) / sizeof(kSettlings[0]));
 constexpr float kEasesOff = 0.25F;  // share of the fail-safe's braking that is not asked for behind a cut-in
 constexpr float kEndShare =
     0.5F;  // of that braking, at least, past the last place to stop before the road's end
@@ -32,13 +33,15 @@ constexpr int kThreatWork = 14;
 constexpr int kFollowerWork = 115;
 constexpr int kLatchWork = 2;
 constexpr int kWayOverWork = 115;
+constexpr int kWayBackWork = 150;
 
 }  // namespace
 
 int Guard::judge_work(int path) const {
   const PathContext& context = contexts_[path];
   return kJudgeWork + kGroupWork * context.groups.size() + kThreatWork * context.threats.size() +
-         kFollowerWork * context.behind.size() + kWayOverWork * context.on_way_over.size();
+         kFollowerWork * context.behind.size() + kWayOverWork * context.on_way_over.size() +
+         (context.settles && !context.behind.empty() ? kWayBackWork : 0);
 }
 
 int Guard::commit_work() const {
@@ -72,6 +75,13 @@ void Guard::commit(int path, const Verdict& verdict) {
   }
   goes_through_ = verdict.clears;
   stops_short_ = verdict.stops_short;
+  fail_safe_ = verdict.fail_safe;
+  start_ms_ = scene_->time_ms + static_cast<std::uint32_t>(to_int(1e3F * lead_s_ + 0.5F, 0, 1000));
+  const scene::Manoeuvre manoeuvre = path >= 0 && path < scene_->ego_paths.size()
+                                         ? scene_->ego_paths[path].manoeuvre
+                                         : scene::Manoeuvre::kKeep;
+  if (manoeuvre != scene::Manoeuvre::kKeep)
+    change_ = {manoeuvre == scene::Manoeuvre::kLeft ? 1.0F : -1.0F, false, scene_->time_ms};
   // A licence lost before it was used is not in here any more.
   latched_.clear();
   if (!verdict.clears || path < 0 || path >= scene_->ego_paths.size()) return;
@@ -100,8 +110,22 @@ float Guard::way_over_ends_s_m(std::uint8_t agent_index, const Trajectory& traje
   return trajectory::kNoDeadEndM;
 }
 
+float Guard::back_in_lane_s(const scene::EgoPath& path, const Trajectory& trajectory, const Own& own) const {
+  const auto& vehicle = parameters_->vehicle;
+  for (int i = 0; i < kTrajectoryPoints; i += kWayOverStride) {
+    const scene::PathPoint there = scene::path_point(*scene_->map, path.path, own.s_m[i]);
+    const Box box = trajectory::ego_box(trajectory.points[i].rear_axle, *parameters_);
+    const Point beside = position(box.centre) - position(there.pose);
+    const float turned = abs(sin(wrap_angle(box.centre.heading_rad - there.pose.heading_rad)));
+    const float reach_m = abs(cross(direction(there.pose.heading_rad), beside)) + 0.5F * vehicle.width_m +
+                          0.5F * turned * vehicle.length_m;
+    if (reach_m <= 0.5F * there.width_m) return static_cast<float>(i) * kStepS;
+  }
+  return kHorizonS;
+}
+
 bool Guard::followers_can_brake(const PathContext& context, const Trajectory& trajectory, const Own& own,
-                                float brakes_from_s, float braking_mps2, Verdict& verdict) const {
+                                const FailSafe& stop, float until_s, Verdict& verdict) const {
   const auto& rss = parameters_->rss;
   const float half_m = 0.5F * parameters_->vehicle.length_m;
   for (const InLane& behind : context.behind) {
@@ -113,8 +137,10 @@ bool Guard::followers_can_brake(const PathContext& context, const Trajectory& tr
       return false;
     }
     // From when we are over the line it has its response time, then it brakes down to our speed.
-    const float onset_s = context.half_over ? 0.0F : kOverLineS;
-    const float from_s = onset_s + rss.response_s;
+    const float onset_s = context.settles && change_.over ? -changing_s()
+                          : context.half_over             ? 0.0F
+                                                          : kOverLineS;
+    const float from_s = max(0.0F, onset_s + rss.response_s);
     float s_m = behind.bumper_s_m;
     float speed_mps = behind.speed_mps;
     float own_s_m = own.s_m[0] - half_m;
@@ -123,11 +149,12 @@ bool Guard::followers_can_brake(const PathContext& context, const Trajectory& tr
     constexpr int kLooks = 25;
     for (int i = 1; i <= kLooks; ++i) {
       const float time_s = static_cast<float>(i) * kLookS;
-      if (time_s <= brakes_from_s) {
+      if (time_s > until_s) break;
+      if (time_s <= stop.branch_s) {
         own_s_m = own.place_at_m(time_s, 0.0F) - half_m;
         own_mps = own.speed_at_mps(time_s, 0.0F);
       } else {
-        const float later_mps = max(0.0F, own_mps - braking_mps2 * kLookS);
+        const float later_mps = max(0.0F, own_mps - stop.braking_mps2 * kLookS);
         own_s_m = own_s_m + 0.5F * (own_mps + later_mps) * kLookS;
         own_mps = later_mps;
       }
@@ -144,6 +171,14 @@ bool Guard::followers_can_brake(const PathContext& context, const Trajectory& tr
     }
   }
   return true;
+}
+
+FailSafe Guard::in_force() const {
+  const auto& guard = parameters_->guard;
+  if (!(fail_safe_.braking_mps2 > 0.0F)) return {guard.takeover_s, guard.braking_mps2};
+  const float driven_s =
+      1e-3F * static_cast<float>(static_cast<std::int32_t>(scene_->time_ms - start_ms_)) + lead_s_;
+  return {clamp(fail_safe_.branch_s - driven_s, guard.takeover_s, kHorizonS), fail_safe_.braking_mps2};
 }
 
 Verdict Guard::judge(int path_index, const Trajectory& trajectory) const {
@@ -165,6 +200,8 @@ Verdict Guard::judge(int path_index, const Trajectory& trajectory) const {
   const int branch = to_int(guard.takeover_s / kStepS - 0.5F, 0, kHorizonSteps - 1);
   const float on_s = guard.takeover_s - static_cast<float>(branch) * kStepS;
   own.branch_mps = lerp(own.speed_mps[branch], own.speed_mps[branch + 1], on_s / kStepS);
+  own.branch_mps2 = lerp(trajectory.points[branch].acceleration_mps2,
+                         trajectory.points[branch + 1].acceleration_mps2, on_s / kStepS);
   own.branch_s_m = own.s_m[branch] + 0.5F * on_s * (own.speed_mps[branch] + own.branch_mps);
   const float stop_s_m = own.stop_s_m(guard.braking_mps2);
 
@@ -228,21 +265,22 @@ Verdict Guard::judge(int path_index, const Trajectory& trajectory) const {
     if (verdict.stops_short) break;  // the fail-safe comes no further
   }
   if (verdict.stops_short) verdict.fail_safe.branch_s = guard.takeover_s;
-  if (context.changes && !context.half_over) {
+  if ((context.changes && !context.half_over) || (context.settles && !context.behind.empty())) {
+    const bool goes_back = context.settles && !change_.over;
+    const float until_s = goes_back ? back_in_lane_s(path, trajectory, own) : occupancy::kNeverS;
     bool brakes = false;
-    for (const Settling& settling : kSettlings) {
-      const float braking_mps2 = settling.share * guard.braking_mps2;
-      const float from_s = max(guard.takeover_s, settling.drives_on_s);
+    for (int k = 0; k <= kSettlingCount && !brakes; ++k) {
+      const FailSafe stop = k < kSettlingCount ? FailSafe{max(guard.takeover_s, kSettlings[k].drives_on_s),
+                                                          kSettlings[k].share * guard.braking_mps2}
+                                               : in_force();
       const float stops_s_m =
-          settling.drives_on_s > 0.0F
-              ? own.place_at_m(from_s, 0.0F) +
-                    occupancy::stopping_way_m(own.speed_at_mps(from_s, 0.0F), braking_mps2)
-              : own.stop_s_m(braking_mps2);
+          stop.branch_s > guard.takeover_s
+              ? own.place_at_m(stop.branch_s, 0.0F) +
+                    occupancy::stopping_way_m(own.speed_at_mps(stop.branch_s, 0.0F), stop.braking_mps2)
+              : own.stop_s_m(stop.braking_mps2);
       if (stops_s_m > free_s_m) continue;
-      brakes = followers_can_brake(context, trajectory, own, from_s, braking_mps2, verdict);
-      if (!brakes) continue;
-      verdict.fail_safe = {max(verdict.fail_safe.branch_s, from_s), braking_mps2};
-      break;
+      brakes = followers_can_brake(context, trajectory, own, stop, until_s, verdict);
+      if (brakes) verdict.fail_safe = {max(verdict.fail_safe.branch_s, stop.branch_s), stop.braking_mps2};
     }
     if (!brakes) {
       if (verdict.cause == Cause::kNone) verdict.cause = Cause::kFollower;

@@ -20,6 +20,8 @@
 /// somebody comes at the limit's speed, in a lane we change into as well; on our way out of it somebody
 /// stands. Where there are more such lanes than can be followed, somebody is everywhere. Whoever is nearer in that
 /// lane and stays out of a zone, leads us, or follows us, is in its way.
+/// GUARD-013 Until a change has been made or given up for two seconds, who is behind in that lane keeps its room to brake: a plan
+/// that goes back, until it has left that lane; its answer counts from when we came over.
 ///
 /// \code
 ///   plan    ----+------------------------>
@@ -35,6 +37,7 @@
 #include "algo/occupancy/lane_reach.hpp"
 #include "algo/safety/legal_occupancy.hpp"
 #include "algo/scene/scene.hpp"
+#include "algo/trajectory/along_path.hpp"
 
 namespace s4tp::safety {
 
@@ -104,6 +107,8 @@ class Guard {
   void reset() {
     latched_.clear();
     goes_through_ = stops_short_ = false;
+    change_ = {};
+    fail_safe_ = {};
   }
 
  private:
@@ -137,12 +142,20 @@ class Guard {
     std::uint8_t beside = 255;  ///< ... because of whom
     bool changes = false;       ///< our box is, or comes, from another lane
     bool half_over = false;     ///< most of us is in the lane already
-    InLaneList behind;          ///< only where `changes`
+    bool settles = false;       ///< our lane, and a change is in force or made or given up just now
+    InLaneList behind;          ///< only where `changes` or `settles`: those for whom we are new
     InLaneList on_way_over;     ///< ahead, where our box may be before it has come over to the path's strip
     BoundedVector<ZoneGroup, kMaxPathZones> groups;
     BoundedVector<Threat, kMostThreats> threats;
     std::uint16_t staying_out[kMaxPathZones] = {};  ///< of each zone; bit i: agent i leaves it to us
     bool too_many = false;
+  };
+  /// The lane change in force, until a while after it is made or given up: who is behind us then was not there to
+  /// follow us (D4).
+  struct Change {
+    float side = 0.0F;           ///< 1: to the left, -1: to the right, 0: none
+    bool over = false;           ///< we are in the lane it leads to
+    std::uint32_t since_ms = 0;  ///< when it was in force last, or, once over, when it came over
   };
   /// A track that stays out of the ground we share with a lane, while we pass it.
   struct Latch {
@@ -151,10 +164,13 @@ class Guard {
   };
   struct Own;
 
+  void follow_change();
+  /// For how long it has been in force, or we over [s], by plan start.
+  [[nodiscard]] float changing_s() const;
   void look_at_path(int path_index);
-  /// Whether a vehicle ahead, not in the path's strip, is where our box may be before it has come over to that, as far as
-  /// a plan may bring us before we can stand. \param other  its agent; receives the rest
-  [[nodiscard]] bool is_on_way_over(const scene::EgoPath& path, const PathContext& context, InLane& other);
+  /// Whether a vehicle not in the path's strip is where our box is, or may be before it has come over to that. \param seen
+  /// receives where
+  [[nodiscard]] bool is_on_way_over(const scene::EgoPath& path, int agent, trajectory::OnPath& seen);
   /// Of many in a lane the nearest ones matter.
   static void keep_nearest(InLaneList& list, const InLane& other, float own_s_m);
   void find_groups(const scene::EgoPath& path, PathContext& context) const;
@@ -187,9 +203,14 @@ class Guard {
   /// Where our centre is before a plan brings our box to where the vehicle stands after braking as hard as can be.
   [[nodiscard]] float way_over_ends_s_m(std::uint8_t agent_index, const Trajectory& trajectory,
                                         const Own& own) const;
+  /// What is left of the fail-safe in force.
+  [[nodiscard]] FailSafe in_force() const;
   [[nodiscard]] bool followers_can_brake(const PathContext& context, const Trajectory& trajectory,
-                                         const Own& own, float brakes_from_s, float braking_mps2,
+                                         const Own& own, const FailSafe& stop, float until_s,
                                          Verdict& verdict) const;
+  /// When a plan that goes back has left the lane beside.
+  [[nodiscard]] float back_in_lane_s(const scene::EgoPath& path, const Trajectory& trajectory,
+                                     const Own& own) const;
 
   const scene::Scene* scene_ = nullptr;
   const Parameters* parameters_ = nullptr;
@@ -204,6 +225,9 @@ class Guard {
   bool goes_through_ = false;      ///< the plan in force, a group of zones
   bool stops_short_ = false;       ///< ... but stops in it, short of somebody
   std::uint32_t clear_by_ms_ = 0;  ///< when it was to have left it, as we were bound to go on
+  FailSafe fail_safe_;             ///< of the plan in force, from ...
+  std::uint32_t start_ms_ = 0;     ///< ... its start
+  Change change_;
 };
 
 }  // namespace s4tp::safety

@@ -20,6 +20,8 @@ constexpr float kSwingM = 0.7F;        // room for that beside our box: a turn b
 constexpr float kSoonM = 10.0F;        // further than where we can stand, a plan may yet bring us
 constexpr float kCurvesMps2 = 3.0F;
 constexpr int kCapSamples = 4;
+constexpr float kSettleS = 2.0F;       // T_settle of the law (D4)
+constexpr float kBesideShare = 0.25F;  // of a lane's width from its centre we are on one side of it
 
 // Work (WorkMeter's units).
 constexpr int kMostWork = 15'000;  // beyond, the next path is not looked at any more
@@ -45,6 +47,7 @@ int Guard::look(const scene::Scene& scene, const TrajectoryPoint& start, float l
   if (scene.map == nullptr) return work_;
   occupancy::LaneReach reach[kMaxTracks];
   for (int i = 0; i < scene.agents.size(); ++i) work_ += reach[i].measure(*scene.map, scene.agents[i]);
+  follow_change();
   for (int path = 0; path < scene.ego_paths.size(); ++path) {
     if (work_ > kMostWork) return work_;
     look_at_path(path);
@@ -65,23 +68,42 @@ void Guard::keep_nearest(InLaneList& list, const InLane& other, float own_s_m) {
   if (away_m(other) < away_m(list[furthest])) list[furthest] = other;
 }
 
-bool Guard::is_on_way_over(const scene::EgoPath& path, const PathContext& context, InLane& other) {
+bool Guard::is_on_way_over(const scene::EgoPath& path, int agent, trajectory::OnPath& seen) {
   // From the strip to where our front or rear is.
   const float sine = sin(wrap_angle(scene_->ego.rear_axle.heading_rad - path.frenet.heading_rad));
   const float front_d_m = path.frenet.d_m + front_m_ * sine;
   const float right_m = min(0.0F, min(path.frenet.d_m, front_d_m));
   const float left_m = max(0.0F, max(path.frenet.d_m, front_d_m));
   if (left_m - right_m < kInStripM) return false;
-  const scene::Agent& agent = scene_->agents[other.agent];
   bool known = false;
-  const trajectory::OnPath seen = trajectory::see_on_path(*scene_, path, agent, *parameters_, true, known);
+  seen = trajectory::see_on_path(*scene_, path, scene_->agents[agent], *parameters_, true, known);
   work_ += seen.work;
-  other.bumper_s_m = seen.centre_s_m - seen.half_length_m - agent.coasted_m;
-  other.speed_mps = max(0.0F, seen.along_mps);
   const float room_m = 0.5F * parameters_->vehicle.width_m + seen.half_width_m + kSwingM;
-  return known && !seen.overlaps && !seen.crossing && seen.centre_s_m > path.frenet.s_m + centre_m_ &&
-         other.bumper_s_m < context.stop_s_m + front_m_ + kSoonM && seen.centre_d_m > right_m - room_m &&
+  return known && !seen.overlaps && !seen.crossing && seen.centre_d_m > right_m - room_m &&
          seen.centre_d_m < left_m + room_m;
+}
+
+float Guard::changing_s() const {
+  return 1e-3F * static_cast<float>(static_cast<std::int32_t>(scene_->time_ms - change_.since_ms)) + lead_s_;
+}
+
+void Guard::follow_change() {
+  if (changing_s() > kSettleS || scene_->ego_paths.empty()) change_.side = 0.0F;
+  if (scene_->ego_paths.empty()) return;
+  const scene::EgoPath& own = scene_->ego_paths[0];
+  // Who comes into a lane where ways merge is as new there.
+  for (const scene::ConflictZone& zone : own.zones) {
+    const bool inside =
+        own.frenet.s_m + centre_m_ > zone.entry_s_m;  // what has been left is no zone any more
+    if (zone.merging && inside) change_ = {1.0F, true, scene_->time_ms};
+  }
+  if (change_.side == 0.0F) return;
+  // In the lane it leads to we are short of the centre, in the one it leaves beyond it.
+  const float beyond_m = change_.side * own.frenet.d_m;
+  const float most_m = kBesideShare * scene::path_point(*scene_->map, own.path, own.frenet.s_m).width_m;
+  const bool comes_over = !change_.over && beyond_m < -most_m;
+  if (comes_over) change_.since_ms = scene_->time_ms;
+  change_.over = comes_over || (change_.over && beyond_m < most_m);
 }
 
 void Guard::look_at_path(int path_index) {
@@ -99,6 +121,7 @@ void Guard::look_at_path(int path_index) {
   context.changes = path.manoeuvre != scene::Manoeuvre::kKeep;
   work_ += kPathWork;
   context.half_over = abs(path.frenet.d_m) < half_lane_m;
+  context.settles = !context.changes && change_.side != 0.0F;
   // In a lane we have not set out for, a list that is not fresh vouches for nobody.
   const bool sets_out = context.changes && abs(path.frenet.d_m) > 2.0F * half_lane_m - kInStripM;
   if (sets_out && scene_->known.age_ms > scene::kFreshMs) expect_beside(context);
@@ -110,9 +133,24 @@ void Guard::look_at_path(int path_index) {
     const trajectory::OnPath seen =
         trajectory::see_on_path(*scene_, path, agent, *parameters_, joining, known);
     work_ += seen.work;
-    InLane on_way_over{static_cast<std::uint8_t>(i)};
-    if (is_on_way_over(path, context, on_way_over))
-      keep_nearest(context.on_way_over, on_way_over, centre_s_m);
+    trajectory::OnPath beside;
+    if (is_on_way_over(path, i, beside)) {
+      const float along_mps = max(0.0F, beside.along_mps);
+      InLane other{static_cast<std::uint8_t>(i)};
+      other.speed_mps = along_mps;
+      other.bumper_s_m = beside.centre_s_m - beside.half_length_m - agent.coasted_m;
+      // Ahead, as far as a plan may bring us before we can stand.
+      if (beside.centre_s_m > centre_s_m) {
+        if (other.bumper_s_m < context.stop_s_m + front_m_ + kSoonM)
+          keep_nearest(context.on_way_over, other, centre_s_m);
+      } else if (context.settles && !change_.over && beside.along_mps >= 0.0F) {
+        // Whoever is beside us already is left by going back.
+        other.bumper_s_m = beside.centre_s_m + beside.half_length_m + along_mps * lead_s_;
+        if (other.bumper_s_m <
+            context.start_s_m - parameters_->vehicle.rear_overhang_m - parameters_->guard.margin_m)
+          keep_nearest(context.behind, other, centre_s_m);
+      }
+    }
     if (!known || !(seen.overlaps || joining) || seen.crossing) continue;
     const float along_mps = max(0.0F, seen.along_mps);
     if (seen.centre_s_m > centre_s_m) {
@@ -133,7 +171,7 @@ void Guard::look_at_path(int path_index) {
       context.leader_stop_s_m = stop_s_m;
       context.leader = static_cast<std::uint8_t>(i);
       context.leader_mps = along_mps;
-    } else if (context.changes && seen.along_mps >= 0.0F) {
+    } else if ((context.changes || (context.settles && change_.over)) && seen.along_mps >= 0.0F) {
       InLane behind;
       behind.agent = static_cast<std::uint8_t>(i);
       behind.bumper_s_m = seen.centre_s_m + seen.half_length_m + along_mps * lead_s_;

@@ -16,11 +16,12 @@ struct Guard::Own {
   float speed_mps[kTrajectoryPoints];
   float branch_s_m;  ///< of the box centre, where the fail-safe begins to brake
   float branch_mps;
+  float branch_mps2;
   bool blocked;  ///< somebody ahead makes us brake
 
   [[nodiscard]] float end_s_m() const { return s_m[kHorizonSteps]; }
   [[nodiscard]] float stop_s_m(float braking_mps2) const {
-    return branch_s_m + occupancy::stopping_way_m(branch_mps, braking_mps2);
+    return branch_s_m + occupancy::braking_way_m(branch_mps, branch_mps2, braking_mps2);
   }
   /// Where the centre stands if all braking begins at plan start.
   [[nodiscard]] float at_once_s_m(float braking_mps2) const {

@@ -1,6 +1,7 @@
 #include "algo/trajectory/speed_profile.hpp"
 
 #include "algo/core/inline.hpp"
+#include "algo/occupancy/pace.hpp"
 #include "algo/occupancy/safe_distance.hpp"
 
 namespace s4tp::trajectory {
@@ -17,8 +18,7 @@ constexpr float kSettleS = 0.8F;         // a gap's place is settled at exponent
 constexpr float kFollowGapM = 0.5F;      // beyond the RSS distance: clipping stays rare
 constexpr float kDriveJerkMps3 = 8.0F;   // building up drive
 constexpr float kBrakeJerkMps3 = 12.0F;  // ordinary braking and its release
-constexpr float kHardJerkMps3 = 40.0F;   // braking harder than kHardMps2
-constexpr float kHardMps2 = -3.5F;
+constexpr float kHardMps2 = -3.5F;       // braking harder builds up with kHardJerkMps3
 
 /// Acceleration that meets the speed cap kReactS ahead.
 float for_cap(const ReferenceLine& line, const LongitudinalState& state) {
@@ -83,7 +83,7 @@ float advance(float wanted_mps2, const Parameters& parameters, LongitudinalState
   const float before_mps2 = state.acceleration_mps2;
   const float bounded = clamp(wanted_mps2, -vehicle.braking_max_mps2, vehicle.acceleration_max_mps2);
   const float up = before_mps2 < 0.0F ? kBrakeJerkMps3 : kDriveJerkMps3;
-  const float down = bounded < kHardMps2 ? kHardJerkMps3 : kBrakeJerkMps3;
+  const float down = bounded < kHardMps2 ? occupancy::kHardJerkMps3 : kBrakeJerkMps3;
   float now_mps2 = clamp(bounded, before_mps2 - down * kStepS, before_mps2 + up * kStepS);
   if (before_mps <= 0.0F && wanted_mps2 > 0.0F) now_mps2 = min(bounded, max(now_mps2, up * kStepS));
 
