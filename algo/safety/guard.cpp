@@ -33,7 +33,7 @@ constexpr int kThreatWork = 14;
 constexpr int kFollowerWork = 115;
 constexpr int kLatchWork = 2;
 constexpr int kWayOverWork = 115;
-constexpr int kWayBackWork = 150;
+constexpr int kSidewaysWork = 150;
 
 }  // namespace
 
@@ -41,7 +41,7 @@ int Guard::judge_work(int path) const {
   const PathContext& context = contexts_[path];
   return kJudgeWork + kGroupWork * context.groups.size() + kThreatWork * context.threats.size() +
          kFollowerWork * context.behind.size() + kWayOverWork * context.on_way_over.size() +
-         (context.settles && !context.behind.empty() ? kWayBackWork : 0);
+         (context.changes || (context.settles && !context.behind.empty()) ? kSidewaysWork : 0);
 }
 
 int Guard::commit_work() const {
@@ -110,22 +110,25 @@ float Guard::way_over_ends_s_m(std::uint8_t agent_index, const Trajectory& traje
   return trajectory::kNoDeadEndM;
 }
 
-float Guard::back_in_lane_s(const scene::EgoPath& path, const Trajectory& trajectory, const Own& own) const {
+float Guard::when_s(Sideways what, const scene::EgoPath& path, const Trajectory& trajectory,
+                    const Own& own) const {
   const auto& vehicle = parameters_->vehicle;
   for (int i = 0; i < kTrajectoryPoints; i += kWayOverStride) {
     const scene::PathPoint there = scene::path_point(*scene_->map, path.path, own.s_m[i]);
     const Box box = trajectory::ego_box(trajectory.points[i].rear_axle, *parameters_);
     const Point beside = position(box.centre) - position(there.pose);
     const float turned = abs(sin(wrap_angle(box.centre.heading_rad - there.pose.heading_rad)));
-    const float reach_m = abs(cross(direction(there.pose.heading_rad), beside)) + 0.5F * vehicle.width_m +
-                          0.5F * turned * vehicle.length_m;
-    if (reach_m <= 0.5F * there.width_m) return static_cast<float>(i) * kStepS;
+    const float half_m = 0.5F * (vehicle.width_m + turned * vehicle.length_m);
+    const float beside_m = abs(cross(direction(there.pose.heading_rad), beside));
+    const bool so = what == Sideways::kReachesIn ? beside_m - half_m < 0.5F * there.width_m
+                                                 : beside_m + half_m <= 0.5F * there.width_m;
+    if (so) return static_cast<float>(i) * kStepS;
   }
   return kHorizonS;
 }
 
 bool Guard::followers_can_brake(const PathContext& context, const Trajectory& trajectory, const Own& own,
-                                const FailSafe& stop, float until_s, Verdict& verdict) const {
+                                const FailSafe& stop, const Between& between, Verdict& verdict) const {
   const auto& rss = parameters_->rss;
   const float half_m = 0.5F * parameters_->vehicle.length_m;
   for (const InLane& behind : context.behind) {
@@ -137,10 +140,7 @@ bool Guard::followers_can_brake(const PathContext& context, const Trajectory& tr
       return false;
     }
     // From when we are over the line it has its response time, then it brakes down to our speed.
-    const float onset_s = context.settles && change_.over ? -changing_s()
-                          : context.half_over             ? 0.0F
-                                                          : kOverLineS;
-    const float from_s = max(0.0F, onset_s + rss.response_s);
+    const float from_s = max(0.0F, between.from_s + rss.response_s);
     float s_m = behind.bumper_s_m;
     float speed_mps = behind.speed_mps;
     float own_s_m = own.s_m[0] - half_m;
@@ -149,7 +149,7 @@ bool Guard::followers_can_brake(const PathContext& context, const Trajectory& tr
     constexpr int kLooks = 25;
     for (int i = 1; i <= kLooks; ++i) {
       const float time_s = static_cast<float>(i) * kLookS;
-      if (time_s > until_s) break;
+      if (time_s > between.until_s) break;
       if (time_s <= stop.branch_s) {
         own_s_m = own.place_at_m(time_s, 0.0F) - half_m;
         own_mps = own.speed_at_mps(time_s, 0.0F);
@@ -162,12 +162,13 @@ bool Guard::followers_can_brake(const PathContext& context, const Trajectory& tr
           time_s > from_s ? max(0.0F, speed_mps - rss.braking_min_mps2 * kLookS) : speed_mps;
       s_m = s_m + 0.5F * (speed_mps + later_mps) * kLookS;
       speed_mps = later_mps;
+      if (time_s < between.from_s) continue;
       if (s_m > own_s_m - parameters_->guard.margin_m) {
         verdict.cause = Cause::kFollower;
         verdict.agent = behind.agent;
         return false;
       }
-      if (speed_mps <= 0.0F || (own_mps <= 0.0F && speed_mps <= 0.0F)) break;
+      if (speed_mps <= 0.0F) break;
     }
   }
   return true;
@@ -200,6 +201,7 @@ Verdict Guard::judge(int path_index, const Trajectory& trajectory) const {
   const int branch = to_int(guard.takeover_s / kStepS - 0.5F, 0, kHorizonSteps - 1);
   const float on_s = guard.takeover_s - static_cast<float>(branch) * kStepS;
   own.branch_mps = lerp(own.speed_mps[branch], own.speed_mps[branch + 1], on_s / kStepS);
+  own.start_mps2 = trajectory.points[0].acceleration_mps2;
   own.branch_mps2 = lerp(trajectory.points[branch].acceleration_mps2,
                          trajectory.points[branch + 1].acceleration_mps2, on_s / kStepS);
   own.branch_s_m = own.s_m[branch] + 0.5F * on_s * (own.speed_mps[branch] + own.branch_mps);
@@ -236,10 +238,19 @@ Verdict Guard::judge(int path_index, const Trajectory& trajectory) const {
     verdict = {Cause::kLeader, ahead};
     return verdict;
   }
-  if (context.changes && !context.half_over &&
-      own.place_at_m(kOverLineS, 0.0F) + front_m + guard.margin_m > context.beside_s_m) {
-    verdict = {Cause::kLeader, context.beside};
-    return verdict;
+  // While our box is in the lane of others who are not used to it.
+  Between between;
+  if (context.changes && !context.half_over) {
+    between.from_s = when_s(Sideways::kReachesIn, path, trajectory, own);
+    if (own.place_at_m(between.from_s, 0.0F) + front_m + guard.margin_m >
+        context.beside.least_s_m(between.from_s)) {
+      verdict = {Cause::kLeader, context.beside.agent};
+      return verdict;
+    }
+  } else if (context.settles && change_.over) {
+    between.from_s = -changing_s();
+  } else if (context.settles && !context.behind.empty()) {
+    between.until_s = when_s(Sideways::kIsBack, path, trajectory, own);
   }
   for (const ZoneGroup& group : context.groups) {
     if (own.s_m[0] >= group.exit_s_m) continue;
@@ -266,8 +277,6 @@ Verdict Guard::judge(int path_index, const Trajectory& trajectory) const {
   }
   if (verdict.stops_short) verdict.fail_safe.branch_s = guard.takeover_s;
   if ((context.changes && !context.half_over) || (context.settles && !context.behind.empty())) {
-    const bool goes_back = context.settles && !change_.over;
-    const float until_s = goes_back ? back_in_lane_s(path, trajectory, own) : occupancy::kNeverS;
     bool brakes = false;
     for (int k = 0; k <= kSettlingCount && !brakes; ++k) {
       const FailSafe stop = k < kSettlingCount ? FailSafe{max(guard.takeover_s, kSettlings[k].drives_on_s),
@@ -279,7 +288,7 @@ Verdict Guard::judge(int path_index, const Trajectory& trajectory) const {
                     occupancy::stopping_way_m(own.speed_at_mps(stop.branch_s, 0.0F), stop.braking_mps2)
               : own.stop_s_m(stop.braking_mps2);
       if (stops_s_m > free_s_m) continue;
-      brakes = followers_can_brake(context, trajectory, own, stop, until_s, verdict);
+      brakes = followers_can_brake(context, trajectory, own, stop, between, verdict);
       if (brakes) verdict.fail_safe = {max(verdict.fail_safe.branch_s, stop.branch_s), stop.braking_mps2};
     }
     if (!brakes) {

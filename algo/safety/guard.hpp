@@ -35,6 +35,7 @@
 #include "algo/core/parameters.hpp"
 #include "algo/core/trajectory.hpp"
 #include "algo/occupancy/lane_reach.hpp"
+#include "algo/occupancy/pace.hpp"
 #include "algo/safety/legal_occupancy.hpp"
 #include "algo/scene/scene.hpp"
 #include "algo/trajectory/along_path.hpp"
@@ -130,6 +131,20 @@ class Guard {
     float speed_mps = 0.0F;
   };
   using InLaneList = BoundedVector<InLane, 4>;
+  /// Whoever is ahead, or beside us with its middle further on.
+  struct Passing {
+    std::uint8_t agent = 255;
+    float stop_s_m = 0.0F;  ///< of its rear bumper after braking as hard as can be
+    float speed_mps = 0.0F;
+    float braking_mps2 = 1.0F;
+    /// Rear bumper, at least, `time_s` after plan start.
+    [[nodiscard]] float least_s_m(float time_s) const;
+  };
+  /// While our box is in a lane where others are not used to it, from plan start on [s].
+  struct Between {
+    float from_s = 0.0F;  ///< before 0: since then
+    float until_s = occupancy::kNeverS;
+  };
   /// What one path offers to all plans on it.
   struct PathContext {
     float start_s_m = 0.0F;        ///< of our rear axle at plan start
@@ -138,13 +153,12 @@ class Guard {
     float leader_stop_s_m = 0.0F;  ///< foremost place for our front bumper if who is ahead brakes hard
     std::uint8_t leader = 255;
     float leader_mps = 0.0F;
-    float beside_s_m = 0.0F;    ///< our front stays behind it until a change just begun is over the line, ...
-    std::uint8_t beside = 255;  ///< ... because of whom
-    bool changes = false;       ///< our box is, or comes, from another lane
-    bool half_over = false;     ///< most of us is in the lane already
-    bool settles = false;       ///< our lane, and a change is in force or made or given up just now
-    InLaneList behind;          ///< only where `changes` or `settles`: those for whom we are new
-    InLaneList on_way_over;     ///< ahead, where our box may be before it has come over to the path's strip
+    Passing beside;          ///< our front stays behind it until a change is over the line
+    bool changes = false;    ///< our box is, or comes, from another lane
+    bool half_over = false;  ///< most of us is in the lane already
+    bool settles = false;    ///< our lane, and a change is in force or made or given up just now
+    InLaneList behind;       ///< only where `changes` or `settles`: those for whom we are new
+    InLaneList on_way_over;  ///< ahead, where our box may be before it has come over to the path's strip
     BoundedVector<ZoneGroup, kMaxPathZones> groups;
     BoundedVector<Threat, kMostThreats> threats;
     std::uint16_t staying_out[kMaxPathZones] = {};  ///< of each zone; bit i: agent i leaves it to us
@@ -206,11 +220,16 @@ class Guard {
   /// What is left of the fail-safe in force.
   [[nodiscard]] FailSafe in_force() const;
   [[nodiscard]] bool followers_can_brake(const PathContext& context, const Trajectory& trajectory,
-                                         const Own& own, const FailSafe& stop, float until_s,
+                                         const Own& own, const FailSafe& stop, const Between& between,
                                          Verdict& verdict) const;
-  /// When a plan that goes back has left the lane beside.
-  [[nodiscard]] float back_in_lane_s(const scene::EgoPath& path, const Trajectory& trajectory,
-                                     const Own& own) const;
+  /// What a plan does beside a path.
+  enum class Sideways : std::uint8_t {
+    kReachesIn,  ///< our box comes into its lane
+    kIsBack,     ///< all of it is in there
+  };
+  /// When it does; the horizon's end: not before.
+  [[nodiscard]] float when_s(Sideways what, const scene::EgoPath& path, const Trajectory& trajectory,
+                             const Own& own) const;
 
   const scene::Scene* scene_ = nullptr;
   const Parameters* parameters_ = nullptr;

@@ -68,6 +68,10 @@ void Guard::keep_nearest(InLaneList& list, const InLane& other, float own_s_m) {
   if (away_m(other) < away_m(list[furthest])) list[furthest] = other;
 }
 
+float Guard::Passing::least_s_m(float time_s) const {
+  return stop_s_m - occupancy::stopping_way_m(max(0.0F, speed_mps - braking_mps2 * time_s), braking_mps2);
+}
+
 bool Guard::is_on_way_over(const scene::EgoPath& path, int agent, trajectory::OnPath& seen) {
   // From the strip to where our front or rear is.
   const float sine = sin(wrap_angle(scene_->ego.rear_axle.heading_rad - path.frenet.heading_rad));
@@ -116,7 +120,7 @@ void Guard::look_at_path(int path_index) {
                      occupancy::stopping_way_m(start_.speed_mps, parameters_->guard.braking_mps2);
   context.end_s_m = trajectory::dead_end_s_m(*scene_, path);
   context.leader_stop_s_m = trajectory::kNoDeadEndM;
-  context.beside_s_m = trajectory::kNoDeadEndM;
+  context.beside.stop_s_m = trajectory::kNoDeadEndM;
   const float half_lane_m = 0.5F * scene::path_point(*scene_->map, path.path, path.frenet.s_m).width_m;
   context.changes = path.manoeuvre != scene::Manoeuvre::kKeep;
   work_ += kPathWork;
@@ -159,14 +163,10 @@ void Guard::look_at_path(int path_index) {
       const float last_mps = max(0.0F, along_mps - agent.coasted_mps);
       const float stop_s_m =
           seen_s_m + occupancy::stopping_way_m(last_mps, parameters_->law.braking_max_mps2);
-      const float slowest_mps =
-          max(0.0F, last_mps - parameters_->law.braking_max_mps2 * (lead_s_ + kOverLineS));
-      const float over_line_s_m =
-          stop_s_m - occupancy::stopping_way_m(slowest_mps, parameters_->law.braking_max_mps2);
-      if (over_line_s_m < context.beside_s_m) {
-        context.beside_s_m = over_line_s_m;
-        context.beside = static_cast<std::uint8_t>(i);
-      }
+      const float braking_mps2 = parameters_->law.braking_max_mps2;
+      const Passing passing{static_cast<std::uint8_t>(i), stop_s_m,
+                            max(0.0F, last_mps - braking_mps2 * lead_s_), braking_mps2};
+      if (passing.least_s_m(kOverLineS) < context.beside.least_s_m(kOverLineS)) context.beside = passing;
       if (stop_s_m >= context.leader_stop_s_m) continue;
       context.leader_stop_s_m = stop_s_m;
       context.leader = static_cast<std::uint8_t>(i);

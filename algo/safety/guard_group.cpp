@@ -98,7 +98,7 @@ bool Guard::passes_group(const scene::EgoPath& path, const PathContext& context,
     verdict = {Cause::kZone};
     return false;
   }
-  const float bound_s_m = own.at_once_s_m(parameters_->vehicle.braking_max_mps2);
+  const float bound_s_m = own.nearest_stop_s_m(parameters_->vehicle.braking_max_mps2);
   for (const Threat& threat : context.threats) {
     if (threat.zone < group.first || threat.zone >= group.end) continue;
     const scene::ConflictZone& zone = path.zones[threat.zone];
@@ -124,7 +124,7 @@ bool Guard::passes_group(const scene::EgoPath& path, const PathContext& context,
 bool Guard::stops_short(const scene::EgoPath& path, const PathContext& context, const ZoneGroup& group,
                         const Own& own) const {
   const float stop_s_m = own.stop_s_m(parameters_->guard.braking_mps2);
-  const float bound_s_m = own.at_once_s_m(parameters_->vehicle.braking_max_mps2);
+  const float bound_s_m = own.nearest_stop_s_m(parameters_->vehicle.braking_max_mps2);
   for (const Threat& threat : context.threats) {
     if (threat.zone < group.first || threat.zone >= group.end) continue;
     const scene::ConflictZone& zone = path.zones[threat.zone];

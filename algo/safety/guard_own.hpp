@@ -14,6 +14,7 @@ inline constexpr float kGoesOnMps2 = 1.5F;  // how a plan is driven on beyond it
 struct Guard::Own {
   float s_m[kTrajectoryPoints];  ///< of the box centre
   float speed_mps[kTrajectoryPoints];
+  float start_mps2;  ///< acceleration at plan start
   float branch_s_m;  ///< of the box centre, where the fail-safe begins to brake
   float branch_mps;
   float branch_mps2;
@@ -23,8 +24,12 @@ struct Guard::Own {
   [[nodiscard]] float stop_s_m(float braking_mps2) const {
     return branch_s_m + occupancy::braking_way_m(branch_mps, branch_mps2, braking_mps2);
   }
-  /// Where the centre stands if all braking begins at plan start.
+  /// Where the centre stands if braking begins at plan start and builds up from there; and if all of it is there at once:
+  /// nothing stops shorter.
   [[nodiscard]] float at_once_s_m(float braking_mps2) const {
+    return s_m[0] + occupancy::braking_way_m(speed_mps[0], start_mps2, braking_mps2);
+  }
+  [[nodiscard]] float nearest_stop_s_m(float braking_mps2) const {
     return s_m[0] + occupancy::stopping_way_m(speed_mps[0], braking_mps2);
   }
   [[nodiscard]] occupancy::Pace beyond(float cap_mps) const {

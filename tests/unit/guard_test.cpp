@@ -1,7 +1,7 @@
 // When the guard lets a plan be driven.
 //
-// A plan brakes in 0.35 s at the earliest, then with 6 m/s^2: from 12 m/s it needs 4.2 + 12 = 16.2 m, from 6
-// m/s 2.1 + 3 = 5.1 m. Places are those of the box centre, 2.5 m behind the front bumper.
+// A plan brakes in 0.35 s at the earliest, then with 6 m/s^2, which takes 0.15 s to build up: from 12 m/s it needs 4.2 + 12.9 =
+// 17.1 m, from 6 m/s 2.1 + 3.4 = 5.5 m. Places are those of the box centre, 2.5 m behind the front bumper.
 
 #include "algo/safety/guard.hpp"
 
@@ -14,25 +14,25 @@ namespace {
 
 using namespace test;  // NOLINT: the map builders are the language of these tests
 
-// GUARD-001 Whoever may come: who can still stop 0.7 m before the zone, at 95.3, may go on. 95.3 - 16.2
-// = 79.1.
+// GUARD-001 Whoever may come: who can still stop 0.7 m before the zone, at 95.3, may go on. 95.3 - 17.1
+// = 78.2.
 TEST(Guard, WhoCanStopBeforeTheZoneGoesOn) {
   SharedGround road(Priority::kFirstYields);
   road.other(78.0F, 12.0F);
-  EXPECT_TRUE(road.safe(79.0F, 12.0F, 0.0F));
-  EXPECT_FALSE(road.judge(79.0F, 12.0F, 0.0F).clears);
-  const Verdict verdict = road.judge(79.3F, 12.0F, 0.0F);
+  EXPECT_TRUE(road.safe(78.1F, 12.0F, 0.0F));
+  EXPECT_FALSE(road.judge(78.1F, 12.0F, 0.0F).clears);
+  const Verdict verdict = road.judge(78.4F, 12.0F, 0.0F);
   EXPECT_EQ(verdict.cause, Cause::kZone);
   EXPECT_EQ(verdict.agent, 0);
 }
 
-// GUARD-001 It is the plan's own speed when it can be left that counts: 1.4 m/s more after 0.4 s with 3.5
-// m/s^2 take about 3.5 m more.
+// GUARD-001 It is the plan's own speed when it can be left that counts: 1.2 m/s more after 0.35 s with 3.5
+// m/s^2, and 0.24 s until that has become braking, take 4.4 m more.
 TEST(Guard, WhoSpeedsUpNeedsMoreRoom) {
   SharedGround road(Priority::kFirstYields);
   road.other(78.0F, 12.0F);
-  EXPECT_FALSE(road.safe(79.0F, 12.0F, 3.5F));
-  EXPECT_TRUE(road.safe(75.0F, 12.0F, 3.5F));
+  EXPECT_FALSE(road.safe(74.2F, 12.0F, 3.5F));
+  EXPECT_TRUE(road.safe(73.4F, 12.0F, 3.5F));
 }
 
 // GUARD-002 With nobody about, the plan goes through: 24 m to the exit at 12 m/s.
@@ -154,7 +154,7 @@ TEST(Guard, ZonesWithoutRoomBetweenAreOneGroup) {
   }
 }
 
-// GUARD-004 12 m/s behind 12 m/s, who stops in 9 m: 16.2 + 0.5 - 9 = 7.7 m between the bumpers are enough if
+// GUARD-004 12 m/s behind 12 m/s, who stops in 9 m: 17.1 + 0.5 - 9 = 8.6 m between the bumpers are enough if
 // nothing but the plan is to be left. Who speeds up needs more; who comes nearer on purpose is refused.
 TEST(Guard, TheLeaderMayBrakeHard) {
   const auto behind = [](float gap_m, float own_mps, float acceleration_mps2, float leader_mps) {
@@ -163,17 +163,17 @@ TEST(Guard, TheLeaderMayBrakeHard) {
     road.leader(20.0F + 5.0F + gap_m, leader_mps);
     return road.cause(20.0F, own_mps, acceleration_mps2);
   };
-  EXPECT_EQ(behind(7.8F, 12.0F, 0.0F, 12.0F), Cause::kNone);
-  EXPECT_EQ(behind(7.8F, 12.0F, 2.0F, 12.0F), Cause::kLeader);
+  EXPECT_EQ(behind(8.7F, 12.0F, 0.0F, 12.0F), Cause::kNone);
+  EXPECT_EQ(behind(8.7F, 12.0F, 2.0F, 12.0F), Cause::kLeader);
   EXPECT_EQ(behind(13.0F, 12.0F, 2.0F, 12.0F), Cause::kNone);
-  EXPECT_EQ(behind(16.8F, 12.0F, 0.0F, 0.0F), Cause::kNone);
+  EXPECT_EQ(behind(17.7F, 12.0F, 0.0F, 0.0F), Cause::kNone);
 }
 
-// GUARD-004 Towards one that stands, 12 m/s are kept up to 16.7 m before it and no longer.
+// GUARD-004 Towards one that stands, 12 m/s are kept up to 17.6 m before it and no longer.
 TEST(Guard, NobodyGoesOnTowardsOneWhoStands) {
   SharedGround road(Priority::kFirstHasPriority);
   road.scene.ego_paths[0].zones.clear();
-  road.leader(20.0F + 5.0F + 16.5F, 0.0F);
+  road.leader(20.0F + 5.0F + 17.4F, 0.0F);
   EXPECT_EQ(road.cause(20.0F, 12.0F, 0.0F), Cause::kLeader);
   EXPECT_EQ(road.cause(20.0F, 12.0F, -6.0F), Cause::kNone);
 }
@@ -201,7 +201,7 @@ TEST(Guard, BehindACutInItOnlyMustNotGetWorse) {
   EXPECT_EQ(road.cause(20.0F, 12.0F, 1.0F), Cause::kLeader);
 }
 
-// GUARD-001 On a road that ends at 60 the front stops before: 60 - 2.5 - 16.2 = 41.3.
+// GUARD-001 On a road that ends at 60 the front stops before: 60 - 2.5 - 17.1 = 40.4.
 TEST(Guard, TheRoadMayEnd) {
   SharedGround road(Priority::kFirstHasPriority);
   road.map.lanes[0].on_route = false;
@@ -209,8 +209,8 @@ TEST(Guard, TheRoadMayEnd) {
   road.map.lanes[0].length_m = road.ours.length_m = 60.0F;
   road.scene.ego_paths[0].path = road.ours;
   road.scene.ego_paths[0].zones.clear();
-  EXPECT_EQ(road.cause(41.2F, 12.0F, 0.0F), Cause::kNone);
-  EXPECT_EQ(road.cause(41.5F, 12.0F, 0.0F), Cause::kRoadEnd);
+  EXPECT_EQ(road.cause(40.3F, 12.0F, 0.0F), Cause::kNone);
+  EXPECT_EQ(road.cause(40.6F, 12.0F, 0.0F), Cause::kRoadEnd);
   EXPECT_EQ(road.cause(59.0F, 0.0F, 0.0F), Cause::kNone) << "who stands may go on standing";
   EXPECT_EQ(road.cause(59.0F, 0.0F, 2.0F), Cause::kRoadEnd);
   EXPECT_EQ(road.cause(59.0F, 0.0F, 0.3F), Cause::kRoadEnd) << "nor may it creep on";

@@ -93,14 +93,14 @@ TEST(GuardUnseen, NobodyOvertakesWhoIsAheadInItsLane) {
   }
 }
 
-// GUARD-012 Beyond the zone, at 150. From 12 m/s the fail-safe stands 16.2 m on, its front 2.5 m further, 0.5 m
-// clear of a rear 2.5 m before the edge: 21.7 m must be known.
+// GUARD-012 Beyond the zone, at 150. From 12 m/s the fail-safe stands 17.1 m on, its front 2.5 m further, 0.5 m
+// clear of a rear 2.5 m before the edge: 22.6 m must be known.
 TEST(GuardUnseen, SomebodyMayStandWhereKnownGroundEnds) {
-  for (const float radius_m : {21.2F, 22.2F}) {
+  for (const float radius_m : {22.1F, 23.1F}) {
     SharedGround road(Priority::kFirstYields);
     road.scene.known = known_within(radius_m, 150.0F);
     const Verdict verdict = road.judge(150.0F, 12.0F, 0.0F);
-    EXPECT_EQ(verdict.safe(), radius_m > 21.7F) << radius_m;
+    EXPECT_EQ(verdict.safe(), radius_m > 22.6F) << radius_m;
     if (!verdict.safe()) {
       EXPECT_EQ(verdict.cause, Cause::kLeader);
       EXPECT_EQ(verdict.agent, kUnseen);
@@ -123,8 +123,10 @@ struct Change : LaneChangeRoad {
     put_ego(scene, start);
     Trajectory trajectory;
     trajectory.points[0] = start;
-    for (int i = 1; i < kTrajectoryPoints; ++i)
+    for (int i = 1; i < kTrajectoryPoints; ++i) {
       trajectory.points[i] = trajectory::bicycle_step(trajectory.points[i - 1], 0.0F, 0.0F, kStepS);
+      if (path != 0) trajectory.points[i].rear_axle.y_m = kLaneWidthM * static_cast<float>(i) / kHorizonSteps;
+    }
     Guard guard;
     guard.look(scene, start, 0.0F, parameters);
     return guard.judge(path, trajectory);
