@@ -72,7 +72,9 @@ void evaluate(const satp::NetworkShape& shape, const EvaluationOptions& options)
     result["predictors"][name] =
         judge(name, calibrated, errors_of(judged_set, samples, forecasts), kinematic);
     std::fflush(stdout);
-    return std::pair(std::move(forecasts), fitted_sigma_m(calibrated));
+    const double sigma_m = fitted_sigma_m(calibrated);
+    result["width_m"][name] = sigma_m;  // of its likelihoods
+    return std::pair(std::move(forecasts), sigma_m);
   };
   const auto network_of = [&](bool with_plan) {
     return [&network, temperature, with_plan](const SampleSet& of, const std::vector<std::size_t>& which) {

@@ -122,6 +122,7 @@ TEST_F(Export, AnImageIsJudgedWithoutItsCheckpoint) {
   const auto figures = nlohmann::json::parse(std::ifstream(options.json));
   EXPECT_TRUE(figures["predictors"].contains("image, our plan"));
   EXPECT_FALSE(figures["predictors"].contains("satp, our plan"));
+  EXPECT_GT(figures["width_m"]["image, our plan"], 0.0);
   EXPECT_GT(figures["conditioned"]["image"]["conditioning"]["pairs"], 0);
   std::filesystem::remove_all(options.data);
 }
