@@ -4,6 +4,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <utility>
 
 #include "sim_host/train/conditioning.hpp"
 #include "sim_host/train/figures.hpp"
@@ -34,6 +35,9 @@ nlohmann::ordered_json judge(const char* name, const std::vector<VehicleErrors>&
 }  // namespace
 
 void evaluate(const satp::NetworkShape& shape, const EvaluationOptions& options) {
+  if (options.checkpoint.empty() && options.image.empty()) {
+    throw std::runtime_error("nothing to judge: neither a checkpoint nor an image");
+  }
   const SampleSet set(options.data);
   const std::vector<std::size_t> calibration = samples_of(set, Part::kCalibration);
   SampleSet fresh_set;
@@ -46,22 +50,31 @@ void evaluate(const satp::NetworkShape& shape, const EvaluationOptions& options)
       samples.insert(samples.end(), more.begin(), more.end());
     }
   }
-  const auto network = load_network(shape, options.checkpoint);
-  const double temperature = calibrated_temperature(*network, set, calibration);
-  calibrate_yields(*network, set, calibration, temperature);
+  std::shared_ptr<Network> network;
+  double temperature = 1.0;
+  if (!options.checkpoint.empty()) {
+    network = load_network(shape, options.checkpoint);
+    temperature = calibrated_temperature(*network, set, calibration);
+    calibrate_yields(*network, set, calibration, temperature);
+    std::printf("temperature %.3f, ", temperature);
+  }
   std::printf(
-      "temperature %.3f, from %zu samples; %zu samples judged\n\n%-22s %-12s %8s %15s %9s %7s %7s %7s %7s   "
-      "%s\n",
-      temperature, calibration.size(), samples.size(), "predictor", "scenario", "vehicles", "top-1 ADE [m]",
-      "weighted", "nearest", "FDE", "nearest", "NLL", "ADE less kinematic");
+      "calibrated on %zu samples; %zu samples judged\n\n%-22s %-12s %8s %15s %9s %7s %7s %7s %7s   %s\n",
+      calibration.size(), samples.size(), "predictor", "scenario", "vehicles", "top-1 ADE [m]", "weighted",
+      "nearest", "FDE", "nearest", "NLL", "ADE less kinematic");
   const std::vector<VehicleErrors> kinematic =
       errors_of(judged_set, samples, kinematic_forecasts(judged_set, samples));
-  nlohmann::ordered_json result{{"temperature", temperature}};
+  nlohmann::ordered_json result;
+  if (network) result["temperature"] = temperature;
   const auto add = [&](const char* name, auto&& forecasts_of) {
     const std::vector<VehicleErrors> calibrated = errors_of(set, calibration, forecasts_of(set, calibration));
+    Forecasts forecasts = forecasts_of(judged_set, samples);
     result["predictors"][name] =
-        judge(name, calibrated, errors_of(judged_set, samples, forecasts_of(judged_set, samples)), kinematic);
-    return fitted_sigma_m(calibrated);
+        judge(name, calibrated, errors_of(judged_set, samples, forecasts), kinematic);
+    std::fflush(stdout);
+    const double sigma_m = fitted_sigma_m(calibrated);
+    result["width_m"][name] = sigma_m;  // of its likelihoods
+    return std::pair(std::move(forecasts), sigma_m);
   };
   const auto network_of = [&](bool with_plan) {
     return [&network, temperature, with_plan](const SampleSet& of, const std::vector<std::size_t>& which) {
@@ -71,10 +84,8 @@ void evaluate(const satp::NetworkShape& shape, const EvaluationOptions& options)
   add("constant velocity", steady_forecasts);
   add("kinematic", kinematic_forecasts);
   add("kinematic, 3 speeds", kinematic_variants);
-  add("satp, no plan", network_of(false));
-  const double sigma_m = add("satp, our plan", network_of(true));
-  // What a plan does to a forecast, and what is promised of it.
-  const auto condition = [&](const char* name, const Forecasts& planned) {
+  // What a plan does to a forecast, and what is promised of it; each with the width fitted for itself.
+  const auto condition = [&](const char* name, const Forecasts& planned, double sigma_m) {
     nlohmann::ordered_json& figures = result["conditioned"][name];
     figures["conditioning"] = conditioning_figures(judged_set, samples, planned, sigma_m);
     figures["gate"] = gate_figures(judged_set, samples, planned);
@@ -82,22 +93,26 @@ void evaluate(const satp::NetworkShape& shape, const EvaluationOptions& options)
     for (const auto& [figure, value] : figures.items())
       std::printf("%s: %s %s\n", name, figure.c_str(), value.dump().c_str());
   };
-  const Forecasts planned = network_of(true)(judged_set, samples);
+  if (network) {
+    add("satp, no plan", network_of(false));
+    const auto [planned, sigma_m] = add("satp, our plan", network_of(true));
+    condition("satp", planned, sigma_m);
+  }
   if (!options.image.empty()) {
     const std::vector<std::uint32_t> image = read_image(options.image);
-    for (const bool with_plan : {false, true}) {
-      add(with_plan ? "image, our plan" : "image, no plan",
-          [&image, with_plan](const SampleSet& of, const std::vector<std::size_t>& which) {
-            return image_forecasts(image, of, which, with_plan);
-          });
-    }
-    std::printf("\n");
-    condition("image", image_forecasts(image, judged_set, samples, true));
+    const auto image_of = [&image](bool with_plan) {
+      return [&image, with_plan](const SampleSet& of, const std::vector<std::size_t>& which) {
+        return image_forecasts(image, of, which, with_plan);
+      };
+    };
+    add("image, no plan", image_of(false));
+    const auto [planned, sigma_m] = add("image, our plan", image_of(true));
+    condition("image", planned, sigma_m);
   }
-  condition("satp", planned);
   if (!options.plot.empty()) {
+    const char* drawn = network ? "satp, our plan" : "image, our plan";
     std::vector<Reliability> curves{
-        {"futures, by probability", result["predictors"]["satp, our plan"]["all"]["reliability"]}};
+        {"futures, by probability", result["predictors"][drawn]["all"]["reliability"]}};
     for (const auto& [name, figures] : result["conditioned"].items())
       curves.push_back({"p(yields, we go), " + name, figures["yields"]["bins"]});
     draw_reliability(curves, options.plot);

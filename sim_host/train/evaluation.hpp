@@ -12,13 +12,13 @@ namespace s4tp::train {
 struct EvaluationOptions {
   std::filesystem::path data;        ///< the samples it was trained on: their calibration part calibrates
   std::filesystem::path fresh;       ///< samples to judge it on; else the validation part of `data`
-  std::filesystem::path checkpoint;  ///< of the network
+  std::filesystem::path checkpoint;  ///< of the network; none: the image is judged alone
   std::filesystem::path image;       ///< judged as well
   std::filesystem::path json;        ///< file for all figures
   std::filesystem::path plot;        ///< file for the reliability plot (SVG)
 };
 
-/// \throws std::runtime_error when a file cannot be read or written
+/// \throws std::runtime_error when a file cannot be read or written, or there is neither checkpoint nor image
 void evaluate(const satp::NetworkShape& shape, const EvaluationOptions& options);
 
 }  // namespace s4tp::train

@@ -220,7 +220,8 @@ void add_figures(CLI::App& tool, FiguresOptions& options) {
       ->required();
   command.add_option("--fresh", evaluation.fresh,
                      "samples to judge it on; else the validation part of --data");
-  command.add_option("--checkpoint", evaluation.checkpoint, "of ./s4tp train run")->required();
+  command.add_option("--checkpoint", evaluation.checkpoint,
+                     "of ./s4tp train run; without one the image is judged alone");
   command.add_option("--image", evaluation.image, "of ./s4tp train export: judged as well");
   command.add_option("--json", evaluation.json, "file for all figures");
   command.add_option("--plot", evaluation.plot, "file for the reliability plot (SVG)");

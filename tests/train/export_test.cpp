@@ -6,8 +6,11 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
 #include <numeric>
 
+#include "sim_host/train/evaluation.hpp"
 #include "sim_host/train/image_export.hpp"
 #include "sim_host/train/predict.hpp"
 #include "sim_host/train/yields_row.hpp"
@@ -103,6 +106,25 @@ TEST_F(Export, TheRowOfYieldingIsFittedToAnImage) {
       EXPECT_GT(after[i][1].yield_probability(), 0.8);
     }
   }
+}
+
+// An image is judged alone where no checkpoint is left of its training; with neither there is nothing to judge.
+TEST_F(Export, AnImageIsJudgedWithoutItsCheckpoint) {
+  EvaluationOptions options;
+  options.data = file.string() + "_judged";
+  std::filesystem::create_directories(options.data);
+  write_rule_traffic(options.data / "rule.samples", 5, 40, 1);
+  EXPECT_THROW(evaluate(satp::kMcuShape, options), std::runtime_error);
+  options.image = options.data / "network.image";
+  options.json = options.data / "figures.json";
+  write_image(export_image({network->arrays(), 1.0F, 10, 11}, set, samples), options.image);
+  evaluate(satp::kMcuShape, options);
+  const auto figures = nlohmann::json::parse(std::ifstream(options.json));
+  EXPECT_TRUE(figures["predictors"].contains("image, our plan"));
+  EXPECT_FALSE(figures["predictors"].contains("satp, our plan"));
+  EXPECT_GT(figures["width_m"]["image, our plan"], 0.0);
+  EXPECT_GT(figures["conditioned"]["image"]["conditioning"]["pairs"], 0);
+  std::filesystem::remove_all(options.data);
 }
 
 // A changed image is refused with its reason, not used.
