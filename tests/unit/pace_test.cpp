@@ -45,6 +45,18 @@ TEST(Pace, NoWayAndNoMotion) {
   EXPECT_EQ(time_to_cover_s(Pace{0.01F, 0.0F, 0.0F}, 1000.0F), kNeverS) << "100,000 s are never";
 }
 
+// OCC-005 12 m/s at 6 m/s^2 that build up with 40 m/s^3: after 0.15 s and 1.78 m it is 11.55 m/s, which take 11.12 m. Speeding up
+// with 3 m/s^2 before, 0.225 s and 2.71 m, then 11.66 m/s and 11.33 m. Braking so already it is 12 m; from 0.5 m/s it
+// stands before the braking is there.
+TEST(Pace, BrakingTakesItsTimeToBuildUp) {
+  EXPECT_NEAR(braking_way_m(12.0F, 0.0F, 6.0F), 1.78F + 11.12F, 0.01F);
+  EXPECT_NEAR(braking_way_m(12.0F, 3.0F, 6.0F), 2.71F + 11.33F, 0.02F);
+  EXPECT_FLOAT_EQ(braking_way_m(12.0F, -6.0F, 6.0F), stopping_way_m(12.0F, 6.0F));
+  EXPECT_FLOAT_EQ(braking_way_m(12.0F, -7.0F, 6.0F), stopping_way_m(12.0F, 6.0F));
+  EXPECT_GT(braking_way_m(0.3F, 0.0F, 6.0F), stopping_way_m(0.3F, 6.0F));
+  EXPECT_EQ(braking_way_m(0.0F, 0.0F, 6.0F), 0.0F);
+}
+
 // OCC-002 12 m/s at 6 m/s^2: 12 m to a standstill. 9 m of them take at least (12 - sqrt(144 - 108)) / 6 = 1
 // s; 12 m are not certain to be covered at all, and 0 m are at once.
 TEST(Pace, WhoBrakesHardestIsLatest) {
