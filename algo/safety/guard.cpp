@@ -221,7 +221,7 @@ Verdict Guard::judge(int path_index, const Trajectory& trajectory) const {
   // that has broken it: then it only must not get worse, and behind a slower one that takes braking.
   const float coasting_s_m = at_once_s_m + own.speed_mps[0] * guard.takeover_s;
   const auto reachable_s_m = [&](float free_s_m, float its_mps) {
-    if (at_once_s_m <= free_s_m) return free_s_m;
+    if (own.nearest_stop_s_m(guard.braking_mps2) <= free_s_m) return free_s_m;
     const bool slower = its_mps < own.speed_mps[0];
     return max(free_s_m, (slower ? lerp(at_once_s_m, coasting_s_m, kEasesOff) : coasting_s_m) + kRoundingM);
   };

@@ -42,7 +42,7 @@ Outcome follow(Blind blind, int brakes, int onset) {
   double leader_m = 45.0;  // its centre
   double leader_mps = kFollowing_mps;
   rig->engage = true;
-  for (int tick = 0; tick < brakes + 600; ++tick) {
+  for (int tick = 0; tick < brakes + 800; ++tick) {  // the last metre is crept
     const int since = tick - brakes - onset;
     const bool missing = blind == Blind::kNoLeader && since >= 0 && since < 90;
     if (blind == Blind::kNoLists && since >= 0) rig->tracks = false;
