@@ -93,15 +93,8 @@ float Guard::changing_s() const {
 
 void Guard::follow_change() {
   if (changing_s() > kSettleS || scene_->ego_paths.empty()) change_.side = 0.0F;
-  if (scene_->ego_paths.empty()) return;
-  const scene::EgoPath& own = scene_->ego_paths[0];
-  // Who comes into a lane where ways merge is as new there.
-  for (const scene::ConflictZone& zone : own.zones) {
-    const bool inside =
-        own.frenet.s_m + centre_m_ > zone.entry_s_m;  // what has been left is no zone any more
-    if (zone.merging && inside) change_ = {1.0F, true, scene_->time_ms};
-  }
   if (change_.side == 0.0F) return;
+  const scene::EgoPath& own = scene_->ego_paths[0];
   // In the lane it leads to we are short of the centre, in the one it leaves beyond it.
   const float beyond_m = change_.side * own.frenet.d_m;
   const float most_m = kBesideShare * scene::path_point(*scene_->map, own.path, own.frenet.s_m).width_m;
