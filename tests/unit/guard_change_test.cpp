@@ -77,17 +77,9 @@ struct Change : LaneChangeRoad {
     TrajectoryPoint start = state_on(map, scene.ego_paths[0].path, 98.5F, speed_mps);
     start.rear_axle.y_m += from_m;
     put_ego(scene, start);
-    Trajectory trajectory;
-    trajectory.points[0] = start;
-    for (int i = 1; i < kTrajectoryPoints; ++i) {
-      trajectory.points[i] =
-          trajectory::bicycle_step(trajectory.points[i - 1], acceleration_mps2, 0.0F, kStepS);
-      trajectory.points[i].rear_axle.y_m =
-          start.rear_axle.y_m + (to_m - from_m) * static_cast<float>(i) / 30.0F;
-    }
     Guard guard;
     guard.look(scene, start, 0.0F, parameters);
-    return guard.judge(path, trajectory).cause;
+    return guard.judge(path, across(start, acceleration_mps2, to_m - from_m)).cause;
   }
 };
 

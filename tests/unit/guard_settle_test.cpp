@@ -31,7 +31,7 @@ struct AfterAChange {
     const TrajectoryPoint set_out = state_on(before.map, before.scene.ego_paths[0].path, 88.5F, kOwnMps);
     put_ego(before.scene, set_out);
     guard.look(before.scene, set_out, 0.0F, parameters);
-    if (sets_out) guard.commit(1, guard.judge(1, plan(set_out, kLaneWidthM, 0.0F)));
+    if (sets_out) guard.commit(1, guard.judge(1, across(set_out, 0.0F, kLaneWidthM)));
 
     LaneMap map = straight_road(2, 400.0F);
     scene::Scene scene;
@@ -42,18 +42,7 @@ struct AfterAChange {
     scene.time_ms = before.scene.time_ms + later_ms;
     add_vehicle(scene, map, path_of(map, {1}), 100.0F - 5.0F - gap_m, kItsMps);
     guard.look(scene, start, 0.0F, parameters);
-    return guard.judge(0, plan(start, to_m - beside_m, acceleration_mps2));
-  }
-  static Trajectory plan(const TrajectoryPoint& start, float left_m, float acceleration_mps2) {
-    Trajectory trajectory;
-    trajectory.points[0] = start;
-    for (int i = 1; i < kTrajectoryPoints; ++i) {
-      trajectory.points[i] =
-          trajectory::bicycle_step(trajectory.points[i - 1], acceleration_mps2, 0.0F, kStepS);
-      trajectory.points[i].rear_axle.y_m =
-          start.rear_axle.y_m + left_m * static_cast<float>(i) / kHorizonSteps;
-    }
-    return trajectory;
+    return guard.judge(0, across(start, acceleration_mps2, to_m - beside_m));
   }
 };
 

@@ -121,15 +121,9 @@ struct Change : LaneChangeRoad {
   [[nodiscard]] Verdict judge(int path) {
     const TrajectoryPoint start = state_on(map, scene.ego_paths[0].path, 98.5F, 10.0F);
     put_ego(scene, start);
-    Trajectory trajectory;
-    trajectory.points[0] = start;
-    for (int i = 1; i < kTrajectoryPoints; ++i) {
-      trajectory.points[i] = trajectory::bicycle_step(trajectory.points[i - 1], 0.0F, 0.0F, kStepS);
-      if (path != 0) trajectory.points[i].rear_axle.y_m = kLaneWidthM * static_cast<float>(i) / kHorizonSteps;
-    }
     Guard guard;
     guard.look(scene, start, 0.0F, parameters);
-    return guard.judge(path, trajectory);
+    return guard.judge(path, across(start, 0.0F, path != 0 ? kLaneWidthM : 0.0F));
   }
 };
 

@@ -46,7 +46,7 @@ TEST(Pace, NoWayAndNoMotion) {
 }
 
 // OCC-005 12 m/s at 6 m/s^2 that build up with 40 m/s^3: after 0.15 s and 1.78 m it is 11.55 m/s, which take 11.12 m. Speeding up
-// with 3 m/s^2 before, 0.225 s and 2.71 m, then 11.66 m/s and 11.33 m. Braking so already it is 12 m; from 0.5 m/s it
+// with 3 m/s^2 before, 0.225 s and 2.71 m, then 11.66 m/s and 11.33 m. Braking so already it is 12 m; from 0.3 m/s it
 // stands before the braking is there.
 TEST(Pace, BrakingTakesItsTimeToBuildUp) {
   EXPECT_NEAR(braking_way_m(12.0F, 0.0F, 6.0F), 1.78F + 11.12F, 0.01F);
