@@ -15,7 +15,7 @@ set(unit_batches
   "scene_builder scene_tracks secoc_can secoc_lists secoc_map secoc_map_stranger secoc_restarts secoc_session shared_records slcan threshold"
   "scoring tight_corner"
   "risk risk_work"
-  "slcan_can social_value static_drf summary sumo_routes toml_shape traci track_list traffic_statistics"
+  "constant_margin slcan_can social_value static_drf summary sumo_routes toml_shape traci track_list traffic_statistics"
   "socket_can socket_pair tracker tracker_stop traffic_driver utf8 vehicle_clock vehicle_node vehicle weight_image"
   "network_limits traffic_junction world yield_belief")
 set(property_batches

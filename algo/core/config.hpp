@@ -26,9 +26,9 @@ inline constexpr int kPathsPerAgent = 3;   ///< lane paths a vehicle may take
 inline constexpr int kMaxPathZones = 12;   ///< conflict zones along one lane path
 
 // Planning.
-inline constexpr int kMaxCandidates = 24;            ///< candidates scored in one cycle
-inline constexpr int kMaxDecisions = 3;              ///< decisions predicted with our plan in mind
-inline constexpr int kMaxExactRisk = kMaxDecisions;  ///< trajectories whose risk is computed exactly
+inline constexpr int kMaxCandidates = 24;                ///< candidates scored in one cycle
+inline constexpr int kMaxDecisions = 3;                  ///< decisions predicted with our plan in mind
+inline constexpr int kMaxExactRisk = kMaxDecisions + 1;  ///< exact risks: one each, and of the best refined
 
 // Memory budget of the whole planner object [bytes] (docs/budget.md).
 inline constexpr int kPlannerBudgetBytes = 64 * 1024;

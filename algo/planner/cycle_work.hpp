@@ -15,7 +15,8 @@ inline constexpr std::int32_t kCandidatesWork = 23'000;  ///< of it, at most, fo
 inline constexpr std::int32_t kRankWork = 16'000;        ///< ... for the risks of the ranking, ...
 inline constexpr std::int32_t kExactWork = 12'000;       ///< ... for one exact risk, and ...
 inline constexpr std::int32_t kLeastExactWork = 7'000;   ///< ... at least; fewer decisions before less
-inline constexpr std::int32_t kPassWork = 1'400;         ///< for a pass of the optimizer
+inline constexpr std::int32_t kFieldWork = 15'000;       ///< ... for the field in the optimizer, ...
+inline constexpr std::int32_t kPassWork = 1'400;         ///< and for a pass of it
 
 /// What is charged for steps whose work is known by sizes; others tell what they took.
 namespace work {

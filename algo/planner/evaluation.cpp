@@ -86,25 +86,32 @@ bool PlanningCycle::evaluate(int index, Explanation& explanation) {
 }
 
 void PlanningCycle::refine(const trajectory::Candidate& candidate, Explanation& explanation) {
+  std::int32_t left = work_.left() - work::kRefinement - kLimitsWork - judge_work();
+  trajectory::RefinementAllowance allowed;
+  // In the field the exact risk decides: what that takes at least is kept, and of the rest as much for passes as for the field.
+  if (can_evaluate_risk(explanation) && parameters_.scoring.risk > 0.0F && left > kLeastExactWork) {
+    allowed.evaluations = allowance.field_evaluations;
+    allowed.field_work = (left - kLeastExactWork) / 2;
+    if (allowed.field_work > allowance.field) allowed.field_work = allowance.field;
+    left -= kLeastExactWork + allowed.field_work;
+  }
   // The last one may take as much as two: trials that fail.
-  const std::int32_t affordable_passes = (work_.left() - work::kRefinement - judge_work()) / kPassWork - 1;
+  const std::int32_t affordable_passes = left / kPassWork - 1;
   const int most =
       affordable_passes < allowance.optimizer_iterations ? affordable_passes : allowance.optimizer_iterations;
-  const int passes = most > 0 ? to_int(parameters_.refinement.passes, 0, most) : 0;
-  // In the field the exact risk decides.
-  const bool can_decide = can_evaluate_risk(explanation);
-  const int evaluations = can_decide && parameters_.scoring.risk > 0.0F ? allowance.field_evaluations : 0;
-  if (passes == 0) return;
+  allowed.passes = most > 0 ? to_int(parameters_.refinement.passes, 0, most) : 0;
+  if (allowed.passes == 0) return;
   trajectory::RefinementResult result;
   {
     const StageScope scope(probe, Stage::kOptimize);
     new (&arena_.optimizer) trajectory::Optimizer;
     refining_ = true;
     result = arena_.optimizer.refine(lines_[candidate.path], candidate.start_s_m, surroundings(), parameters_,
-                                     {passes, evaluations}, chosen_, refined_);
+                                     allowed, chosen_, refined_);
     count(explanation, Stage::kOptimize, result.passes);
-    work_.spend(Stage::kOptimize, work::kRefinement + kPassWork * trajectory::passes_spent(
-                                                                      result.passes, result.failed_trials));
+    work_.spend(Stage::kOptimize,
+                work::kRefinement + result.field_work +
+                    kPassWork * trajectory::passes_spent(result.passes, result.failed_trials));
   }
   if (!result.improved) return;
   {

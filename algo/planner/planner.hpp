@@ -54,7 +54,8 @@ struct WorkAllowance {
   int optimizer_iterations = 16;  ///< passes of the optimizer
   /// Times the optimizer evaluates the risk field, at most 3; 0: it smooths only. To judge what comes of it takes an
   /// exact risk more.
-  int field_evaluations = 0;
+  int field_evaluations = 3;
+  std::int32_t field = kFieldWork;  ///< of the cycle for all of them
 };
 
 /// The cycle. What it is composed with, the guard and the belief that others move as they are seen to, a

@@ -19,34 +19,43 @@ constexpr float kMissedRoute = 80.0F;  // times lane_route: driving past the las
 constexpr float kLateShare = 4.0F;     // of what progress is worth, each metre past it costs
 
 /// Price of being in the right lane so late: all of a missed route where that takes another change's way, and beyond
-/// that more than the way driven gains.
-float late_cost(float late_by_m, const Parameters& parameters) {
-  const float share = min(1.0F, late_by_m / trajectory::kChangeWayM);
-  return share * kMissedRoute * parameters.scoring.lane_route +
+/// that more than the way driven gains. \param changes  left to make
+float late_cost(float late_by_m, float changes, const Parameters& parameters) {
+  return kMissedRoute * parameters.scoring.lane_route * min(changes, late_by_m / trajectory::kChangeWayM) +
          kLateShare * parameters.scoring.progress * late_by_m;
 }
 
-/// Price of the lane: how many changes are left, more pressing as the room for them shortens.
-float route_cost(const scene::EgoPath& path, float end_s_m, float end_mps, const Parameters& parameters) {
-  const int changes = path.changes_needed < 0 ? -path.changes_needed : path.changes_needed;
-  if (changes == 0) return 0.0F;
-  const float room_m = path.route_end_s_m - end_s_m;
-  const float count = static_cast<float>(changes);
-  const float missed = kMissedRoute * parameters.scoring.lane_route * count;
-  // The last place to wait leaves room to change from rest. Whoever cannot stop before the end has missed it, by so much.
-  const float to_place_m = room_m - trajectory::rear_axle_to_front_m(parameters) -
-                           occupancy::stopping_way_m(end_mps, parameters.comfort.braking_mps2);
-  const float shortage = clamp(1.0F - to_place_m / (trajectory::kChangeWayM * count), 0.0F, 1.0F);
-  const float pressing = 1.0F + kChangeRoomM * count / (max(room_m, 0.0F) + 10.0F);
-  const float beyond = kLateShare * parameters.scoring.progress * max(0.0F, -to_place_m);
-  return parameters.scoring.lane_route * count * pressing + missed * square(shortage) + beyond;
+/// What whoever is in the lane of `path` at the horizon's end with no room left for the changes it needs pays, as one
+/// does who changes late: else it stood for ever where a change would be. In the lane we are in we may have to wait for
+/// one, and then change from rest; on the way to another one, what comes next is one or the other.
+float no_room_cost(const scene::Scene& scene, int path_index, float end_s_m, float end_mps,
+                   const Parameters& parameters) {
+  const scene::EgoPath& path = scene.ego_paths[path_index];
+  const float count = abs(static_cast<float>(path.changes_needed));
+  if (count <= 0.0F) return 0.0F;
+  const float room_m = path.route_end_s_m - end_s_m - trajectory::rear_axle_to_front_m(parameters);
+  const float changes_m = trajectory::kChangeWayM * count;
+  const float stop_m = occupancy::stopping_way_m(end_mps, parameters.comfort.braking_mps2);
+  const float needed_m = path_index == 0 ? changes_m + stop_m : max(changes_m, stop_m);
+  return late_cost(max(0.0F, needed_m - room_m), count, parameters);
 }
 
-/// What being in the lane of `path` at the horizon's end costs: time, and lane changes left.
+/// What driving on in the lane of `path` costs from the horizon's end on: time lost there, and lane changes left, more
+/// pressing as the room for them shortens.
+float driving_on_cost(const scene::Scene& scene, const LaneCostToGo& cost_to_go, int path_index,
+                      float end_s_m, float end_mps, const Parameters& parameters) {
+  const scene::EgoPath& path = scene.ego_paths[path_index];
+  const float count = abs(static_cast<float>(path.changes_needed));
+  const float room_m = max(path.route_end_s_m - end_s_m, 0.0F);
+  return parameters.scoring.delay * cost_to_go.delay_s(path_index, end_s_m, end_mps) +
+         parameters.scoring.lane_route * count * (1.0F + kChangeRoomM * count / (room_m + 10.0F));
+}
+
+/// What being in the lane of `path` at the horizon's end costs.
 float lane_cost(const scene::Scene& scene, const LaneCostToGo& cost_to_go, int path, float s_m,
                 float speed_mps, const Parameters& parameters) {
-  return parameters.scoring.delay * cost_to_go.delay_s(path, s_m, speed_mps) +
-         route_cost(scene.ego_paths[path], s_m, speed_mps, parameters);
+  return driving_on_cost(scene, cost_to_go, path, s_m, speed_mps, parameters) +
+         no_room_cost(scene, path, s_m, speed_mps, parameters);
 }
 
 /// The lane beside that we had rather be in, or -1. \param gain  receives what it saves, 0: nothing
@@ -76,14 +85,16 @@ float gap_cost(const scene::Scene& scene, const LaneCostToGo& cost_to_go, int pa
          min(cost_to_go.time_to_gap_s(lane, there_s_m, speed_mps), kLongestS);
 }
 
-/// The same of a motion that ends `beside_m` from that lane's centre: as much of the change as is not made, it is in ours.
+/// What the lane costs a motion that ends `beside_m` from the centre of `path`: as much of the change as is not made,
+/// one is still in ours. Whether it will be made in time is LastPlace's to say.
 float lane_cost_between(const scene::Scene& scene, const LaneCostToGo& cost_to_go, int path, float s_m,
                         float beside_m, float width_m, float speed_mps, const Parameters& parameters) {
   const float there = lane_cost(scene, cost_to_go, path, s_m, speed_mps, parameters);
   const float unmade = clamp((beside_m / width_m - kInLaneShare) / (1.0F - kInLaneShare), 0.0F, 1.0F);
   if (path == 0 || unmade <= 0.0F) return there;
   const float own_s_m = s_m + scene.ego_paths[0].frenet.s_m - scene.ego_paths[path].frenet.s_m;
-  return lerp(there, lane_cost(scene, cost_to_go, 0, own_s_m, speed_mps, parameters), unmade);
+  return there + unmade * (driving_on_cost(scene, cost_to_go, 0, own_s_m, speed_mps, parameters) -
+                           driving_on_cost(scene, cost_to_go, path, s_m, speed_mps, parameters));
 }
 
 /// The last place at which a lane change that is due may still be between the lanes: where ours ends. Followed
@@ -184,7 +195,7 @@ CostBreakdown score_motion(const scene::Scene& scene, const LaneCostToGo& cost_t
   if (path.manoeuvre == scene::Manoeuvre::kKeep)
     cost.lane = cost.lane + gap_cost(scene, cost_to_go, path_index, s_m, end_mps, lane, parameters);
   if (path.manoeuvre != scene::Manoeuvre::kKeep && own.changes_needed != 0)
-    cost.lane = cost.lane + late_cost(last.late_by_m(width_m), parameters);
+    cost.lane = cost.lane + late_cost(last.late_by_m(width_m), 1.0F, parameters);
   if (other_lane) cost.lane = cost.lane + parameters.scoring.lane_change;
   return cost;
 }

@@ -52,5 +52,8 @@ inline constexpr int kMaxSlices = 48;
 /// (s = 0) as a term of the line there.
 [[nodiscard]] float field_over_slices(const Field& field, const Box& box, const FieldSlopes& slopes,
                                       FieldGradient& gradient);
+/// The same. \param lines  out: how many it was cut into, at most kMaxSlices
+[[nodiscard]] float field_over_slices(const Field& field, const Box& box, const FieldSlopes& slopes,
+                                      FieldGradient& gradient, int& lines);
 
 }  // namespace s4tp::sadrf

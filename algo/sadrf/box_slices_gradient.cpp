@@ -171,9 +171,19 @@ FieldSlopes field_slopes(const FieldParams& params, float speed_mps, float curva
 
 float field_over_slices(const Field& field, const Box& box, const FieldSlopes& slopes,
                         FieldGradient& gradient) {
+  int lines = 0;
+  return field_over_slices(field, box, slopes, gradient, lines);
+}
+
+float field_over_slices(const Field& field, const Box& box, const FieldSlopes& slopes,
+                        FieldGradient& gradient, int& lines) {
   const LocalBox local = in_frame(field, box);
   Sums sums;
-  for_slices(field, local, [&](float weight, const Slice& slice) { add_slice(field, weight, slice, sums); });
+  lines = 0;
+  for_slices(field, local, [&](float weight, const Slice& slice) {
+    add_slice(field, weight, slice, sums);
+    ++lines;
+  });
   if (field.ramp_m <= 0.0F) add_step(field, local, 0.0F, 1.0F, sums);
   const float end_m = longest_arc_m(field);
   if (end_m < field.look_ahead_m) add_step(field, local, end_m, -1.0F, sums);

@@ -13,6 +13,7 @@ constexpr int kRankMiddle = 1;  // of three steps: their sum is three times it t
 constexpr int kRankSteps = kHorizonSteps / kRankStride;
 static_assert(kRankSteps * kRankStride == kHorizonSteps);
 
+constexpr std::int32_t kSmoothWork = 60;
 constexpr std::int32_t kProfileWork = 300;  // WorkMeter's units, beside what the steps and the road take
 
 float instant(float obstacle, float road, float social, const Parameters& parameters) {
@@ -94,9 +95,12 @@ void exact_risk(const scene::Scene& scene, const DrivableArea& area, const satp:
 
 void smooth_risk(const scene::Scene& scene, const satp::PredictionSet& prediction,
                  const satp::KinematicSet& others, const Trajectory& trajectory, const Parameters& parameters,
-                 int first, int stride, SmoothRisk (&risks)[kHorizonSteps]) {
+                 int first, int stride, SmoothRisk (&risks)[kHorizonSteps], WorkMeter& work) {
   constexpr float kBlend = 0.1F;  // of the threshold: where the excess goes over into a straight line
   const Futures futures = all_modes(scene, prediction, others);
+  const std::int32_t least = least_work(futures.size());
+  work.spend(kSmoothWork);
+  work.reserve = least;
   StepInputs inputs = step_inputs(scene, futures, trajectory, parameters, Precision::kLines);
   inputs.params.smoothing = kSmoothField;
   const float threshold = parameters.risk.threshold;
@@ -104,7 +108,11 @@ void smooth_risk(const scene::Scene& scene, const satp::PredictionSet& predictio
   const float at_none = 0.5F * (sqrt(square(threshold) + square(blend)) - threshold);
   CostBoxes boxes;
   for (int i = first; i < kHorizonSteps; i += stride) {
-    const StepSlope step = slope_at(inputs, i, boxes);
+    if (work.left < least) {
+      risks[i] = {i > first ? risks[i - stride].value : 0.0F};
+      continue;
+    }
+    const StepSlope step = slope_at(inputs, i, boxes, work);
     const float over = step.obstacle_risk - threshold;
     const float root = sqrt(square(over) + square(blend));
     const float excess_slope = root > 0.0F ? 0.5F * (1.0F + over / root) : 0.0F;

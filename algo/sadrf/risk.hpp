@@ -59,10 +59,10 @@ struct SmoothRisk {
 /// by the trajectory's point there: both sides, the excess over C_t, all modes. The field begins with a ramp
 /// and widens smoothly (kSmoothField); the excess x is (x + sqrt(x^2 + (C_t / 10)^2)) / 2, less what that
 /// is where there is no risk. Steps `first`, `first` + `stride`, ... are written. The road part follows the
-/// whole path and has no slope of one point. \param risks  index i: point i + 1 Work: about 6,000
-/// instructions a box in reach.
+/// whole path and has no slope of one point. \param risks  index i: point i + 1 \param work  where it does not allow a
+/// box's slope, the box counts as if it had none; where not a step, that is as risky as the one before, without slope
 void smooth_risk(const scene::Scene& scene, const satp::PredictionSet& prediction,
                  const satp::KinematicSet& others, const Trajectory& trajectory, const Parameters& parameters,
-                 int first, int stride, SmoothRisk (&risks)[kHorizonSteps]);
+                 int first, int stride, SmoothRisk (&risks)[kHorizonSteps], WorkMeter& work);
 
 }  // namespace s4tp::sadrf

@@ -12,13 +12,14 @@ constexpr float kWorthSlices = 200.0F;
 constexpr float kWorthSlope = 20.0F;  // for a second, a hundredth of a metre of progress
 
 // Work (WorkMeter's units).
-constexpr std::int32_t kUnbounded = 1'000'000'000;  // evaluations of the field are counted (WorkAllowance)
-constexpr std::int32_t kStepWork = 8;               // our field and box
-constexpr std::int32_t kFutureWork = 2;             // to see that it is out of reach on both sides
-constexpr std::int32_t kLinesWork = 9;              // a field over a box by lines
-constexpr std::int32_t kTheirFieldWork = 4;         // to make another's field
-constexpr std::int32_t kSliceWork = 6;              // a field over a slice of a box
+constexpr std::int32_t kStepWork = 8;        // our field and box
+constexpr std::int32_t kFutureWork = 2;      // to see that it is out of reach on both sides
+constexpr std::int32_t kLinesWork = 9;       // a field over a box by lines
+constexpr std::int32_t kTheirFieldWork = 4;  // to make another's field
+constexpr std::int32_t kSliceWork = 6;       // a field over a slice of a box
 constexpr std::int32_t kMostSlicesWork = kSliceWork * kMaxSlices;
+constexpr std::int32_t kSlopeWork = 16;  // the same with its slopes
+constexpr std::int32_t kMostSlopesWork = kSlopeWork * kMaxSlices;
 /// For a box among so many, by its centre.
 constexpr std::int32_t centre_work(int boxes) {
   return 1 + boxes;
@@ -268,26 +269,34 @@ StepRisk risk_at(const StepInputs& inputs, int step, CostBoxes& boxes, WorkMeter
   return risk;
 }
 
-StepSlope slope_at(const StepInputs& inputs, int step, CostBoxes& boxes) {
+StepSlope slope_at(const StepInputs& inputs, int step, CostBoxes& boxes, WorkMeter& work) {
   const Driver driver = driver_at(inputs, step);
   const TrajectoryPoint& point = inputs.trajectory.points[step + 1];
   const FieldSlopes slopes = field_slopes(driver.params, point.speed_mps, point.curvature_1pm,
                                           driver.steering_rad, inputs.parameters.vehicle.wheelbase_m);
+  work.spend(kStepWork + kFutureWork * inputs.futures.size());
   StepSlope slope;
-  WorkMeter work{kUnbounded};
+  int lines = 0;
   const auto add_box = [&](const CostBox& one, float part, float whole) {
-    if (whole < kWorthSlope) {
+    if (whole < kWorthSlope || !work.allows(kMostSlopesWork)) {
       slope.obstacle_risk += part * whole;
       return;
     }
     FieldGradient gradient;
-    slope.obstacle_risk += part * one.cost * field_over_slices(driver.field, one.box, slopes, gradient);
+    slope.obstacle_risk +=
+        part * one.cost * field_over_slices(driver.field, one.box, slopes, gradient, lines);
+    work.spend(kSlopeWork * lines);
     add(gradient, part * one.cost, slope.obstacle);
   };
   for_boxes_in_our_field(inputs, driver.field, step, boxes, work, add_box);
   for_fields_on_us(inputs, driver, step, work, [&](const Future&, const Field& field, float cost) {
+    if (!work.allows(kMostSlopesWork)) {
+      slope.social_risk += risk_of_box(field, driver.box, driver.field.ahead, cost, inputs.precision, work);
+      return;
+    }
     FieldGradient gradient;
-    const float value = cost * field_over_slices(field, driver.box, {}, gradient);
+    const float value = cost * field_over_slices(field, driver.box, {}, gradient, lines);
+    work.spend(kSlopeWork * lines);
     slope.social_risk += value;
     if (value < kWorthSlope) return;
     add(by_the_box(gradient, field.origin, position(point.rear_axle)), cost, slope.social);

@@ -54,7 +54,7 @@ struct StepSlope {
 };
 
 /// CORE-069 Values and slopes at step `step` + 1; what covers what counts as fixed. Boxes whose risk is below
-/// 20 have no slope. Work: about 6,000 instructions a box in reach.
-[[nodiscard]] StepSlope slope_at(const StepInputs& inputs, int step, CostBoxes& boxes);
+/// 20 have no slope, nor have those for which `work` does not allow one: least_work() is then what a step takes at most.
+[[nodiscard]] StepSlope slope_at(const StepInputs& inputs, int step, CostBoxes& boxes, WorkMeter& work);
 
 }  // namespace s4tp::sadrf

@@ -157,6 +157,20 @@ bool Optimizer::solve(const RefinementProblem& problem, RefinementAllowance allo
   return found.improved;
 }
 
+bool Optimizer::evaluate(const Surroundings& surroundings, const RefinementProblem& problem, Point origin,
+                         const Parameters& parameters, RefinementAllowance allowance, const Motion& motion,
+                         RefinementResult& result, FieldAlong& field, float& cost) {
+  const int to_come = allowance.evaluations - result.evaluations;
+  if (to_come <= 0) return false;
+  const std::int32_t share = (allowance.field_work - result.field_work) / to_come;
+  if (share < kLeastFieldWork) return false;
+  WorkMeter work{share};
+  cost = evaluate_field(surroundings, problem, origin, motion, parameters, work, scratch_, field);
+  ++result.evaluations;
+  result.field_work += share - work.left;
+  return true;
+}
+
 void Optimizer::improve_in_field(const Surroundings& surroundings, const Parameters& parameters, Point origin,
                                  RefinementAllowance allowance, RefinementProblem& problem, Motion& motion,
                                  RefinementResult& result) {
@@ -167,12 +181,9 @@ void Optimizer::improve_in_field(const Surroundings& surroundings, const Paramet
     put_field(field_, best_, trust_m, parameters, problem);
     if (!solve(problem, allowance, motion, result)) break;
     const Judgement judgement = judge_motion(problem, motion);
-    const bool last = result.evaluations >= allowance.evaluations;
     float field = judgement.field;
-    if (!last) {
-      field = evaluate_field(surroundings, problem, origin, motion, parameters, scratch_, along_);
-      ++result.evaluations;
-    }
+    const bool last =
+        !evaluate(surroundings, problem, origin, parameters, allowance, motion, result, along_, field);
     const float gain = cost - (judgement.own + field);
     if (gain <= 0.0F) {
       motion = best_;
@@ -198,14 +209,16 @@ RefinementResult Optimizer::improve(const Surroundings& surroundings, const Para
   if (allowance.passes <= 0) return result;
   result.own_before = judge_motion(problem, motion).own;
   result.own_after = result.own_before;
-  if (allowance.evaluations > 0) {
-    result.field_before = evaluate_field(surroundings, problem, origin, motion, parameters, scratch_, field_);
+  if (evaluate(surroundings, problem, origin, parameters, allowance, motion, result, field_,
+               result.field_before)) {
     result.field_after = result.field_before;
   }
   if (result.field_before > 0.0F) {
-    result.evaluations = 1;
     improve_in_field(surroundings, parameters, origin, allowance, problem, motion, result);
-  } else if (solve(problem, allowance, motion, result)) {
+    return result;
+  }
+  result.evaluations = 0;
+  if (solve(problem, allowance, motion, result)) {
     result.improved = true;
     result.own_after = judge_motion(problem, motion).own;
   }

@@ -30,8 +30,9 @@ float step_weight(const Parameters& parameters) {
 }  // namespace
 
 float evaluate_field(const Surroundings& surroundings, const RefinementProblem& problem, Point origin,
-                     const Motion& motion, const Parameters& parameters, FieldScratch& scratch,
-                     FieldAlong& field) {
+                     const Motion& motion, const Parameters& parameters, WorkMeter& work,
+                     FieldScratch& scratch, FieldAlong& field) {
+  work.spend(kLeastFieldWork);
   Trajectory& trajectory = scratch.trajectory;
   for (int i = kFieldStride - 1; i < kHorizonSteps; i += kFieldStride) {
     const MotionState& state = motion.states[i + 1];
@@ -42,7 +43,7 @@ float evaluate_field(const Surroundings& surroundings, const RefinementProblem& 
   }
   sadrf::SmoothRisk(&risks)[kHorizonSteps] = scratch.risks;
   sadrf::smooth_risk(surroundings.scene, surroundings.conditioned, surroundings.constant_velocity, trajectory,
-                     parameters, kFieldStride - 1, kFieldStride, risks);
+                     parameters, kFieldStride - 1, kFieldStride, risks, work);
   const float wheelbase_m = parameters.vehicle.wheelbase_m;
   for (int k = 0; k < kFieldKnots; ++k) {
     const int i = k * kFieldStride + kFieldStride - 1;

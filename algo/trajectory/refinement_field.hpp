@@ -11,6 +11,7 @@
 
 #include "algo/core/parameters.hpp"
 #include "algo/core/trajectory.hpp"
+#include "algo/core/work_meter.hpp"
 #include "algo/sadrf/risk.hpp"
 #include "algo/trajectory/clearance.hpp"
 #include "algo/trajectory/ilqr_problem.hpp"
@@ -31,6 +32,9 @@ struct FieldKnot {
   float by_curvature = 0.0F;
 };
 
+/// Of an evaluation that looks at no knot [WorkMeter's units].
+inline constexpr std::int32_t kLeastFieldWork = 180;
+
 struct FieldAlong {
   FieldKnot knots[kFieldKnots];  ///< of steps[kFieldStride - 1], ...
 };
@@ -43,10 +47,10 @@ struct FieldScratch {
 
 /// CAND-022 Evaluates the field along a motion, with its slopes by pose, speed and curvature. \param origin  what
 /// the problem's positions are relative to \return w_r times the integral of R, linear between the knots; 0:
-/// there is no risk Work: at most kFieldKnots * (kMaxAgents * kMaxModes + kMaxTracks) boxes, on each side.
+/// there is no risk \param work  where it does not allow more, knots are as sadrf::smooth_risk leaves them
 [[nodiscard]] float evaluate_field(const Surroundings& surroundings, const RefinementProblem& problem,
                                    Point origin, const Motion& motion, const Parameters& parameters,
-                                   FieldScratch& scratch, FieldAlong& field);
+                                   WorkMeter& work, FieldScratch& scratch, FieldAlong& field);
 
 /// Takes the field out of a problem again.
 void without_field(RefinementProblem& problem);

@@ -33,7 +33,7 @@ constexpr int kEntry = 300;     // ticks
 constexpr int kAppears = 700;   // since entry
 constexpr int kSeen = 50;       // ticks that a leader who appears has been there when it brakes
 constexpr int kSettled = 1200;  // by then it is followed at the planner's own distance
-constexpr int kStands = 700;    // ticks after it has braked, at most
+constexpr int kStands = 900;    // ticks after it has braked, at most: the field has the last metre crept
 
 /// A fault and its name in the table.
 struct Case {
@@ -118,12 +118,19 @@ double rss_m(const Reaction& reaction, double speed_mps, double leader_mps) {
                            leader_mps * leader_mps / (2.0 * kHardest_mps2));
 }
 
+/// Without the risk field nothing but the guard keeps us off.
+Parameters parameters_of(bool field) {
+  Parameters parameters;
+  if (!field) parameters.scoring.risk = 0.0F;
+  return parameters;
+}
+
 /// The vehicle and its ECU on a straight road, a leader that a test drives, and the fault between them.
 class Road {
  public:
-  Road() {
+  explicit Road(bool field) {
     scenario_.mission = {};
-    ecu_ = baselines::make_ecu("s4tp", true, Parameters{},
+    ecu_ = baselines::make_ecu("s4tp", true, parameters_of(field),
                                {ecu_port_, &cycles_, &watchdog_, nullptr, nullptr}, nullptr);
     vehicle_.vehicle().place({20.0 - 0.01 * kFollowing_mps * kEntry, 0.0}, 0.0, kFollowing_mps);
   }
@@ -221,7 +228,7 @@ class Leader {
 
 /// Since entry: when the leader that is followed is only as far away as the reaction takes, or has been followed for long.
 int brakes_at(const Reaction& reaction) {
-  const auto road = std::make_unique<Road>();
+  const auto road = std::make_unique<Road>(true);
   Leader leader(false);
   const FaultScript none;
   FaultyBus well(none);
@@ -234,8 +241,8 @@ int brakes_at(const Reaction& reaction) {
 }
 
 /// \param onset  ticks from the leader's braking to the fault
-Outcome follow(const Case& fault, const Reaction& reaction, int brakes, int onset, bool appears) {
-  const auto road = std::make_unique<Road>();
+Outcome follow(const Case& fault, const Reaction& reaction, int brakes, int onset, bool appears, bool field) {
+  const auto road = std::make_unique<Road>(field);
   Leader leader(appears);
   FaultScript script;
   script.faults.push_back({fault.kind, brakes + onset, kForGood, set_of(fault.messages), fault.intensity, 1});
@@ -263,30 +270,36 @@ Outcome follow(const Case& fault, const Reaction& reaction, int brakes, int onse
 class BrakingLeader : public testing::TestWithParam<Case> {};
 
 // ECU-005 ECU-010 .. ECU-022, WORLD-003, CORE-030, LEGAL-005: for each fault of the bus, from half a second before the leader
-// brakes to 0.4 s after, whether it has been followed for long or has just come in at the very distance.
+// brakes to 0.4 s after, whether it has been followed for long or has just come in at the very distance. In the risk field we brake
+// before such a leader does; that the table's distance is needed shows without.
 TEST_P(BrakingLeader, IsNotHitFromTheDistanceOfTheReactionLeft) {
   const Reaction reaction = promised(GetParam().name);
   ASSERT_GT(reaction.response_s, 0.0) << "docs/safety.md has no row: " << GetParam().name;
   EXPECT_NEAR(rss_m(reaction, kFollowing_mps, kFollowing_mps), reaction.distance_m, 0.05);
   for (const bool appears : {false, true}) {
-    double least_m = 1e3;
-    double braked_at_m = 0.0;
     const int brakes = appears ? kAppears + kSeen : brakes_at(reaction);
+    double least_m = 1e3;
+    double alone_m = 1e3;  // without the field
+    double braked_at_m = 0.0;
     for (const int onset : {-50, -20, 0, 10, 20, 30, 40}) {
       if (appears && onset < -20) continue;  // a fault may not hide who was never seen
-      const Outcome outcome = follow(GetParam(), reaction, brakes, onset, appears);
+      const Outcome outcome = follow(GetParam(), reaction, brakes, onset, appears, true);
       EXPECT_GT(outcome.least_gap_m, 0.0)
           << GetParam().name << ", from " << 10 * onset << " ms, appears " << appears;
       EXPECT_TRUE(outcome.stood) << GetParam().name << ", from " << 10 * onset << " ms, still "
                                  << outcome.speed_mps << " m/s";
       least_m = std::min(least_m, outcome.least_gap_m);
       braked_at_m = std::max(braked_at_m, outcome.braked_at_m);
+      if (appears)
+        alone_m = std::min(alone_m, follow(GetParam(), reaction, brakes, onset, appears, false).least_gap_m);
     }
     if (appears) {
-      EXPECT_LT(least_m, 4.0) << GetParam().name << ": the table asks for more than is needed";
+      EXPECT_LT(alone_m, 4.0) << GetParam().name << ": the table asks for more than is needed";
     }
-    std::printf("%s: the leader %s, brakes %.1f m ahead (RSS %.1f m), least gap %.2f m\n", GetParam().name,
-                appears ? "appears" : "was followed", braked_at_m, reaction.distance_m, least_m);
+    std::printf(
+        "%s: the leader %s, brakes %.1f m ahead (RSS %.1f m), least gap %.2f m, without the field %.2f m\n",
+        GetParam().name, appears ? "appears" : "was followed", braked_at_m, reaction.distance_m, least_m,
+        appears ? alone_m : 0.0);
   }
 }
 

@@ -85,9 +85,10 @@ std::unique_ptr<Driven> in_a_field(unsigned seed) {
   if (made->scene == nullptr) return nullptr;
   made->motion = driven(made->scene->start, {}, 0.0F);
   FieldScratch scratch;
-  made->field_cost = static_cast<double>(evaluate_field(made->scene->surroundings(), made->scene->problem,
-                                                        origin_of(*made->scene), made->motion,
-                                                        made->scene->parameters, scratch, made->field));
+  WorkMeter unbounded{1'000'000'000};
+  made->field_cost = static_cast<double>(
+      evaluate_field(made->scene->surroundings(), made->scene->problem, origin_of(*made->scene), made->motion,
+                     made->scene->parameters, unbounded, scratch, made->field));
   return made->field_cost > 0.1 ? std::move(made) : nullptr;
 }
 
@@ -121,8 +122,9 @@ TEST(RefinementField, KnotSlopesAgreeWithDifferences) {
         if (n == 4) state.curvature_1pm += by;
         FieldAlong along;
         FieldScratch scratch;
+        WorkMeter unbounded{1'000'000'000};
         (void)evaluate_field(scene.surroundings(), scene.problem, origin_of(scene), moved, scene.parameters,
-                             scratch, along);
+                             unbounded, scratch, along);
         return along.knots[k].risk;
       };
       const float difference = (risk_at(steps[n]) - risk_at(-steps[n])) / (2.0F * steps[n]);
@@ -161,9 +163,10 @@ TEST(RefinementField, SlopesAgreeWithDifferencesThroughTheWholeStage) {
       const Motion moved = driven(made->motion, direction, share);
       FieldAlong along;
       FieldScratch scratch;
+      WorkMeter unbounded{1'000'000'000};
       return static_cast<double>(judge_motion(scene.problem, moved).own) +
              static_cast<double>(evaluate_field(scene.surroundings(), scene.problem, origin_of(scene), moved,
-                                                scene.parameters, scratch, along));
+                                                scene.parameters, unbounded, scratch, along));
     };
     constexpr float kShare = 0.01F;
     const double difference = (cost_at(kShare) - cost_at(-kShare)) / (2.0 * static_cast<double>(kShare));
@@ -207,12 +210,13 @@ TEST(RefinementField, SmoothIsNearExact) {
     const test::RefinementScene& scene = *made->scene;
     FieldAlong along;
     FieldScratch scratch;
+    WorkMeter unbounded{1'000'000'000};
     const double by_knots =
         static_cast<double>(evaluate_field(scene.surroundings(), scene.problem, origin_of(scene), scene.start,
-                                           scene.parameters, scratch, along));
+                                           scene.parameters, unbounded, scratch, along));
     sadrf::SmoothRisk risks[kHorizonSteps];
     sadrf::smooth_risk(scene.scene, scene.prediction, scene.constant_velocity, scene.trajectory,
-                       scene.parameters, 0, 1, risks);
+                       scene.parameters, 0, 1, risks, unbounded);
     double smooth = 0.0;
     for (const sadrf::SmoothRisk& risk : risks) smooth += static_cast<double>(kStepS * risk.value);
     smooth *= static_cast<double>(scene.parameters.scoring.risk);

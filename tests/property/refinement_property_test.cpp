@@ -62,6 +62,22 @@ TEST(Refinement, IsNeverWorseThanItsStart) {
   }));
 }
 
+// CAND-023: whatever work the field is given, it takes no more; given none it is left out, given enough it is evaluated.
+TEST(Refinement, TheFieldTakesNoMoreWorkThanItIsGiven) {
+  int evaluated = 0;
+  EXPECT_TRUE(rc::check([&] {
+    const auto scene = arbitrary_scene();
+    for (const std::int32_t given : {0, kLeastFieldWork * kEvaluations, 4'000, 15'000}) {
+      RefinementResult result;
+      (void)refined_of(*scene, {kPasses, kEvaluations, given}, result);
+      RC_ASSERT(result.field_work <= given);
+      if (given == 0) RC_ASSERT(result.evaluations == 0);
+      evaluated += given > 4'000 && result.evaluations > 0 ? 1 : 0;
+    }
+  }));
+  EXPECT_GT(evaluated, 20);
+}
+
 // CAND-014: never further than 2.0 m along from the candidate, nor 0.5 s in time (at standstill 2 cm), nor
 // beyond its bounds across, each with the 5 % of 0.2 m that bounds may be broken by; feasible; and no nearer
 // to a predicted box than the check's margin, or than the candidate was, but for 2 cm: the gap's bound is a
@@ -106,6 +122,7 @@ TEST(Refinement, DropsWhatCannotBeDriven) {
   for (const unsigned seed : {27983U, 30581U, 33611U, 35030U, 44567U, 51833U, 116U, 8697U, 17978U}) {
     const auto scene = test::random_refinement(seed);
     ASSERT_NE(scene, nullptr) << seed;
+    scene->parameters.risk.threshold = 20000.0F;  // they were found with
     RefinementResult result;
     const Trajectory refined = refined_of(*scene, {kPasses, kEvaluations}, result);
     EXPECT_FALSE(result.improved) << seed;

@@ -19,8 +19,9 @@ using test::RiskWorld;
 
 SmoothRisk risk_at(const RiskWorld& world, int step) {
   SmoothRisk risks[kHorizonSteps];
+  WorkMeter unbounded{1'000'000'000};
   smooth_risk(world.scene, world.prediction, world.others, world.trajectory, world.parameters, step,
-              kHorizonSteps, risks);
+              kHorizonSteps, risks, unbounded);
   return risks[step];
 }
 

@@ -86,7 +86,7 @@ TEST(PlannerRegistry, EveryPlannerIsThere) {
   EXPECT_EQ(names.front(), "s4tp");
   for (const char* const name :
        {"blind", "constant_speed", "drf_controller", "idm_lane", "predictive_decision",
-        "predictive_decision_kinematic", "s4tp_kinematic", "static_drf", "sumo_driver"}) {
+        "predictive_decision_kinematic", "s4tp_kinematic", "static_drf", "sumo_driver", "constant_margin"}) {
     EXPECT_NE(std::find(names.begin(), names.end(), name), names.end()) << name;
   }
 }

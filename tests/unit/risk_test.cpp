@@ -196,10 +196,11 @@ TEST(Risk, NamesTheDominatingVehicle) {
   EXPECT_EQ(stage->profile.dominating_step, 0);
 }
 
-// dt * sum: 30 steps of R_obs 30,000, road 100, social 2,000: 0.1 * 30 * (30,000 + 100 + 0.5 * 2,000 + 2 *
+// dt * sum: 30 steps of R_obs 30,000, road 100, social 2,000, C_t 20,000: 0.1 * 30 * (30,000 + 100 + 0.5 * 2,000 + 2 *
 // 10,000).
 TEST(Risk, IntegralWeighsItsParts) {
   const auto stage = std::make_unique<RiskStage>();
+  stage->parameters.risk.threshold = 20000.0F;
   for (int i = 0; i < kHorizonSteps; ++i) {
     stage->profile.obstacle[i] = 30000.0F;
     stage->profile.road[i] = 100.0F;

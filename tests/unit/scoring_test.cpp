@@ -71,14 +71,34 @@ TEST(Scoring, ALaneIsWorthWhatOfTheChangeIsMade) {
 }
 
 // At 55 m and 5 m/s our front is at 59 m, and stands 5 m further on. With 15 m left from there a change from rest
-// is possible; with 7 m some is lacking, (1 - 7 / 15)^2 = 0.28 of a missed route; who cannot stop before its end
+// is possible; with 7 m it is late by 8 m: 8 / 15 of a missed route and 4 a metre are 288; who cannot stop before its end
 // has missed it.
 TEST(Scoring, WhoWaitsForALaneChangeKeepsRoomForIt) {
   const float stands_m = 55.0F + trajectory::rear_axle_to_front_m(Parameters{}) + 5.0F;
   const float with_room = Road(stands_m + 15.0F).lane_cost(false);
   EXPECT_LT(with_room, 0.2F * kMissed);
-  EXPECT_NEAR(Road(stands_m + 7.0F).lane_cost(false) - with_room, 0.28F * kMissed, 10.0F);
+  EXPECT_NEAR(Road(stands_m + 7.0F).lane_cost(false) - with_room, 288.0F, 10.0F);
   EXPECT_GE(Road(stands_m - 1.0F).lane_cost(false), kMissed);
+}
+
+// Our lane ends at 70 m. Driving on in it at 5 m/s leaves 6 m less than a change takes from rest: 9 m late, 324. Half way over at
+// 55 m the change goes on: what is left of it takes 1.5 m, and there are 13.5 m. Seven of 320 drives stood for ever, as the half
+// not made yet paid for being late in our lane.
+TEST(Scoring, AChangeOnItsWayPaysOnlyForItsOwnLateness) {
+  Road road(70.0F);
+  EXPECT_GT(road.lane_cost(0, 0.0F), 300.0F);
+  EXPECT_LT(road.lane_cost(1, 1.6F), 0.1F * kMissed);
+}
+
+// From the lane aimed at one more change is due, and both lanes end at 76 m. At 55 m and 5 m/s our front has 17 m: enough for the
+// 15 m of that change, driven through, and 3 m short of what waiting for it in our own lane would take, 5 m to a stand and 15:
+// 3 / 15 of a missed route and 4 a metre are 108. Where both paid for the stand, drives stood for ever before the first of two changes.
+TEST(Scoring, OneChangeAfterTheOtherNeedsNoStandBetween) {
+  Road road(76.0F);
+  EXPECT_NEAR(road.lane_cost(0, 0.0F) - Road(150.0F).lane_cost(0, 0.0F), 108.0F, 15.0F);
+  road.scene.ego_paths[1].changes_needed = 1;
+  road.scene.ego_paths[1].route_end_s_m = 76.0F;
+  EXPECT_LT(road.lane_cost(1, 3.2F), 0.1F * kMissed);
 }
 
 // We stand in our lane behind one that stands: where that leaves 2.5 m to it, nothing asks us on; with 3 m more, something
