@@ -16,18 +16,18 @@
 namespace s4tp::train {
 namespace {
 
-// One predictor's line of the table, and its figures for the file.
-nlohmann::ordered_json judge(const char* name, const std::vector<VehicleErrors>& calibration,
-                             const std::vector<VehicleErrors>& errors,
-                             const std::vector<VehicleErrors>& reference) {
-  nlohmann::ordered_json figures = figures_by_scenario(errors, fitted_sigma_m(calibration), reference);
+// One predictor's lines of the table, and its figures for the file.
+nlohmann::ordered_json judge(const char* name, const Judged& judged, const Judged& reference) {
+  nlohmann::ordered_json figures = figures_by_scenario(judged, reference);
   for (const auto& [scenario, of] : figures.items()) {
     const auto mean = [&](const char* figure) { return of[figure]["mean"].get<double>(); };
     const auto half = [&](const char* figure) { return of[figure]["half_width"].get<double>(); };
-    std::printf("%-22s %-12s %8zu %6.3f +- %.3f %9.3f %7.3f %7.3f %7.3f %7.3f   %+.3f +- %.3f\n", name,
-                scenario.c_str(), of["vehicles"].get<std::size_t>(), mean("top_1_ade"), half("top_1_ade"),
-                mean("weighted_ade"), mean("min_ade"), mean("top_1_fde"), mean("min_fde"), mean("nll"),
-                mean("top_1_ade_less_reference"), half("top_1_ade_less_reference"));
+    std::printf(
+        "%-22s %-12s %8zu %6.3f +- %.3f %9.3f %7.3f %7.3f %7.3f %7.3f   %+.3f +- %.3f   %+.3f +- %.3f\n",
+        name, scenario.c_str(), of["vehicles"].get<std::size_t>(), mean("top_1_ade"), half("top_1_ade"),
+        mean("weighted_ade"), mean("min_ade"), mean("top_1_fde"), mean("min_fde"), mean("nll"),
+        mean("top_1_ade_less_reference"), half("top_1_ade_less_reference"), mean("nll_less_reference"),
+        half("nll_less_reference"));
   }
   return figures;
 }
@@ -59,22 +59,24 @@ void evaluate(const satp::NetworkShape& shape, const EvaluationOptions& options)
     std::printf("temperature %.3f, ", temperature);
   }
   std::printf(
-      "calibrated on %zu samples; %zu samples judged\n\n%-22s %-12s %8s %15s %9s %7s %7s %7s %7s   %s\n",
+      "calibrated on %zu samples; %zu samples judged\n\n%-22s %-12s %8s %15s %9s %7s %7s %7s %7s   %-18s "
+      "%s\n",
       calibration.size(), samples.size(), "predictor", "scenario", "vehicles", "top-1 ADE [m]", "weighted",
-      "nearest", "FDE", "nearest", "NLL", "ADE less kinematic");
-  const std::vector<VehicleErrors> kinematic =
-      errors_of(judged_set, samples, kinematic_forecasts(judged_set, samples));
+      "nearest", "FDE", "nearest", "NLL", "ADE less kinematic", "NLL less kinematic");
+  const auto judged_by = [&](auto&& forecasts_of, const Forecasts& forecasts) {
+    return Judged{errors_of(judged_set, samples, forecasts),
+                  fitted_sigma_m(errors_of(set, calibration, forecasts_of(set, calibration)))};
+  };
+  const Judged kinematic = judged_by(kinematic_forecasts, kinematic_forecasts(judged_set, samples));
   nlohmann::ordered_json result;
   if (network) result["temperature"] = temperature;
   const auto add = [&](const char* name, auto&& forecasts_of) {
-    const std::vector<VehicleErrors> calibrated = errors_of(set, calibration, forecasts_of(set, calibration));
     Forecasts forecasts = forecasts_of(judged_set, samples);
-    result["predictors"][name] =
-        judge(name, calibrated, errors_of(judged_set, samples, forecasts), kinematic);
+    const Judged judged = judged_by(forecasts_of, forecasts);
+    result["predictors"][name] = judge(name, judged, kinematic);
     std::fflush(stdout);
-    const double sigma_m = fitted_sigma_m(calibrated);
-    result["width_m"][name] = sigma_m;  // of its likelihoods
-    return std::pair(std::move(forecasts), sigma_m);
+    result["width_m"][name] = judged.sigma_m;  // of its likelihoods
+    return std::pair(std::move(forecasts), judged.sigma_m);
   };
   const auto network_of = [&](bool with_plan) {
     return [&network, temperature, with_plan](const SampleSet& of, const std::vector<std::size_t>& which) {

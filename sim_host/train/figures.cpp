@@ -183,20 +183,24 @@ nlohmann::ordered_json figures_of(const std::vector<VehicleErrors>& errors, doub
           {"reliability", reliability_of(errors)}};
 }
 
-nlohmann::ordered_json figures_by_scenario(const std::vector<VehicleErrors>& errors, double sigma_m,
-                                           const std::vector<VehicleErrors>& reference) {
+nlohmann::ordered_json figures_by_scenario(const Judged& of, const Judged& reference) {
   nlohmann::ordered_json result;
   const auto add = [&](const char* name, const std::function<bool(const VehicleErrors&)>& belongs) {
     std::vector<VehicleErrors> part;
-    RoadMean difference;
-    for (std::size_t i = 0; i < errors.size(); ++i) {
-      if (!belongs(errors[i])) continue;
-      part.push_back(errors[i]);
-      difference.add(errors[i].road, errors[i].top_1_ade_m - reference[i].top_1_ade_m);
+    RoadMean distance, likelihood;
+    for (std::size_t i = 0; i < of.errors.size(); ++i) {
+      const VehicleErrors& one = of.errors[i];
+      const VehicleErrors& other = reference.errors[i];
+      if (!belongs(one)) continue;
+      part.push_back(one);
+      distance.add(one.road, one.top_1_ade_m - other.top_1_ade_m);
+      likelihood.add(one.road, negative_log_likelihood(one, of.sigma_m) -
+                                   negative_log_likelihood(other, reference.sigma_m));
     }
     if (part.empty()) return;
-    result[name] = figures_of(part, sigma_m);
-    result[name]["top_1_ade_less_reference"] = json_of(difference);
+    result[name] = figures_of(part, of.sigma_m);
+    result[name]["top_1_ade_less_reference"] = json_of(distance);
+    result[name]["nll_less_reference"] = json_of(likelihood);
   };
   add("all", [](const VehicleErrors&) { return true; });
   for (int i = 0; i <= static_cast<int>(SampleScenario::kGenerated); ++i) {

@@ -60,10 +60,15 @@ struct VehicleErrors {
 /// "expected", "happened"}]}: how often the mode of such a probability was the nearest
 [[nodiscard]] nlohmann::ordered_json figures_of(const std::vector<VehicleErrors>& errors, double sigma_m);
 
-/// The same per scenario and over all, and the paired difference of top-1 ADE to `reference`.
-[[nodiscard]] nlohmann::ordered_json figures_by_scenario(const std::vector<VehicleErrors>& errors,
-                                                         double sigma_m,
-                                                         const std::vector<VehicleErrors>& reference);
+/// A predictor's errors and the width its likelihoods are taken with.
+struct Judged {
+  std::vector<VehicleErrors> errors;
+  double sigma_m = 1.0;
+};
+
+/// The same per scenario and over all, and the paired differences of top-1 ADE and of negative log-likelihood to
+/// `reference`, each likelihood with its own width. \pre both of the same vehicles
+[[nodiscard]] nlohmann::ordered_json figures_by_scenario(const Judged& of, const Judged& reference);
 
 [[nodiscard]] const char* name_of(SampleScenario scenario);
 

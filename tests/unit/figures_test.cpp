@@ -106,15 +106,16 @@ TEST(Figures, IntervalsGoByRoad) {
   EXPECT_NEAR(mean.half_width(), 1.96, 1e-9);
 }
 
-// The difference to the kinematic forecast is paired: standing is off 15.5 m on average where the truth is 10
-// m/s.
+// Differences to the kinematic forecast are paired: standing is off 15.5 m on average where the truth is 10 m/s, and
+// 30 m at 3 s, which a width of 10 m makes 4.5 + log(100) less likely than no error with one of 1 m.
 TEST(Figures, DifferencesArePaired) {
   const SampleSet set = set_of({straight(1, 10.0F), straight(2, 10.0F)});
   const std::vector<std::size_t> both{0, 1};
   const auto kinematic = errors_of(set, both, kinematic_forecasts(set, both));
   const auto steady = errors_of(set, both, steady_forecasts(set, both));
-  const auto json = figures_by_scenario(steady, 1.0, kinematic);
+  const auto json = figures_by_scenario({steady, 1.0}, {kinematic, 10.0});
   EXPECT_NEAR(json["merge"]["top_1_ade_less_reference"]["mean"].get<double>(), -15.5, 1e-4);
+  EXPECT_NEAR(json["merge"]["nll_less_reference"]["mean"].get<double>(), -4.5 - std::log(100.0), 1e-4);
   EXPECT_NEAR(json["all"]["top_1_ade"]["mean"].get<double>(), 0.0, 1e-5);
   EXPECT_FALSE(json.contains("cruise"));
 }
