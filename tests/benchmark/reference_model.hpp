@@ -85,6 +85,16 @@ std::array<T, kCorners> corner_gaps(const trajectory::RefinementProblem& problem
   return gaps;
 }
 
+/// The risk field as last put into the problem (refinement_field.hpp), R_0's share taken off.
+template <class T>
+T field_cost(const trajectory::RefinementProblem& problem, const trajectory::RefinementStep& step,
+             const State<T>& s) {
+  const trajectory::FieldResidual& field = step.field;
+  const T root = double{field.by_x} * s[0] + double{field.by_y} * s[1] + double{field.by_heading} * s[2] +
+                 double{field.by_speed} * s[3] + double{field.by_curvature} * s[5] + T(field.offset);
+  return 0.5 * square(root) - T(double{problem.field_constant} / kHorizonSteps);
+}
+
 /// Of inputs[index] and states[index + 1], without the excesses' part.
 template <class T>
 T smooth_cost(const trajectory::RefinementProblem& problem, int index, const Input<T>& u, const State<T>& s) {
@@ -108,7 +118,7 @@ T smooth_cost(const trajectory::RefinementProblem& problem, int index, const Inp
   }
   sum = sum + double{w.lane} * square(T(step.lane_offset_m) + d.across);
   sum = sum + double{w.lateral} * square(d.lateral);
-  return 0.5 * sum;
+  return 0.5 * sum + field_cost(problem, step, s);
 }
 
 /// Excess k of a step costs half of this times its square.
@@ -145,10 +155,14 @@ template <class T>
 std::vector<Row<T>> bounded_rows(const trajectory::RefinementProblem& problem,
                                  const trajectory::RefinementStep& step, const State<T>& s) {
   const Deviations<T> d = deviations(step, s);
-  const double along = step.along_bound_m;
   const double lateral = problem.lateral_bound_mps2;
-  std::vector<Row<T>> rows = {{d.along, -along, along},
-                              {d.across, double{step.across_low_m}, double{step.across_high_m}},
+  // Nor further from where the field was evaluated than it is trusted.
+  const auto trusted = [&](const T& value, double centre, double low, double high) {
+    return Row<T>{value, std::max(low, centre - double{problem.trust_m}),
+                  std::min(high, centre + double{problem.trust_m})};
+  };
+  std::vector<Row<T>> rows = {trusted(d.along, step.trusted_along_m, -step.along_bound_m, step.along_bound_m),
+                              trusted(d.across, step.trusted_across_m, step.across_low_m, step.across_high_m),
                               {d.lateral, -lateral, lateral},
                               {s[3], -kUnbounded, double{step.speed_cap_mps}, 0, -1.0}};
   for (int k = 0; k < step.half_plane_count; ++k) {
