@@ -5,6 +5,9 @@
 
 namespace s4tp {
 
+/// More than any stage takes [WorkMeter's units].
+inline constexpr std::int32_t kUnboundedWork = 1'000'000'000;
+
 /// Units of a hundred instructions of a Cortex-M7, or less; what is charged is an upper bound of what it takes
 /// (docs/budget.md).
 struct WorkMeter {

@@ -89,12 +89,12 @@ float gap_cost(const scene::Scene& scene, const LaneCostToGo& cost_to_go, int pa
 /// one is still in ours. Whether it will be made in time is LastPlace's to say.
 float lane_cost_between(const scene::Scene& scene, const LaneCostToGo& cost_to_go, int path, float s_m,
                         float beside_m, float width_m, float speed_mps, const Parameters& parameters) {
-  const float there = lane_cost(scene, cost_to_go, path, s_m, speed_mps, parameters);
+  const float there = driving_on_cost(scene, cost_to_go, path, s_m, speed_mps, parameters);
+  const float cost = there + no_room_cost(scene, path, s_m, speed_mps, parameters);
   const float unmade = clamp((beside_m / width_m - kInLaneShare) / (1.0F - kInLaneShare), 0.0F, 1.0F);
-  if (path == 0 || unmade <= 0.0F) return there;
+  if (path == 0 || unmade <= 0.0F) return cost;
   const float own_s_m = s_m + scene.ego_paths[0].frenet.s_m - scene.ego_paths[path].frenet.s_m;
-  return there + unmade * (driving_on_cost(scene, cost_to_go, 0, own_s_m, speed_mps, parameters) -
-                           driving_on_cost(scene, cost_to_go, path, s_m, speed_mps, parameters));
+  return cost + unmade * (driving_on_cost(scene, cost_to_go, 0, own_s_m, speed_mps, parameters) - there);
 }
 
 /// The last place at which a lane change that is due may still be between the lanes: where ours ends. Followed

@@ -49,10 +49,7 @@ struct FieldGradient {
 inline constexpr int kMaxSlices = 48;
 
 /// CORE-068 The same, with its gradient: differentiated under the integral, the jump of the field at the car
-/// (s = 0) as a term of the line there.
-[[nodiscard]] float field_over_slices(const Field& field, const Box& box, const FieldSlopes& slopes,
-                                      FieldGradient& gradient);
-/// The same. \param lines  out: how many it was cut into, at most kMaxSlices
+/// (s = 0) as a term of the line there. \param lines  out: how many it was cut into, at most kMaxSlices
 [[nodiscard]] float field_over_slices(const Field& field, const Box& box, const FieldSlopes& slopes,
                                       FieldGradient& gradient, int& lines);
 

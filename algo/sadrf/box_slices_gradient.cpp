@@ -170,12 +170,6 @@ FieldSlopes field_slopes(const FieldParams& params, float speed_mps, float curva
 }
 
 float field_over_slices(const Field& field, const Box& box, const FieldSlopes& slopes,
-                        FieldGradient& gradient) {
-  int lines = 0;
-  return field_over_slices(field, box, slopes, gradient, lines);
-}
-
-float field_over_slices(const Field& field, const Box& box, const FieldSlopes& slopes,
                         FieldGradient& gradient, int& lines) {
   const LocalBox local = in_frame(field, box);
   Sums sums;

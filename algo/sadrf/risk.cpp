@@ -13,8 +13,9 @@ constexpr int kRankMiddle = 1;  // of three steps: their sum is three times it t
 constexpr int kRankSteps = kHorizonSteps / kRankStride;
 static_assert(kRankSteps * kRankStride == kHorizonSteps);
 
+// Work (WorkMeter's units), beside what the steps and the road take.
 constexpr std::int32_t kSmoothWork = 60;
-constexpr std::int32_t kProfileWork = 300;  // WorkMeter's units, beside what the steps and the road take
+constexpr std::int32_t kProfileWork = 300;
 
 float instant(float obstacle, float road, float social, const Parameters& parameters) {
   return obstacle + road + parameters.risk.weight_social * social +
@@ -48,7 +49,7 @@ float risk_integral(const RiskProfile& profile, const Parameters& parameters) {
 void exact_risk(const scene::Scene& scene, const DrivableArea& area, const satp::PredictionSet& prediction,
                 const satp::KinematicSet& others, const Trajectory& trajectory, const Parameters& parameters,
                 RiskProfile& profile) {
-  WorkMeter unbounded{1'000'000'000};
+  WorkMeter unbounded{kUnboundedWork};
   exact_risk(scene, area, prediction, others, trajectory, parameters, profile, unbounded);
 }
 

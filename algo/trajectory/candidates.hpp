@@ -78,7 +78,7 @@ class CandidateVisitor {
   virtual void visit(int index) = 0;
   Trajectory& rolled_out;
   int roll_outs = 0;                                             ///< so far
-  WorkMeter meter{1'000'000'000};                                ///< what the candidates themselves may take
+  WorkMeter meter{kUnboundedWork};                               ///< what the candidates themselves may take
   Leader leaders[decltype(scene::Scene::ego_paths)::kCapacity];  ///< along each path
 
  protected:

@@ -24,7 +24,7 @@ void build_refinement(const ReferenceLine& line, float start_s_m, const Surround
 struct RefinementAllowance {
   int passes = 0;
   int evaluations = 0;  ///< times the field is evaluated along a motion; 0: it is left out
-  std::int32_t field_work = 1'000'000'000;  ///< for all of them together [WorkMeter's units]
+  std::int32_t field_work = kUnboundedWork;  ///< for all of them together [WorkMeter's units]
 };
 
 struct RefinementResult {

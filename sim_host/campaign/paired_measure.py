@@ -29,13 +29,16 @@ def value_of(episode, measure):
 
 def cell_of(episode):
     guard = "guarded" if episode["guarded"] else "bare"
-    return f"{episode['scenario']} {episode['flavour']} {episode['traffic']} {guard}"
+    return f"{episode['scenario']} {episode['flavour']} {episode['traffic']} {episode['perception']} {guard}"
 
 
 def read(path):
     """{planner: {(cell, seed): episode}}"""
     by_planner = collections.defaultdict(dict)
-    lines = path.read_text(encoding="utf-8").splitlines()
+    try:
+        lines = path.read_text(encoding="utf-8").splitlines()
+    except (OSError, UnicodeDecodeError) as error:
+        sys.exit(f"{path} cannot be read ({error}); a campaign writes episodes.jsonl into its folder")
     for number, line in enumerate(lines[1:], start=2):
         try:
             episode = json.loads(line)
@@ -94,15 +97,18 @@ def main():
     for measure in arguments.measure or ["imposed_braking_mps2", "restricted_time_s"]:
         try:
             of = differences(by_planner[arguments.first], by_planner[arguments.second], measure)
-        except KeyError:
-            fields = sorted(next(iter(by_planner[arguments.first].values())))
+        except (KeyError, ValueError):
+            one = next(iter(by_planner[arguments.first].values()))
+            fields = sorted(name for name, value in one.items() if isinstance(value, (int, float)))
             sys.exit(f"no measure {measure}; there are restricted_time_s, {', '.join(fields)}")
+        if not of:
+            sys.exit(f"{arguments.episodes}: {arguments.first} and {arguments.second} have no episode in common")
         rows += [(measure, cell, pairs, by_chance(pairs)) for cell, pairs in sorted(of.items())]
     print(f"{arguments.first} less {arguments.second} on the same episodes")
-    print(f"{'measure':24}{'cell':36}{'pairs':>6}{'difference':>22}{'p':>9}{'Holm':>9}")
+    print(f"{'measure':24}{'cell':42}{'pairs':>6}{'difference':>22}{'p':>9}{'Holm':>9}")
     for (measure, cell, pairs, p), corrected in zip(rows, holm([row[3] for row in rows])):
         half = 1.96 * statistics.stdev(pairs) / len(pairs) ** 0.5 if len(pairs) > 1 else float("nan")
-        print(f"{measure:24}{cell:36}{len(pairs):6d}{statistics.fmean(pairs):+13.3f} +- {half:.3f}{p:9.4f}{corrected:9.4f}")
+        print(f"{measure:24}{cell:42}{len(pairs):6d}{statistics.fmean(pairs):+13.3f} +- {half:.3f}{p:9.4f}{corrected:9.4f}")
 
 
 if __name__ == "__main__":

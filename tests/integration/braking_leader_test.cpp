@@ -296,10 +296,10 @@ TEST_P(BrakingLeader, IsNotHitFromTheDistanceOfTheReactionLeft) {
     if (appears) {
       EXPECT_LT(alone_m, 4.0) << GetParam().name << ": the table asks for more than is needed";
     }
-    std::printf(
-        "%s: the leader %s, brakes %.1f m ahead (RSS %.1f m), least gap %.2f m, without the field %.2f m\n",
-        GetParam().name, appears ? "appears" : "was followed", braked_at_m, reaction.distance_m, least_m,
-        appears ? alone_m : 0.0);
+    std::printf("%s: the leader %s, brakes %.1f m ahead (RSS %.1f m), least gap %.2f m", GetParam().name,
+                appears ? "appears" : "was followed", braked_at_m, reaction.distance_m, least_m);
+    if (appears) std::printf(", without the field %.2f m", alone_m);
+    std::printf("\n");
   }
 }
 

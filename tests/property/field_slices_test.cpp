@@ -65,7 +65,8 @@ TEST(FieldSlices, GradientAgreesWithDifferences) {
     FieldGradient gradient;
     const FieldSlopes slopes = field_slopes(one.params, one.driver.speed_mps, field.curvature_1pm,
                                             one.driver.steering_rad, one.driver.wheelbase_m);
-    const float value = field_over_slices(field, one.box, slopes, gradient);
+    int lines = 0;
+    const float value = field_over_slices(field, one.box, slopes, gradient, lines);
     EXPECT_FLOAT_EQ(value, field_over_slices(field, one.box));
     const double far =
         1.0 + static_cast<double>(distance(position(one.box.centre), position(one.driver.rear_axle)));

@@ -71,6 +71,14 @@ double slope_along(const RefinementProblem& problem, const Motion& motion,
   return slope;
 }
 
+/// With all the work it takes. \return what the field costs along the motion
+double evaluated(const test::RefinementScene& scene, const Motion& motion, FieldAlong& along) {
+  FieldScratch scratch;
+  WorkMeter unbounded{kUnboundedWork};
+  return static_cast<double>(evaluate_field(scene.surroundings(), scene.problem, origin_of(scene), motion,
+                                            scene.parameters, unbounded, scratch, along));
+}
+
 struct Driven {
   std::unique_ptr<test::RefinementScene> scene;
   Motion motion;  ///< an exact one of the model
@@ -84,11 +92,7 @@ std::unique_ptr<Driven> in_a_field(unsigned seed) {
   made->scene = test::random_refinement(seed);
   if (made->scene == nullptr) return nullptr;
   made->motion = driven(made->scene->start, {}, 0.0F);
-  FieldScratch scratch;
-  WorkMeter unbounded{1'000'000'000};
-  made->field_cost = static_cast<double>(
-      evaluate_field(made->scene->surroundings(), made->scene->problem, origin_of(*made->scene), made->motion,
-                     made->scene->parameters, unbounded, scratch, made->field));
+  made->field_cost = evaluated(*made->scene, made->motion, made->field);
   return made->field_cost > 0.1 ? std::move(made) : nullptr;
 }
 
@@ -121,10 +125,7 @@ TEST(RefinementField, KnotSlopesAgreeWithDifferences) {
         if (n == 3) state.speed_mps = max(state.speed_mps + by, 0.0F);
         if (n == 4) state.curvature_1pm += by;
         FieldAlong along;
-        FieldScratch scratch;
-        WorkMeter unbounded{1'000'000'000};
-        (void)evaluate_field(scene.surroundings(), scene.problem, origin_of(scene), moved, scene.parameters,
-                             unbounded, scratch, along);
+        (void)evaluated(scene, moved, along);
         return along.knots[k].risk;
       };
       const float difference = (risk_at(steps[n]) - risk_at(-steps[n])) / (2.0F * steps[n]);
@@ -162,11 +163,7 @@ TEST(RefinementField, SlopesAgreeWithDifferencesThroughTheWholeStage) {
     const auto cost_at = [&](float share) {
       const Motion moved = driven(made->motion, direction, share);
       FieldAlong along;
-      FieldScratch scratch;
-      WorkMeter unbounded{1'000'000'000};
-      return static_cast<double>(judge_motion(scene.problem, moved).own) +
-             static_cast<double>(evaluate_field(scene.surroundings(), scene.problem, origin_of(scene), moved,
-                                                scene.parameters, unbounded, scratch, along));
+      return static_cast<double>(judge_motion(scene.problem, moved).own) + evaluated(scene, moved, along);
     };
     constexpr float kShare = 0.01F;
     const double difference = (cost_at(kShare) - cost_at(-kShare)) / (2.0 * static_cast<double>(kShare));
@@ -209,11 +206,8 @@ TEST(RefinementField, SmoothIsNearExact) {
     if (made == nullptr) continue;
     const test::RefinementScene& scene = *made->scene;
     FieldAlong along;
-    FieldScratch scratch;
-    WorkMeter unbounded{1'000'000'000};
-    const double by_knots =
-        static_cast<double>(evaluate_field(scene.surroundings(), scene.problem, origin_of(scene), scene.start,
-                                           scene.parameters, unbounded, scratch, along));
+    const double by_knots = evaluated(scene, scene.start, along);
+    WorkMeter unbounded{kUnboundedWork};
     sadrf::SmoothRisk risks[kHorizonSteps];
     sadrf::smooth_risk(scene.scene, scene.prediction, scene.constant_velocity, scene.trajectory,
                        scene.parameters, 0, 1, risks, unbounded);

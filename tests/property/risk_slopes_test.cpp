@@ -19,7 +19,7 @@ using test::RiskWorld;
 
 SmoothRisk risk_at(const RiskWorld& world, int step) {
   SmoothRisk risks[kHorizonSteps];
-  WorkMeter unbounded{1'000'000'000};
+  WorkMeter unbounded{kUnboundedWork};
   smooth_risk(world.scene, world.prediction, world.others, world.trajectory, world.parameters, step,
               kHorizonSteps, risks, unbounded);
   return risks[step];
@@ -110,7 +110,8 @@ TEST(RiskSlopes, TheStepAtTheCarIsCounted) {
   const Field field = prepare_field(params, DriverState{{0.0F, 0.0F, 0.0F}, 10.0F, 0.0F, 2.9F});
   const FieldSlopes slopes = field_slopes(params, 10.0F, 0.0F, 0.0F, 2.9F);
   FieldGradient gradient;
-  const float value = field_over_slices(field, {{0.0F, 0.0F, 0.0F}, 4.0F, 2.0F}, slopes, gradient);
+  int lines = 0;
+  const float value = field_over_slices(field, {{0.0F, 0.0F, 0.0F}, 4.0F, 2.0F}, slopes, gradient, lines);
   EXPECT_NEAR(gradient.x, -2.4807F, 1e-3F);
   EXPECT_NEAR(gradient.y, 0.0F, 1e-5F);
   // d of 20 m grows by 2 m per m/s: 2 * integral of 2 p (20 - s) over 2 m = 2 * 0.0064 * (20^2 - 18^2)
@@ -129,8 +130,9 @@ TEST(RiskSlopes, SteeringAtZeroIsInTheSubgradient) {
     const DriverState driver = {{0.0F, 0.0F, 0.0F}, 12.0F, steering, 2.9F};
     const Field field = prepare_field(params, driver);
     FieldGradient gradient;
+    int lines = 0;
     (void)field_over_slices(field, box, field_slopes(params, 12.0F, field.curvature_1pm, steering, 2.9F),
-                            gradient);
+                            gradient, lines);
     by_steering[i] = gradient.steering;
   }
   EXPECT_LT(std::min(by_steering[0], by_steering[2]), by_steering[1]);

@@ -13,7 +13,7 @@ import paired_measure  # noqa: E402
 
 
 def episode(planner, seed, imposed, ending="goal"):
-    return {"planner": planner, "scenario": "merge", "flavour": "social", "traffic": "builtin", "guarded": True,
+    return {"planner": planner, "scenario": "merge", "flavour": "social", "traffic": "builtin", "perception": "ideal", "guarded": True,
             "seed": seed, "ending": ending, "duration_s": 20.0, "imposed_braking_mps2": imposed}
 
 
@@ -34,8 +34,8 @@ class PairedMeasure(unittest.TestCase):
         lines = [json.dumps(episode("a", seed, 1.0, "goal" if seed else "time-out")) for seed in range(40)]
         lines += [json.dumps(episode("b", seed, 1.5)) for seed in range(41)]
         out = run(lines, "--first", "a", "--second", "b")
-        self.assertRegex(out, r"imposed_braking_mps2 +merge social builtin guarded +40 +-0\.500 \+- 0\.000 +0\.0001 +0\.0002")
-        self.assertRegex(out, r"restricted_time_s +merge social builtin guarded +40 +\+1\.500 \+- 2\.940 +1\.0000 +1\.0000")
+        self.assertRegex(out, r"imposed_braking_mps2 +merge social builtin ideal guarded +40 +-0\.500 \+- 0\.000 +0\.0001 +0\.0002")
+        self.assertRegex(out, r"restricted_time_s +merge social builtin ideal guarded +40 +\+1\.500 \+- 2\.940 +1\.0000 +1\.0000")
 
     # As often +1 as -1 is chance.
     def test_no_difference_is_chance(self):
@@ -49,7 +49,14 @@ class PairedMeasure(unittest.TestCase):
         lines = [json.dumps(episode("a", 0, 1.0))]
         self.assertIn("no episode of b; there are a", run(lines, "--first", "a", "--second", "b", code=1))
         self.assertIn("line 3", run(lines + ["{"], "--first", "a", "--second", "a", code=1))
-        self.assertIn("no measure speed", run(lines, "--first", "a", "--second", "a", "--measure", "speed", code=1))
+        for measure in ("speed", "ending"):  # none, and a word
+            self.assertIn(f"no measure {measure}", run(lines, "--first", "a", "--second", "a", "--measure", measure, code=1))
+        other = [json.dumps(episode("b", 1, 1.0))]
+        self.assertIn("no episode in common", run(lines + other, "--first", "a", "--second", "b", code=1))
+        missing = subprocess.run([sys.executable, str(SCRIPT), "/no/where", "--first", "a", "--second", "b"], check=False,
+                                 stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        self.assertIn("/no/where cannot be read", missing.stdout)
+        self.assertNotIn("Traceback", missing.stdout)
 
 
 if __name__ == "__main__":

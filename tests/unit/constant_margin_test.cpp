@@ -4,8 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include <memory>
-
+#include "tests/support/first_plan.hpp"
 #include "tests/support/lane_maps.hpp"
 #include "tests/support/scene_support.hpp"
 
@@ -15,18 +14,10 @@ namespace {
 /// How far the plan drives in 3 s: we at 10 m/s in the right of two lanes, a car stands 25 m ahead in the left one.
 float way_m(float margin_m) {
   const LaneMap map = test::straight_road(2, 300.0F, 15.0F);
-  planner::PlannerInput input;
-  input.map = &map;
-  input.start_ms = 100;
-  input.ego = test::ego_at(50.0F, 0.0F, 0.0F, 10.0F);
-  (void)input.tracks.push(test::car(1, 75.0F, 3.2F, 0.0F, 0.0F));
   Parameters parameters;
   parameters.safety.margin_m = margin_m;
-  const auto planner = std::make_unique<ConstantMarginPlanner<false>>();
-  EXPECT_EQ(planner->init(parameters), Status::kOk);
-  Plan plan;
-  planner::Explanation explanation;
-  (void)planner->plan(input, plan, explanation);
+  const Plan plan = test::first_plan<ConstantMarginPlanner<false>>(
+      map, test::ego_at(50.0F, 0.0F, 0.0F, 10.0F), test::car(1, 75.0F, 3.2F, 0.0F, 0.0F), parameters);
   return plan.trajectory.points[kHorizonSteps].rear_axle.x_m - plan.trajectory.points[0].rear_axle.x_m;
 }
 

@@ -6,6 +6,7 @@
 
 #include <memory>
 
+#include "tests/support/first_plan.hpp"
 #include "tests/support/lane_maps.hpp"
 #include "tests/support/scene_support.hpp"
 
@@ -96,16 +97,8 @@ TEST(PredictiveDecision, ALaneChangeStillDueCostsWay) {
 // Behind a standing car the planner itself brakes, bare as well: the cost says so, no rule.
 TEST(PredictiveDecision, StopsForAStandingCar) {
   const LaneMap map = test::straight_road(1, 300.0F);
-  auto planner = std::make_unique<PredictiveDecisionPlanner<false, true>>();
-  ASSERT_EQ(planner->init(Parameters{}), Status::kOk);
-  planner::PlannerInput input;
-  input.map = &map;
-  input.start_ms = 100;
-  input.ego = test::ego_at(20.0F, 0.0F, 0.0F, 10.0F);
-  (void)input.tracks.push(test::car(1, 46.5F, 0.0F, 0.0F, 0.0F));
-  Plan plan;
-  planner::Explanation explanation;
-  ASSERT_EQ(planner->plan(input, plan, explanation), Status::kOk);
+  const Plan plan = test::first_plan<PredictiveDecisionPlanner<false, true>>(
+      map, test::ego_at(20.0F, 0.0F, 0.0F, 10.0F), test::car(1, 46.5F, 0.0F, 0.0F, 0.0F));
   EXPECT_LT(plan.trajectory.points[kHorizonSteps].rear_axle.x_m, 40.0F);  // its rear is at 44 m
 }
 

@@ -82,8 +82,8 @@ TEST(Scoring, WhoWaitsForALaneChangeKeepsRoomForIt) {
 }
 
 // Our lane ends at 70 m. Driving on in it at 5 m/s leaves 6 m less than a change takes from rest: 9 m late, 324. Half way over at
-// 55 m the change goes on: what is left of it takes 1.5 m, and there are 13.5 m. Seven of 320 drives stood for ever, as the half
-// not made yet paid for being late in our lane.
+// 55 m the change goes on: what is left of it takes 1.5 m, and there are 13.5 m. Drives stood for ever, as the half not made yet paid for
+// being late in our lane.
 TEST(Scoring, AChangeOnItsWayPaysOnlyForItsOwnLateness) {
   Road road(70.0F);
   EXPECT_GT(road.lane_cost(0, 0.0F), 300.0F);
