@@ -39,9 +39,12 @@ int LaneCostToGo::look(const scene::Scene& scene, const satp::KinematicSet& cons
   if (scene.ego_paths.empty()) return 0;
   int work = 0;
   const scene::EgoPath& own = scene.ego_paths[0];
-  const int changes = own.changes_needed < 0 ? -own.changes_needed : own.changes_needed;
-  const float spare_m = own.route_end_s_m - own.frenet.s_m - kRoomM * static_cast<float>(changes);
-  weight_ = changes == 0 ? 1.0F : clamp(spare_m / kRoomM, 0.0F, 1.0F);
+  weight_ = 1.0F;
+  float way_m = 0.0F;
+  for (const float by_s_m : own.change_by_s_m) {
+    way_m = way_m + kRoomM;
+    weight_ = min(weight_, max(0.0F, (by_s_m - own.frenet.s_m - way_m) / kRoomM));
+  }
   way_m_ = clamp(scene.ego_paths[0].goal_s_m - scene.ego_paths[0].frenet.s_m, 0.0F, kFarM);
   const int count = constant_velocity.agents.size() < scene.agents.size() ? constant_velocity.agents.size()
                                                                           : scene.agents.size();

@@ -31,13 +31,17 @@ float late_cost(float late_by_m, float changes, const Parameters& parameters) {
 float no_room_cost(const scene::Scene& scene, int path_index, float end_s_m, float end_mps,
                    const Parameters& parameters) {
   const scene::EgoPath& path = scene.ego_paths[path_index];
-  const float count = abs(static_cast<float>(path.changes_needed));
-  if (count <= 0.0F) return 0.0F;
-  const float room_m = path.route_end_s_m - end_s_m - trajectory::rear_axle_to_front_m(parameters);
-  const float changes_m = trajectory::kChangeWayM * count;
+  const float front_s_m = max(end_s_m, path.change_from_s_m) + trajectory::rear_axle_to_front_m(parameters);
   const float stop_m = occupancy::stopping_way_m(end_mps, parameters.comfort.braking_mps2);
-  const float needed_m = path_index == 0 ? changes_m + stop_m : max(changes_m, stop_m);
-  return late_cost(max(0.0F, needed_m - room_m), count, parameters);
+  float cost = 0.0F;
+  float count = 0.0F;
+  for (const float by_s_m : path.change_by_s_m) {
+    count = count + 1.0F;
+    const float changes_m = trajectory::kChangeWayM * count;
+    const float needed_m = path_index == 0 ? changes_m + stop_m : max(changes_m, stop_m);
+    cost = max(cost, late_cost(max(0.0F, needed_m - (by_s_m - front_s_m)), count, parameters));
+  }
+  return cost;
 }
 
 /// What driving on in the lane of `path` costs from the horizon's end on: time lost there, and lane changes left, more
@@ -45,10 +49,15 @@ float no_room_cost(const scene::Scene& scene, int path_index, float end_s_m, flo
 float driving_on_cost(const scene::Scene& scene, const LaneCostToGo& cost_to_go, int path_index,
                       float end_s_m, float end_mps, const Parameters& parameters) {
   const scene::EgoPath& path = scene.ego_paths[path_index];
-  const float count = abs(static_cast<float>(path.changes_needed));
-  const float room_m = max(path.route_end_s_m - end_s_m, 0.0F);
+  const float from_s_m = max(end_s_m, path.change_from_s_m);
+  float pressing = 0.0F;
+  float way_m = 0.0F;  // that the changes so far take
+  for (const float by_s_m : path.change_by_s_m) {
+    way_m = way_m + kChangeRoomM;
+    pressing = pressing + 1.0F + way_m / (max(by_s_m - from_s_m, 0.0F) + 10.0F);
+  }
   return parameters.scoring.delay * cost_to_go.delay_s(path_index, end_s_m, end_mps) +
-         parameters.scoring.lane_route * count * (1.0F + kChangeRoomM * count / (room_m + 10.0F));
+         parameters.scoring.lane_route * pressing;
 }
 
 /// What being in the lane of `path` at the horizon's end costs.

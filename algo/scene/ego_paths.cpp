@@ -129,18 +129,49 @@ void find_zones(const LaneTable& table, const Parameters& parameters, EgoPath& e
        [](const ConflictZone& a, const ConflictZone& b) { return a.entry_s_m < b.entry_s_m; });
 }
 
+LaneIndex lane_beside(const LaneTable& table, LaneIndex index, bool left) {
+  const Lane& lane = table.lane(index);
+  const LaneIndex beside = left ? lane.left : lane.right;
+  return !lane.in_junction && table.valid(beside) ? beside : kNoLaneIndex;
+}
+
+// Between which places the changes that part `last` of the path asks for can be made. Lanes side by side begin side by side.
+void find_change_places(const LaneTable& table, int last, EgoPath& ego_path) {
+  const bool left = ego_path.changes_needed > 0;
+  const int changes = left ? ego_path.changes_needed : -ego_path.changes_needed;
+  const PathLane& part = ego_path.path.lanes[last];
+  int first = last;
+  while (first > 0 && lane_beside(table, ego_path.path.lanes[first - 1].lane, left) != kNoLaneIndex) --first;
+  ego_path.change_from_s_m = ego_path.path.lanes[first].start_s_m;
+  LaneIndex index = part.lane;
+  float by_s_m = ego_path.route_end_s_m;
+  for (int i = 0; i < changes && ego_path.change_by_s_m.push(by_s_m); ++i) {
+    const LaneIndex beside = lane_beside(table, index, left);
+    if (beside == kNoLaneIndex) continue;
+    index = beside;
+    by_s_m = max(by_s_m, part.start_s_m + table.lane(index).route_remaining_m);
+  }
+}
+
+// What is to be changed on the last lane that leads on says the lane itself: on a ramp there is none beside before.
 void follow_route(const LaneTable& table, EgoPath& ego_path) {
   const LanePath& path = ego_path.path;
-  ego_path.changes_needed = table.lane(path.lanes[0].lane).changes_needed;
+  int last = -1;
   ego_path.route_end_s_m = path.length_m;
   ego_path.goal_s_m = path.length_m;
-  for (const PathLane& part : path.lanes) {
+  for (int i = 0; i < path.lanes.size(); ++i) {
+    const PathLane& part = path.lanes[i];
     const Lane& lane = table.lane(part.lane);
-    if (!lane.on_route) continue;
+    if (!lane.on_route || part.start_s_m >= ego_path.route_end_s_m) {
+      if (last >= 0) break;
+      continue;
+    }
+    last = i;
+    ego_path.changes_needed = lane.changes_needed;
     ego_path.route_end_s_m = min(part.start_s_m + max(lane.route_remaining_m, 0.0F), path.length_m);
     ego_path.goal_s_m = part.start_s_m + lane.goal_distance_m;
-    return;
   }
+  if (last >= 0) find_change_places(table, last, ego_path);
 }
 
 void add_path(const LaneTable& table, Manoeuvre manoeuvre, LaneIndex lane, const Parameters& parameters,

@@ -52,6 +52,8 @@ struct ConflictZone {
   bool merging = false;  ///< both ways go on in one lane: the other comes after us, not across
 };
 
+inline constexpr int kMaxChanges = 4;  ///< more that are needed are known when the first ones are made
+
 /// How the ego may use a lane beside or under it.
 enum class Manoeuvre : std::uint8_t { kKeep = 0, kLeft = 1, kRight = 2 };
 
@@ -63,6 +65,9 @@ struct EgoPath {
   Frenet frenet;                  ///< of our rear axle
   float lateral_offset_m = 0.0F;  ///< left of the centre line it is driven, past who stand
   float route_end_s_m = 0.0F;     ///< where a lane change must be finished, or the path's end
+  /// By when each of the `changes_needed` is to be made, in their order; the first one by route_end_s_m.
+  BoundedVector<float, kMaxChanges> change_by_s_m;
+  float change_from_s_m = 0.0F;  ///< where a lane to change to begins
   float goal_s_m = 0.0F;          ///< where the goal lies along it
   BoundedVector<ConflictZone, kMaxPathZones> zones;
 };

@@ -169,9 +169,12 @@ Leader find_follower(const scene::Scene& scene, const scene::EgoPath& path, floa
 float change_room_m(const scene::Scene& scene, const scene::EgoPath& path) {
   if (path.path.lanes.empty()) return 0.0F;
   const Lane& last = scene.map->lanes[path.path.lanes[path.path.lanes.size() - 1].lane];
-  const int changes = last.changes_needed < 0 ? -last.changes_needed : last.changes_needed;
+  float changes_m = 0.0F;
+  for (const float by_s_m : path.change_by_s_m) {
+    if (by_s_m < path.path.length_m + kAtGoalM) changes_m = changes_m + kChangeWayM;
+  }
   // Only the last lane itself can be left sideways: half of it is to be driven on in any case.
-  return min(kChangeWayM * static_cast<float>(changes), 0.5F * last.length_m);
+  return min(changes_m, 0.5F * last.length_m);
 }
 
 float dead_end_s_m(const scene::Scene& scene, const scene::EgoPath& path) {

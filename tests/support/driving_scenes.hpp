@@ -55,6 +55,14 @@ inline scene::EgoPath& add_ego_path(scene::Scene& scene, const LaneMap& map, con
   return scene.ego_paths[scene.ego_paths.size() - 1];
 }
 
+/// `changes` are to be made on the path, > 0 to the left, all of them by `by_s_m`.
+inline void need_changes(scene::EgoPath& path, int changes, float by_s_m) {
+  path.changes_needed = static_cast<std::int8_t>(changes);
+  path.route_end_s_m = by_s_m;
+  path.change_by_s_m.clear();
+  for (int i = 0; i < (changes < 0 ? -changes : changes); ++i) (void)path.change_by_s_m.push(by_s_m);
+}
+
 /// Another vehicle (5.0 x 1.8 m) with its box centre at `s_m` of `path`.
 inline scene::Agent& add_vehicle(scene::Scene& scene, const LaneMap& map, const scene::LanePath& path,
                                  float s_m, float speed_mps, float d_m = 0.0F) {

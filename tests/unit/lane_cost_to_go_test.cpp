@@ -89,9 +89,8 @@ TEST(LaneCostToGo, DeadlinesComeBeforeTime) {
   const float rooms_m[3] = {60.0F, 90.0F, 120.0F};
   for (int i = 0; i < 3; ++i) {
     Road road;
-    road.scene.ego_paths[0].changes_needed = 1;
+    need_changes(road.scene.ego_paths[0], 1, 20.0F + rooms_m[i]);
     road.scene.ego_paths[1].changes_needed = 0;
-    road.scene.ego_paths[0].route_end_s_m = 20.0F + rooms_m[i];
     road.vehicle(0, 60.0F, 5.0F);
     road.look();
     delays_s[i] = road.cost_to_go.delay_s(0, 50.0F, 10.0F);

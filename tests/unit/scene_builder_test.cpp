@@ -170,6 +170,32 @@ TEST(SceneBuilder, WhereLanesPartTakesTheOneThatNeedsFewerChanges) {
   }
 }
 
+// A ramp of 60 m becomes the rightmost of three lanes, which ends after 70 m; the one beside it after 140, and the route's is the third.
+// Seen from 20 m along the ramp, the first change is to be made by 60 + 70 = 130 m and the second by 60 + 140 = 200, neither before
+// there is a lane beside, at 60. Drives braked as hard as could be where the ramp ended, as nothing was known before, and both
+// changes were to be made by the first one's place.
+TEST(SceneBuilder, KnowsOnTheRampByWhenEachLaneChangeIsToBeMade) {
+  LaneMap map;
+  const LaneIndex ramp = test::add_lane(map, {{-60.0F, 0.0F}, {0.0F, 0.0F}});
+  const LaneIndex first = test::add_lane(map, {{0.0F, 0.0F}, {70.0F, 0.0F}});
+  const LaneIndex second = test::add_lane(map, {{0.0F, 3.2F}, {140.0F, 3.2F}});
+  const LaneIndex third = test::add_lane(map, {{0.0F, 6.4F}, {300.0F, 6.4F}});
+  test::link(map, ramp, first);
+  test::neighbours(map, first, second);
+  test::neighbours(map, second, third);
+  map.lanes[first].changes_needed = 2;
+  map.lanes[second].changes_needed = 1;
+  const scene::Scene scene = test::scene_of(map, test::ego_at(-40.0F, 0.0F, 0.0F, 8.0F), {});
+  ASSERT_EQ(scene.ego_paths.size(), 1);
+  const scene::EgoPath& path = scene.ego_paths[0];
+  EXPECT_EQ(path.changes_needed, 2);
+  ASSERT_EQ(path.change_by_s_m.size(), 2);
+  EXPECT_NEAR(path.change_by_s_m[0], 130.0F, 0.1F);
+  EXPECT_NEAR(path.change_by_s_m[1], 200.0F, 0.1F);
+  EXPECT_NEAR(path.change_from_s_m, 60.0F, 0.1F);
+  EXPECT_NEAR(path.route_end_s_m, 130.0F, 0.1F);
+}
+
 // The route turns left: our path does too, and its goal and end lie where the route says.
 TEST(SceneBuilder, FollowsTheRouteThroughTheJunction) {
   CrossJunction cross = test::cross_junction();

@@ -22,9 +22,7 @@ struct Road {
   Parameters parameters;
 
   explicit Road(float route_end_m) {
-    scene::EgoPath& own = add_ego_path(scene, map, path_of(map, {0}));
-    own.changes_needed = 1;
-    own.route_end_s_m = route_end_m;
+    need_changes(add_ego_path(scene, map, path_of(map, {0})), 1, route_end_m);
     (void)add_ego_path(scene, map, path_of(map, {1}), scene::Manoeuvre::kLeft);
     put_ego(scene, state_on(map, scene.ego_paths[0].path, 40.0F, 5.0F));
     cost_to_go.look(scene, {}, 0.0F, parameters);
@@ -96,9 +94,33 @@ TEST(Scoring, AChangeOnItsWayPaysOnlyForItsOwnLateness) {
 TEST(Scoring, OneChangeAfterTheOtherNeedsNoStandBetween) {
   Road road(76.0F);
   EXPECT_NEAR(road.lane_cost(0, 0.0F) - Road(150.0F).lane_cost(0, 0.0F), 108.0F, 15.0F);
-  road.scene.ego_paths[1].changes_needed = 1;
-  road.scene.ego_paths[1].route_end_s_m = 76.0F;
+  need_changes(road.scene.ego_paths[1], 1, 76.0F);
   EXPECT_LT(road.lane_cost(1, 3.2F), 0.1F * kMissed);
+}
+
+// Two changes are due, the first by 85 m and the second by 115: at 55 m our front has 26 m to the first place, and 56 to the second. The
+// first takes 15 m from a stand 5 m on, both take 35: in time. With both due by 85 m it lacks 9 m: 9 / 15 of a missed route and 4 a
+// metre are 324, and the second change that presses is 6 + 6 * 120 / 40 = 24 more.
+TEST(Scoring, EachLaneChangeHasItsOwnLastPlace) {
+  Road road(85.0F);
+  const float one = road.lane_cost(0, 0.0F);
+  need_changes(road.scene.ego_paths[0], 2, 85.0F);
+  const float both_at_once = road.lane_cost(0, 0.0F);
+  road.scene.ego_paths[0].change_by_s_m[1] = 115.0F;
+  EXPECT_LT(road.lane_cost(0, 0.0F), one + 0.1F * kMissed);
+  EXPECT_NEAR(both_at_once - one, 348.0F, 5.0F);
+}
+
+// What lies before the place where lanes to change to begin is of no use for the changes: whoever is late anyway is no later for
+// coming there. A drive stood for ever in a junction, 30 m before its lane's end and three lanes from its own.
+TEST(Scoring, ComingToWhereALaneBeginsBesideMakesNobodyLate) {
+  Road road(70.0F);
+  const float late = road.lane_cost(0, 0.0F);
+  EXPECT_GT(late, 300.0F);
+  road.scene.ego_paths[0].change_from_s_m = 55.0F;
+  EXPECT_NEAR(road.lane_cost(0, 0.0F), late, 1.0F);
+  road.scene.ego_paths[0].change_from_s_m = 60.0F;
+  EXPECT_GT(road.lane_cost(0, 0.0F), late + 100.0F);
 }
 
 // We stand in our lane behind one that stands: where that leaves 2.5 m to it, nothing asks us on; with 3 m more, something
