@@ -25,20 +25,28 @@ float late_cost(float late_by_m, float changes, const Parameters& parameters) {
          kLateShare * parameters.scoring.progress * late_by_m;
 }
 
+/// From where the changes that `path` needs are made, by whoever drives there as far as `end_s_m`: no lane beside, no
+/// choice yet, and nothing missed.
+float changes_from_s_m(const scene::EgoPath& path, float end_s_m) {
+  return path.frenet.s_m < path.change_from_s_m ? path.change_from_s_m : end_s_m;
+}
+
 /// What whoever is in the lane of `path` at the horizon's end with no room left for the changes it needs pays, as one
 /// does who changes late: else it stood for ever where a change would be. In the lane we are in we may have to wait for
-/// one, and then change from rest; on the way to another one, what comes next is one or the other.
+/// one, and then change from rest; on the way to another one, or to where there is one, what comes next is one or the other.
 float no_room_cost(const scene::Scene& scene, int path_index, float end_s_m, float end_mps,
                    const Parameters& parameters) {
   const scene::EgoPath& path = scene.ego_paths[path_index];
-  const float front_s_m = max(end_s_m, path.change_from_s_m) + trajectory::rear_axle_to_front_m(parameters);
+  const float from_s_m = changes_from_s_m(path, end_s_m);
+  const float front_s_m = from_s_m + trajectory::rear_axle_to_front_m(parameters);
+  const bool waits = path_index == 0 && path.frenet.s_m >= path.change_from_s_m;
   const float stop_m = occupancy::stopping_way_m(end_mps, parameters.comfort.braking_mps2);
   float cost = 0.0F;
   float count = 0.0F;
   for (const float by_s_m : path.change_by_s_m) {
     count = count + 1.0F;
     const float changes_m = trajectory::kChangeWayM * count;
-    const float needed_m = path_index == 0 ? changes_m + stop_m : max(changes_m, stop_m);
+    const float needed_m = waits ? changes_m + stop_m : max(changes_m, stop_m);
     cost = max(cost, late_cost(max(0.0F, needed_m - (by_s_m - front_s_m)), count, parameters));
   }
   return cost;
@@ -49,7 +57,7 @@ float no_room_cost(const scene::Scene& scene, int path_index, float end_s_m, flo
 float driving_on_cost(const scene::Scene& scene, const LaneCostToGo& cost_to_go, int path_index,
                       float end_s_m, float end_mps, const Parameters& parameters) {
   const scene::EgoPath& path = scene.ego_paths[path_index];
-  const float from_s_m = max(end_s_m, path.change_from_s_m);
+  const float from_s_m = changes_from_s_m(path, end_s_m);
   float pressing = 0.0F;
   float way_m = 0.0F;  // that the changes so far take
   for (const float by_s_m : path.change_by_s_m) {
