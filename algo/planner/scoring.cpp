@@ -164,6 +164,7 @@ CostBreakdown score_motion(const scene::Scene& scene, const LaneCostToGo& cost_t
   float jerk_sum = 0.0F;
   float lateral_sum = 0.0F;
   float offset_sum = 0.0F;
+  float wanted_mps = 0.0F;  // at the last place looked at
   int offset_count = 0;
   const scene::EgoPath& own = scene.ego_paths[0];
   const float width_m = scene::path_point(*scene.map, path.path, path.frenet.s_m).width_m;
@@ -182,7 +183,7 @@ CostBreakdown score_motion(const scene::Scene& scene, const LaneCostToGo& cost_t
     scene::PathPoint centre;
     const scene::Frenet frenet =
         scene::project(*scene.map, path.path, position(point.rear_axle), s_m, 5.0F, centre, work);
-    float wanted_mps = centre.speed_limit_mps;
+    wanted_mps = centre.speed_limit_mps;
     const float bend = abs(centre.curvature_1pm);
     if (bend * wanted_mps * wanted_mps > parameters.comfort.lateral_mps2) {
       wanted_mps = sqrt(parameters.comfort.lateral_mps2 / bend);
@@ -206,6 +207,10 @@ CostBreakdown score_motion(const scene::Scene& scene, const LaneCostToGo& cost_t
   cost.jerk = parameters.scoring.jerk * (jerk_sum / steps);
   cost.lateral = parameters.scoring.lateral_acceleration * (lateral_sum / steps);
   const float end_mps = trajectory.points[kHorizonSteps].speed_mps;
+  // Way lost from the horizon's end on until we are as fast as wanted.
+  const float slower_mps = max(0.0F, wanted_mps - end_mps);
+  cost.progress = cost.progress + parameters.scoring.progress * 0.5F * square(slower_mps) /
+                                      parameters.comfort.acceleration_mps2;
   const float lane =
       lane_cost_between(scene, cost_to_go, path_index, s_m, abs(last.at_d_m), width_m, end_mps, parameters);
   cost.lane = parameters.scoring.lane_offset * (offset_sum / samples) + lane;

@@ -32,7 +32,11 @@ struct Road {
     return lane_cost(changes ? 1 : 0, changes ? 3.2F : 0.0F);
   }
   /// The same of a motion on `path` that comes `over_m` to the left.
-  [[nodiscard]] float lane_cost(int path, float over_m) const {
+  [[nodiscard]] float lane_cost(int path, float over_m) const { return cost(path, over_m).lane; }
+  [[nodiscard]] float progress() const { return cost(0, 0.0F).progress; }
+
+ private:
+  [[nodiscard]] CostBreakdown cost(int path, float over_m) const {
     Trajectory trajectory;
     for (int i = 0; i < kTrajectoryPoints; ++i) {
       const float way_m = 0.5F * static_cast<float>(i);
@@ -42,7 +46,7 @@ struct Road {
       point.rear_axle.y_m += over_m * u * u * u * (10.0F - 15.0F * u + 6.0F * u * u);
     }
     int work = 0;
-    return score_motion(scene, cost_to_go, path, 40.0F, trajectory, false, false, parameters, work).lane;
+    return score_motion(scene, cost_to_go, path, 40.0F, trajectory, false, false, parameters, work);
   }
 };
 
@@ -119,6 +123,12 @@ TEST(Scoring, NobodyIsLateBeforeThereIsALaneBeside) {
   EXPECT_GT(road.lane_cost(0, 0.0F), 300.0F);
   road.scene.ego_paths[0].change_from_s_m = 50.0F;
   EXPECT_LT(road.lane_cost(0, 0.0F), 0.1F * kMissed);
+}
+
+// At 5 m/s at the end of 3 s, where 10 are wanted, 25 / (2 * 2) = 6.25 m more are lost until we are as fast: progress is 15 m less that.
+// Drives stood for ever where going was worth its first 3 s only.
+TEST(Scoring, ProgressCountsUntilWeAreAsFastAsWanted) {
+  EXPECT_NEAR(Road(250.0F).progress(), -15.0F + 6.25F, 0.1F);
 }
 
 // We stand in our lane behind one that stands: where that leaves 2.5 m to it, nothing asks us on; with 3 m more, something
