@@ -2,6 +2,7 @@
 
 #include <new>
 
+#include "algo/behavior/manoeuvres.hpp"
 #include "algo/core/inline.hpp"
 #include "algo/core/self_test.hpp"
 #include "algo/planner/input_check.hpp"
@@ -100,7 +101,7 @@ Status PlanningCycle::plan(const PlannerInput& input, Plan& plan, Explanation& e
       const int look_work =
           guard_.look(scene_, start_, 0.001F * static_cast<float>(start_ms_ - scene_.time_ms), parameters_);
       // What comes last is paid for first.
-      work_.spend(Stage::kCheck, look_work + judge_work() + guard_.commit_work());
+      work_.spend(Stage::kCheck, look_work + judge_work() + guard_.commit_work() + behavior::kAdvanceWork);
       work_.spend(Stage::kExplain, work::kExplain);
       if (scene_.list_refused) status = Status::kStaleTracks;
     }
@@ -117,6 +118,7 @@ Status PlanningCycle::plan(const PlannerInput& input, Plan& plan, Explanation& e
   plan.kind = status == Status::kOk ? PlanKind::kDrive : PlanKind::kNone;
   plan.start_ms = start_ms_;
   plan.fail_safe = status == Status::kOk ? fail_safe_ : FailSafe{};
+  plan.manoeuvre = status == Status::kOk ? manoeuvre_ : running_.manoeuvre;
   if (!start_known) {
     for (TrajectoryPoint& point : chosen_.points) point = TrajectoryPoint{};
   } else if (status != Status::kOk) {
@@ -231,6 +233,10 @@ Status PlanningCycle::choose(Explanation& explanation) {
   const safety::Verdict verdict = guard_.judge(candidates_[best].path, chosen_);
   guard_.commit(candidates_[best].path, verdict);
   fail_safe_ = verdict.fail_safe;
+  const bool passes_group = verdict.clears && !verdict.stops_short;
+  manoeuvre_ = behavior::advance(running_.manoeuvre,
+                                 {candidates_[best].path, &chosen_, passes_group, verdict.cleared_end}, scene_,
+                                 start_ms_, parameters_);
 
   const StageScope scope(probe, Stage::kExplain);
   explanation.chosen = candidates_[best];

@@ -171,8 +171,7 @@ class PlanningCycle {
   CostBreakdown costs_[kMaxCandidates];
   float hard_[kMaxCandidates] = {};  ///< price of what can only be given up by braking hard
   DecisionList decisions_;
-  bool keeps_plan_ = false;  ///< the running plan is among the candidates, as decision plan_key_
-  DecisionKey plan_key_ = 0;
+  Reserved reserved_;          ///< on the shortlist
   int decisions_to_come_ = 0;  ///< exact risks, with this one
   /// Before anything is predicted for a plan, its room serves the network.
   union Conditioned {
@@ -184,6 +183,7 @@ class PlanningCycle {
   Trajectory chosen_;
   Trajectory refined_;
   FailSafe fail_safe_;
+  ManoeuvreState manoeuvre_;  ///< to be put out with chosen_
   sadrf::RiskProfile best_risk_;  ///< of the best decision so far
   bool risk_outdated_ = false;    ///< chosen_ is refined_, explanation.risk not of it
 

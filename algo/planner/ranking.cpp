@@ -1,3 +1,4 @@
+#include "algo/behavior/lane_change.hpp"
 #include "algo/core/inline.hpp"
 #include "algo/planner/lane_cost_to_go.hpp"
 #include "algo/planner/planner.hpp"
@@ -40,10 +41,9 @@ class PlanningCycle::Ranking final : public trajectory::CandidateVisitor {
     const InnerStageScope scope(planner_.probe, Stage::kCandidates, Stage::kRank);
     const trajectory::Candidate& candidate = planner_.candidates_[index];
     const bool previous = candidate.intent == trajectory::Intent::kPrevious;
-    if (previous && index == 0) plan_path_ = candidate.path;
     const bool leaves_lane = planner_.scene_.ego_paths[candidate.path].manoeuvre != scene::Manoeuvre::kKeep;
     trajectory::Rejection& rejection = explanation_.rejections[index];
-    if (free() < work::kMostScore || (careful_ && leaves_lane && !previous)) {
+    if (free() < work::kMostScore || (careful_ && leaves_lane && !goes_on(candidate))) {
       rejection = trajectory::Rejection::kLeftOut;
       return;
     }
@@ -59,6 +59,11 @@ class PlanningCycle::Ranking final : public trajectory::CandidateVisitor {
   }
 
  private:
+  /// Whether it does not leave the manoeuvre in force.
+  [[nodiscard]] bool goes_on(const trajectory::Candidate& candidate) const {
+    return candidate.path == planner_.reserved_.goes_on;
+  }
+
   /// What may be spent on the candidate at hand.
   [[nodiscard]] std::int32_t free() const { return planner_.work_.left() - kept_; }
 
@@ -67,24 +72,26 @@ class PlanningCycle::Ranking final : public trajectory::CandidateVisitor {
     const Parameters& parameters = planner_.parameters_;
     DecisionList& decisions = planner_.decisions_;
     CostBreakdown& cost = planner_.costs_[index];
-    const bool other_lane = candidate.path != plan_path_;
     int took = work::kVisit;
     cost = score_motion(scene, cost_to_go_, candidate.path, planner_.guard_.start_s_m(candidate.path),
-                        rolled_out, other_lane, careful_, parameters, took);
+                        rolled_out, !goes_on(candidate), careful_, parameters, took);
     planner_.work_.spend(Stage::kRank, took);
     count(explanation_, Stage::kRank, 1);
     const DecisionKey key = decision_key(scene, candidate.path, rolled_out, planner_.marginal_);
     if (previous) {
-      planner_.keeps_plan_ = true;
-      planner_.plan_key_ = key;
+      planner_.reserved_.keeps_plan = true;
+      planner_.reserved_.plan = key;
     }
-    // Risk only adds to the score: who is beaten without it needs none computed. The plan's own decision
-    // stays anyway.
-    const bool stays = planner_.keeps_plan_ && key == planner_.plan_key_;
-    const int places = stays ? kMaxCandidates : planner_.shortlisted();
-    if (!decisions.open_to(key, cost.total(), places)) return;
+    // Risk only adds to the score: who is beaten without it needs none computed. What is reserved stays anyway.
+    const Reserved& reserved = planner_.reserved_;
+    const auto is_open = [&]() {
+      const bool stays = (reserved.keeps_plan && key == reserved.plan) ||
+                         (reserved.holds(candidate.path) && decisions.leads_path(candidate.path, cost.total()));
+      return decisions.open_to(key, cost.total(), stays ? kMaxCandidates : planner_.shortlisted());
+    };
+    if (!is_open()) return;
     cost.risk = planner_.crash_cost(planner_.marginal_, Stage::kRank) + planner_.hard_[index];
-    if (!decisions.open_to(key, cost.total(), places)) return;
+    if (!is_open()) return;
     if (risk_work_.left > free()) risk_work_.left = free();
     if (risk_work_.left <= 0) {
       explanation_.rejections[index] = trajectory::Rejection::kLeftOut;
@@ -94,7 +101,7 @@ class PlanningCycle::Ranking final : public trajectory::CandidateVisitor {
     cost.risk += parameters.scoring.risk * sadrf::rank_risk_of_vehicles(scene, planner_.marginal_,
                                                                         planner_.constant_velocity_,
                                                                         rolled_out, parameters, risk_work_);
-    if (decisions.open_to(key, cost.total(), places)) {
+    if (is_open()) {
       cost.risk += parameters.scoring.risk *
                    sadrf::rank_risk_of_road(planner_.drivable_, rolled_out, parameters, risk_work_);
       decisions.offer(key, index, cost.total());
@@ -119,7 +126,6 @@ class PlanningCycle::Ranking final : public trajectory::CandidateVisitor {
   std::int32_t kept_;       ///< for one decision, and for what the candidates still take
   std::int32_t given_ = 0;  ///< to the candidates themselves
   LaneCostToGo cost_to_go_;
-  int plan_path_ = 0;  ///< where the running plan leads, as far as it can go on; our own lane's path else
 };
 
 int PlanningCycle::shortlisted() const {
@@ -153,7 +159,8 @@ int PlanningCycle::affordable() const {
 
 void PlanningCycle::rank(bool careful, Explanation& explanation) {
   decisions_.clear();
-  keeps_plan_ = false;
+  reserved_ = {};
+  reserved_.goes_on = behavior::leads_to(running_.manoeuvre, scene_);
   {
     const StageScope scope(probe, Stage::kCandidates);
     int left_out = 0;
@@ -168,7 +175,7 @@ void PlanningCycle::rank(bool careful, Explanation& explanation) {
   }
   const StageScope scope(probe, Stage::kRank);
   work_.spend(Stage::kRank, work::kVisit);
-  decisions_.shortlist(affordable(), keeps_plan_, plan_key_);
+  decisions_.shortlist(affordable(), reserved_);
 }
 
 }  // namespace s4tp::planner

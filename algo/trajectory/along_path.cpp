@@ -171,7 +171,7 @@ float change_room_m(const scene::Scene& scene, const scene::EgoPath& path) {
   const Lane& last = scene.map->lanes[path.path.lanes[path.path.lanes.size() - 1].lane];
   const int changes = last.changes_needed < 0 ? -last.changes_needed : last.changes_needed;
   // Only the last lane itself can be left sideways: half of it is to be driven on in any case.
-  return min(kChangeWayM * static_cast<float>(changes), 0.5F * last.length_m);
+  return min(scene::kChangeWayM * static_cast<float>(changes), 0.5F * last.length_m);
 }
 
 float dead_end_s_m(const scene::Scene& scene, const scene::EgoPath& path) {

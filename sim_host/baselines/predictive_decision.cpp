@@ -7,6 +7,7 @@
 #include "algo/core/math.hpp"
 #include "algo/sadrf/futures.hpp"
 #include "algo/sadrf/overlap.hpp"
+#include "algo/behavior/manoeuvres.hpp"
 #include "algo/safety/fail_safe.hpp"
 #include "algo/satp/shipped_weights.hpp"
 #include "algo/trajectory/along_path.hpp"
@@ -167,6 +168,7 @@ Status PredictiveDecision::plan(const planner::PlannerInput& input, Plan& plan,
                                        parameters_, scene_);
   plan.start_ms = input.start_ms;
   plan.kind = PlanKind::kDrive;
+  plan.manoeuvre = running.manoeuvre;
   satp::PredictionSet chosen;
   if (status == Status::kOk) {
     explanation.learned = weights_.present();
@@ -202,6 +204,10 @@ Status PredictiveDecision::plan(const planner::PlannerInput& input, Plan& plan,
       const safety::Verdict verdict = guard_.judge(explanation.chosen.path, plan.trajectory);
       guard_.commit(explanation.chosen.path, verdict);
       plan.fail_safe = verdict.fail_safe;
+      plan.manoeuvre = behavior::advance(running.manoeuvre,
+                                         {explanation.chosen.path, &plan.trajectory,
+                                          verdict.clears && !verdict.stops_short, verdict.cleared_end},
+                                         scene_, input.start_ms, parameters_);
     }
   }
   if (status != Status::kOk) {
