@@ -251,7 +251,7 @@ typedef struct s4tp_plan {
   uint32_t lane_change_ms;       ///< vehicle time since when it is so
   uint32_t required_change_ms;   ///< the same
   uint32_t zone_claim_ms;        ///< the same
-  int32_t zone_lane;             ///< index of the lane crossed last in the group of zones claimed, or -1
+  int32_t zone_lane;             ///< index of the lane crossed last in the group of zones claimed
   s4tp_plan_point points[S4TP_PLAN_POINTS];
 } s4tp_plan;
 

@@ -29,7 +29,6 @@ void advance_zone_claim(const PlanTaken& plan, const scene::Scene& scene, std::u
   state.zone_claim_ms = now_ms;
   const bool claims = next == ZoneClaim::kClaimed || next == ZoneClaim::kCommitted;
   if (claims) state.zone_lane = claimed_lane(plan, scene);
-  if (next == ZoneClaim::kConsidered) state.zone_lane = kNoLaneIndex;
 }
 
 }  // namespace

@@ -57,7 +57,7 @@ ZoneClaimSituation zone_claim_situation(const ManoeuvreState& state, const PlanT
   for (int i = 1; i < kTrajectoryPoints; ++i)
     reached_s_m = reached_s_m + kStepS * plan.trajectory->points[i].speed_mps;
   ZoneClaimSituation situation;
-  situation.passes = plan.passes_group;
+  situation.passes = plan.passes_group && !path.zones.empty();
   situation.leads_in = !path.zones.empty() && reached_s_m > path.zones[0].entry_s_m;
   situation.passed = true;
   for (const scene::ConflictZone& zone : path.zones) {
@@ -69,7 +69,6 @@ ZoneClaimSituation zone_claim_situation(const ManoeuvreState& state, const PlanT
 
 std::int32_t claimed_lane(const PlanTaken& plan, const scene::Scene& scene) {
   const auto& zones = scene.ego_paths[plan.path].zones;
-  if (zones.empty()) return kNoLaneIndex;
   const bool known = plan.passes_group && plan.passed_zones > 0 && plan.passed_zones <= zones.size();
   return zones[known ? plan.passed_zones - 1 : 0].other_lane;
 }

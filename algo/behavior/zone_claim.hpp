@@ -40,7 +40,7 @@ struct PlanTaken {
                                                       const scene::Scene& scene, std::uint32_t now_ms,
                                                       const Parameters& parameters);
 
-/// The lane crossed last in the group that the plan leads into or its fail-safe passes; -1: there is none ahead.
+/// The lane crossed last in the group that the plan leads into or its fail-safe passes. \pre there is one ahead
 [[nodiscard]] std::int32_t claimed_lane(const PlanTaken& plan, const scene::Scene& scene);
 
 }  // namespace s4tp::behavior

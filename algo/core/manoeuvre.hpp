@@ -40,7 +40,7 @@ struct ManoeuvreState {
   std::uint32_t lane_change_ms = 0;
   std::uint32_t required_change_ms = 0;
   std::uint32_t zone_claim_ms = 0;
-  std::int32_t zone_lane = -1;  ///< slot of the lane crossed last in the group claimed, -1: none
+  std::int32_t zone_lane = 0;  ///< slot of the lane crossed last in the group claimed
 };
 
 /// Whether every part is one of the states above.

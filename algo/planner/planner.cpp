@@ -71,7 +71,8 @@ Status PlanningCycle::plan(const PlannerInput& input, Plan& plan, Explanation& e
   work_.begin(allowance.cycle);
 
   const bool running_valid = is_valid(running_, parameters_);
-  if (!running_valid) running_ = Plan{};  // whole: its fail-safe is believed no more than its points
+  // Whole: its fail-safe and its manoeuvre are believed no more than its points.
+  if (!running_valid || running_.kind == PlanKind::kNone) running_ = Plan{};
   const bool ego_valid = is_valid(input.ego);
   if (ego_valid) {
     last_ego_ = input.ego;

@@ -59,6 +59,7 @@ TEST_F(CFacade, PlansAsThePlannerDoes) {
       ASSERT_EQ(plan.points[i].acceleration_mps2, point.acceleration_mps2);
       ASSERT_EQ(plan.points[i].curvature_1pm, point.curvature_1pm);
     }
+    EXPECT_EQ(plan.lane_change, static_cast<std::uint8_t>(expected.manoeuvre.lane_change));
     EXPECT_EQ(why.chosen.cost_total, reason.chosen_cost.total());
     EXPECT_EQ(why.candidates, reason.candidate_count);
     EXPECT_EQ(why.dominating_track, reason.dominating_track);
@@ -95,7 +96,10 @@ TEST_F(CFacade, PlansTheSameAcrossTheEndOfTime) {
       EXPECT_EQ(plan_now(), S4TP_OK) << cycle;
       EXPECT_EQ(plan.start_ms, input.start_ms);
       plans.push_back(plan);
-      plans.back().start_ms = 0;
+      s4tp_plan& last = plans.back();
+      for (std::uint32_t* since_ms : {&last.lane_change_ms, &last.required_change_ms, &last.zone_claim_ms})
+        *since_ms = *since_ms != 0 ? *since_ms - begin_ms : 0;
+      last.start_ms = 0;
       input.running = &plan;
       input.now_ms += 100U;
       s4tp_plan_point now;
