@@ -248,10 +248,10 @@ typedef struct s4tp_plan {
   int8_t lane_change_side;       ///< 1: to the left, -1: to the right, 0: none
   uint8_t required_change;       ///< S4TP_REQUIRED_CHANGE_...
   uint8_t zone_claim;            ///< S4TP_ZONE_CLAIM_...
-  uint32_t lane_change_ms;       ///< vehicle time since when it is so
-  uint32_t required_change_ms;   ///< the same
-  uint32_t zone_claim_ms;        ///< the same
-  int32_t zone_lane;             ///< index of the lane crossed last in the group of zones claimed
+  uint16_t lane_change_ms;       ///< for how long that has been so; at most 60 000
+  uint16_t required_change_ms;   ///< the same
+  uint16_t zone_claim_ms;        ///< the same
+  int16_t zone_lane;             ///< index of the lane crossed last in the group of zones claimed
   s4tp_plan_point points[S4TP_PLAN_POINTS];
 } s4tp_plan;
 

@@ -65,7 +65,7 @@ const Transition<LaneChange, Situation> kLaneChangeTable[kLaneChangeRows] = {
 };
 
 LaneChangeSituation lane_change_situation(const ManoeuvreState& state, int side, const scene::Scene& scene,
-                                          std::uint32_t now_ms, const Parameters& parameters) {
+                                          const Parameters& parameters) {
   const scene::EgoPath& own = scene.ego_paths[0];
   const auto& vehicle = parameters.vehicle;
   // Our box across the lane under us.
@@ -80,7 +80,7 @@ LaneChangeSituation lane_change_situation(const ManoeuvreState& state, int side,
   situation.goes_on = side != 0 && side == state.side;
   situation.over_line = static_cast<float>(side) * centre_d_m + half_m > edge_m;
   situation.inside = abs(centre_d_m) + half_m <= edge_m;
-  situation.settled = 1e-3F * static_cast<float>(now_ms - state.lane_change_ms) > occupancy::kSettleS;
+  situation.settled = 1e-3F * static_cast<float>(state.lane_change_ms) > occupancy::kSettleS;
   return situation;
 }
 

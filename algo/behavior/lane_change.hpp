@@ -31,7 +31,7 @@ extern const Transition<LaneChange, LaneChangeSituation> kLaneChangeTable[kLaneC
 
 /// \param side  to which the plan taken leads: 1 left, -1 right, 0: it stays in the lane under us
 [[nodiscard]] LaneChangeSituation lane_change_situation(const ManoeuvreState& state, int side,
-                                                        const scene::Scene& scene, std::uint32_t now_ms,
+                                                        const scene::Scene& scene,
                                                         const Parameters& parameters);
 
 /// Index of the ego path on which the change in force goes on; 0, the lane under us, where there is none, or where it leads

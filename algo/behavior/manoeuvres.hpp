@@ -13,10 +13,12 @@ namespace s4tp::behavior {
 
 inline constexpr int kAdvanceWork = 25;  ///< of advance() [WorkMeter's units]
 
-/// The state to be put out with a plan taken. \param in_force  that of the plan before \param now_ms  when the plan taken
-/// takes effect \pre scene.map is there, and plan.path one of its ego paths
-[[nodiscard]] ManoeuvreState advance(const ManoeuvreState& in_force, const PlanTaken& plan,
-                                     const scene::Scene& scene, std::uint32_t now_ms,
-                                     const Parameters& parameters);
+/// Everything has been as it is for so much longer; no time has passed where that is below 0.
+void pass_time(std::int32_t elapsed_ms, ManoeuvreState& state);
+
+/// Moves the state of the plan in force on to what is put out with the plan taken.
+/// \pre scene.map is there, and plan.path one of its ego paths
+void advance(const PlanTaken& plan, const scene::Scene& scene, const Parameters& parameters,
+             ManoeuvreState& state);
 
 }  // namespace s4tp::behavior

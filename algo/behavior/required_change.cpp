@@ -39,8 +39,8 @@ RequiredChangeSituation required_change_situation(const scene::Scene& scene, con
   RequiredChangeSituation situation;
   situation.needed = own.changes_needed != 0;
   situation.stands = scene.ego.speed_mps < kStandingMps;
-  situation.at_place = own.route_end_s_m - front_s_m <=
-                       scene::kChangeWayM * changes + parameters.comfort.standstill_gap_m;
+  situation.at_place =
+      own.route_end_s_m - front_s_m <= scene::kChangeWayM * changes + parameters.comfort.standstill_gap_m;
   return situation;
 }
 

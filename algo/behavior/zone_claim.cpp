@@ -6,7 +6,7 @@ namespace {
 using Situation = ZoneClaimSituation;
 
 /// A plan that leads in has entered by the end of its horizon, or made no progress.
-constexpr std::uint32_t kClaimMs = kHorizonSteps * kStepMs;
+constexpr std::uint16_t kClaimMs = kHorizonSteps * kStepMs;
 
 bool passes(const Situation& s) {
   return s.passes;
@@ -50,10 +50,10 @@ const Transition<ZoneClaim, Situation> kZoneClaimTable[kZoneClaimRows] = {
 };
 
 ZoneClaimSituation zone_claim_situation(const ManoeuvreState& state, const PlanTaken& plan,
-                                        const scene::Scene& scene, std::uint32_t now_ms,
-                                        const Parameters& parameters) {
+                                        const scene::Scene& scene, const Parameters& parameters) {
   const scene::EgoPath& path = scene.ego_paths[plan.path];
-  float reached_s_m = path.frenet.s_m + 0.5F * parameters.vehicle.length_m - parameters.vehicle.rear_overhang_m;
+  float reached_s_m =
+      path.frenet.s_m + 0.5F * parameters.vehicle.length_m - parameters.vehicle.rear_overhang_m;
   for (int i = 1; i < kTrajectoryPoints; ++i)
     reached_s_m = reached_s_m + kStepS * plan.trajectory->points[i].speed_mps;
   ZoneClaimSituation situation;
@@ -63,11 +63,11 @@ ZoneClaimSituation zone_claim_situation(const ManoeuvreState& state, const PlanT
   for (const scene::ConflictZone& zone : path.zones) {
     if (zone.other_lane == state.zone_lane) situation.passed = false;
   }
-  situation.overdue = now_ms - state.zone_claim_ms >= kClaimMs;
+  situation.overdue = state.zone_claim_ms >= kClaimMs;
   return situation;
 }
 
-std::int32_t claimed_lane(const PlanTaken& plan, const scene::Scene& scene) {
+LaneIndex claimed_lane(const PlanTaken& plan, const scene::Scene& scene) {
   const auto& zones = scene.ego_paths[plan.path].zones;
   const bool known = plan.passes_group && plan.passed_zones > 0 && plan.passed_zones <= zones.size();
   return zones[known ? plan.passed_zones - 1 : 0].other_lane;

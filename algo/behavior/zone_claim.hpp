@@ -37,10 +37,10 @@ struct PlanTaken {
 };
 
 [[nodiscard]] ZoneClaimSituation zone_claim_situation(const ManoeuvreState& state, const PlanTaken& plan,
-                                                      const scene::Scene& scene, std::uint32_t now_ms,
+                                                      const scene::Scene& scene,
                                                       const Parameters& parameters);
 
 /// The lane crossed last in the group that the plan leads into or its fail-safe passes. \pre there is one ahead
-[[nodiscard]] std::int32_t claimed_lane(const PlanTaken& plan, const scene::Scene& scene);
+[[nodiscard]] LaneIndex claimed_lane(const PlanTaken& plan, const scene::Scene& scene);
 
 }  // namespace s4tp::behavior

@@ -31,16 +31,17 @@ enum class ZoneClaim : std::uint8_t {
   kWithdrawn = 4,   ///< claimed, and given up
 };
 
-/// CORE-078 All of it, with the vehicle time of the plan that brought each.
+/// CORE-078 What was decided travels with the plan that does it, and is taken back with it: how all manoeuvres stand, and
+/// for how long they have.
 struct ManoeuvreState {
   LaneChange lane_change = LaneChange::kKeep;
   std::int8_t side = 0;  ///< 1: the change leads to the left, -1: to the right, 0: there is none
   RequiredChange required_change = RequiredChange::kNone;
   ZoneClaim zone_claim = ZoneClaim::kConsidered;
-  std::uint32_t lane_change_ms = 0;
-  std::uint32_t required_change_ms = 0;
-  std::uint32_t zone_claim_ms = 0;
-  std::int32_t zone_lane = 0;  ///< slot of the lane crossed last in the group claimed
+  std::uint16_t lane_change_ms = 0;  ///< since that became so; at most a minute
+  std::uint16_t required_change_ms = 0;
+  std::uint16_t zone_claim_ms = 0;
+  std::int16_t zone_lane = 0;  ///< slot of the lane crossed last in the group claimed
 };
 
 /// Whether every part is one of the states above.

@@ -17,7 +17,7 @@ static_assert(S4TP_MAX_TRACKS == kMaxTracks && S4TP_MAX_LANES == kMaxLanes &&
               S4TP_MAX_CONFLICTS == kMaxConflicts && S4TP_NO_LANE_INDEX == kNoLaneIndex);
 static_assert(S4TP_PLAN_POINTS == kTrajectoryPoints && S4TP_PLAN_STEP_MS == kStepMs &&
               S4TP_STAGE_COUNT == kStageCount);
-static_assert(sizeof(s4tp_plan) == 36 + sizeof(float) * 6 * kTrajectoryPoints, "no padding");
+static_assert(sizeof(s4tp_plan) == 28 + sizeof(float) * 6 * kTrajectoryPoints, "no padding");
 
 template <typename Enum>
 constexpr bool same(Enum core, std::uint32_t c) {
@@ -35,9 +35,11 @@ static_assert(same(Priority::kFirstYields, S4TP_FIRST_YIELDS) &&
               same(Priority::kFirstCome, S4TP_FIRST_COME));
 static_assert(same(PlanKind::kNone, S4TP_PLAN_NONE) && same(PlanKind::kDrive, S4TP_PLAN_DRIVE) &&
               same(PlanKind::kMinimumRisk, S4TP_PLAN_MINIMUM_RISK));
-static_assert(same(LaneChange::kKeep, S4TP_LANE_CHANGE_KEEP) && same(LaneChange::kPrepare, S4TP_LANE_CHANGE_PREPARE) &&
+static_assert(same(LaneChange::kKeep, S4TP_LANE_CHANGE_KEEP) &&
+              same(LaneChange::kPrepare, S4TP_LANE_CHANGE_PREPARE) &&
               same(LaneChange::kCrossing, S4TP_LANE_CHANGE_CROSSING) &&
-              same(LaneChange::kFinish, S4TP_LANE_CHANGE_FINISH) && same(LaneChange::kSettle, S4TP_LANE_CHANGE_SETTLE));
+              same(LaneChange::kFinish, S4TP_LANE_CHANGE_FINISH) &&
+              same(LaneChange::kSettle, S4TP_LANE_CHANGE_SETTLE));
 static_assert(same(RequiredChange::kNone, S4TP_REQUIRED_CHANGE_NONE) &&
               same(RequiredChange::kApproaching, S4TP_REQUIRED_CHANGE_APPROACHING) &&
               same(RequiredChange::kWaiting, S4TP_REQUIRED_CHANGE_WAITING));

@@ -22,9 +22,9 @@ using DecisionKey = std::uint32_t;
 
 /// What a shortlist may not be without.
 struct Reserved {
-  bool keeps_plan = false;  ///< the running plan is among the candidates, ...
-  DecisionKey plan = 0;     ///< ... as this decision
-  int goes_on = 0;          ///< the path on which the manoeuvre in force goes on
+  DecisionKey plan = 0;     ///< the running plan's, where ...
+  bool keeps_plan = false;  ///< ... it is among the candidates
+  std::int8_t goes_on = 0;  ///< the path on which the manoeuvre in force goes on
   [[nodiscard]] bool holds(int path) const { return goes_on != 0 && (path == goes_on || path == 0); }
 };
 

@@ -73,6 +73,8 @@ Status PlanningCycle::plan(const PlannerInput& input, Plan& plan, Explanation& e
   const bool running_valid = is_valid(running_, parameters_);
   // Whole: its fail-safe and its manoeuvre are believed no more than its points.
   if (!running_valid || running_.kind == PlanKind::kNone) running_ = Plan{};
+  if (running_.kind != PlanKind::kNone)
+    behavior::pass_time(static_cast<std::int32_t>(start_ms_ - running_.start_ms), running_.manoeuvre);
   const bool ego_valid = is_valid(input.ego);
   if (ego_valid) {
     last_ego_ = input.ego;
@@ -119,7 +121,7 @@ Status PlanningCycle::plan(const PlannerInput& input, Plan& plan, Explanation& e
   plan.kind = status == Status::kOk ? PlanKind::kDrive : PlanKind::kNone;
   plan.start_ms = start_ms_;
   plan.fail_safe = status == Status::kOk ? fail_safe_ : FailSafe{};
-  plan.manoeuvre = status == Status::kOk ? manoeuvre_ : running_.manoeuvre;
+  plan.manoeuvre = running_.manoeuvre;
   if (!start_known) {
     for (TrajectoryPoint& point : chosen_.points) point = TrajectoryPoint{};
   } else if (status != Status::kOk) {
@@ -235,9 +237,8 @@ Status PlanningCycle::choose(Explanation& explanation) {
   guard_.commit(candidates_[best].path, verdict);
   fail_safe_ = verdict.fail_safe;
   const bool passes_group = verdict.clears && !verdict.stops_short;
-  manoeuvre_ = behavior::advance(running_.manoeuvre,
-                                 {candidates_[best].path, &chosen_, passes_group, verdict.cleared_end}, scene_,
-                                 start_ms_, parameters_);
+  behavior::advance({candidates_[best].path, &chosen_, passes_group, verdict.cleared_end}, scene_,
+                    parameters_, running_.manoeuvre);
 
   const StageScope scope(probe, Stage::kExplain);
   explanation.chosen = candidates_[best];

@@ -103,7 +103,11 @@ class PlanningCycle {
   virtual void believe(scene::Scene&) const {}
   /// Whether a feasible plan may be driven. \param path  index of the ego path it follows
   [[nodiscard]] virtual safety::Verdict verify(int path, const Trajectory& trajectory) const {
-    return guard_.judge(path, trajectory);
+    return guard_.judge(path, trajectory, later_s(path));
+  }
+  /// A lane change is begun with a plan that passes a cycle later, too: else it would be dropped at once.
+  [[nodiscard]] float later_s(int path) const {
+    return path == 0 || path == reserved_.goes_on ? 0.0F : kStepS;
   }
 
  private:
@@ -117,6 +121,7 @@ class PlanningCycle {
   void rank(bool careful, Explanation& explanation);
   /// Evaluates the shortlisted decisions with the predictions they bring about; leaves the best in chosen_.
   [[nodiscard]] Status choose(Explanation& explanation);
+  [[nodiscard]] float hard_cost(int index) const;
   void roll_out(int index);  ///< of the candidates, into chosen_
   /// The same, predicts for it and checks it.
   [[nodiscard]] bool hold(int index, Explanation& explanation);
@@ -153,7 +158,7 @@ class PlanningCycle {
   CycleWork work_;
   std::int32_t marginal_work_ = 0;  ///< of the prediction without plan
   std::uint32_t start_ms_ = 0;
-  Plan running_;
+  Plan running_;  ///< its manoeuvre is moved on as soon as another plan is taken
   scene::Scene scene_;
   sadrf::DrivableArea drivable_;
   safety::Guard guard_;
@@ -169,7 +174,7 @@ class PlanningCycle {
   trajectory::CandidateList candidates_;
   trajectory::Leader leaders_[decltype(scene::Scene::ego_paths)::kCapacity];  ///< along each path
   CostBreakdown costs_[kMaxCandidates];
-  float hard_[kMaxCandidates] = {};  ///< price of what can only be given up by braking hard
+  std::uint32_t hard_ = 0;  ///< bit i: candidate i can only be given up by braking hard
   DecisionList decisions_;
   Reserved reserved_;          ///< on the shortlist
   int decisions_to_come_ = 0;  ///< exact risks, with this one
@@ -183,7 +188,6 @@ class PlanningCycle {
   Trajectory chosen_;
   Trajectory refined_;
   FailSafe fail_safe_;
-  ManoeuvreState manoeuvre_;  ///< to be put out with chosen_
   sadrf::RiskProfile best_risk_;  ///< of the best decision so far
   bool risk_outdated_ = false;    ///< chosen_ is refined_, explanation.risk not of it
 

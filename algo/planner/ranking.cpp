@@ -6,10 +6,6 @@
 #include "algo/planner/stage_scope.hpp"
 
 namespace s4tp::planner {
-namespace {
-constexpr float kHardStopCost = 60.0F;
-}
-
 /// Looks at each candidate while its roll-out is in chosen_.
 class PlanningCycle::Ranking final : public trajectory::CandidateVisitor {
  public:
@@ -50,7 +46,7 @@ class PlanningCycle::Ranking final : public trajectory::CandidateVisitor {
     planner_.work_.spend(Stage::kRank, planner_.guard_.judge_work(candidate.path));
     const safety::Verdict verdict = planner_.verify(candidate.path, rolled_out);
     rejection = verdict.safe() ? trajectory::Rejection::kNone : trajectory::Rejection::kRefused;
-    planner_.hard_[index] = verdict.hard ? kHardStopCost : 0.0F;
+    if (verdict.hard) planner_.hard_ |= std::uint32_t{1} << index;
     if (rejection == trajectory::Rejection::kNone) {
       score(index, candidate, previous);
     } else {
@@ -85,12 +81,13 @@ class PlanningCycle::Ranking final : public trajectory::CandidateVisitor {
     // Risk only adds to the score: who is beaten without it needs none computed. What is reserved stays anyway.
     const Reserved& reserved = planner_.reserved_;
     const auto is_open = [&]() {
-      const bool stays = (reserved.keeps_plan && key == reserved.plan) ||
-                         (reserved.holds(candidate.path) && decisions.leads_path(candidate.path, cost.total()));
+      const bool stays =
+          (reserved.keeps_plan && key == reserved.plan) ||
+          (reserved.holds(candidate.path) && decisions.leads_path(candidate.path, cost.total()));
       return decisions.open_to(key, cost.total(), stays ? kMaxCandidates : planner_.shortlisted());
     };
     if (!is_open()) return;
-    cost.risk = planner_.crash_cost(planner_.marginal_, Stage::kRank) + planner_.hard_[index];
+    cost.risk = planner_.crash_cost(planner_.marginal_, Stage::kRank) + planner_.hard_cost(index);
     if (!is_open()) return;
     if (risk_work_.left > free()) risk_work_.left = free();
     if (risk_work_.left <= 0) {
@@ -159,8 +156,9 @@ int PlanningCycle::affordable() const {
 
 void PlanningCycle::rank(bool careful, Explanation& explanation) {
   decisions_.clear();
+  hard_ = 0;
   reserved_ = {};
-  reserved_.goes_on = behavior::leads_to(running_.manoeuvre, scene_);
+  reserved_.goes_on = static_cast<std::int8_t>(behavior::leads_to(running_.manoeuvre, scene_));
   {
     const StageScope scope(probe, Stage::kCandidates);
     int left_out = 0;

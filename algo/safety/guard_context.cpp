@@ -95,7 +95,8 @@ void Guard::follow_change() {
   const scene::EgoPath& own = scene_->ego_paths[0];
   // In the lane it leads to we are short of the centre, in the one it leaves beyond it.
   const float beyond_m = change_.side * own.frenet.d_m;
-  const float most_m = scene::kBesideShare * scene::path_point(*scene_->map, own.path, own.frenet.s_m).width_m;
+  const float most_m =
+      scene::kBesideShare * scene::path_point(*scene_->map, own.path, own.frenet.s_m).width_m;
   const bool comes_over = !change_.over && beyond_m < -most_m;
   if (comes_over) change_.since_ms = scene_->time_ms;
   change_.over = comes_over || (change_.over && beyond_m < most_m);

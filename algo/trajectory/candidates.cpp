@@ -162,8 +162,9 @@ bool aim_at_gap(const scene::Scene& scene, const Course& course, float lead_s, c
 
 /// The longitudinal half of a recipe. \param goes_on  the running plan does, here \return false when this path has no such
 /// thing
-bool shape_longitudinal(const scene::Scene& scene, const Trial& trial, const Course& course, const TrajectoryPoint& start, bool goes_on, float lead_s,
-                        const MergeTarget& aim, const Parameters& parameters, Candidate& candidate) {
+bool shape_longitudinal(const scene::Scene& scene, const Trial& trial, const Course& course,
+                        const TrajectoryPoint& start, bool goes_on, float lead_s, const MergeTarget& aim,
+                        const Parameters& parameters, Candidate& candidate) {
   candidate.intent = trial.intent;
   candidate.acceleration_mps2 = parameters.comfort.acceleration_mps2;
   switch (trial.intent) {

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "algo/behavior/manoeuvres.hpp"
 #include "algo/core/check.hpp"
 #include "algo/core/math.hpp"
 #include "algo/sadrf/futures.hpp"
 #include "algo/sadrf/overlap.hpp"
-#include "algo/behavior/manoeuvres.hpp"
 #include "algo/safety/fail_safe.hpp"
 #include "algo/satp/shipped_weights.hpp"
 #include "algo/trajectory/along_path.hpp"
@@ -169,6 +169,8 @@ Status PredictiveDecision::plan(const planner::PlannerInput& input, Plan& plan,
   plan.start_ms = input.start_ms;
   plan.kind = PlanKind::kDrive;
   plan.manoeuvre = running.manoeuvre;
+  if (running.kind != PlanKind::kNone)
+    behavior::pass_time(static_cast<std::int32_t>(input.start_ms - running.start_ms), plan.manoeuvre);
   satp::PredictionSet chosen;
   if (status == Status::kOk) {
     explanation.learned = weights_.present();
@@ -204,10 +206,9 @@ Status PredictiveDecision::plan(const planner::PlannerInput& input, Plan& plan,
       const safety::Verdict verdict = guard_.judge(explanation.chosen.path, plan.trajectory);
       guard_.commit(explanation.chosen.path, verdict);
       plan.fail_safe = verdict.fail_safe;
-      plan.manoeuvre = behavior::advance(running.manoeuvre,
-                                         {explanation.chosen.path, &plan.trajectory,
-                                          verdict.clears && !verdict.stops_short, verdict.cleared_end},
-                                         scene_, input.start_ms, parameters_);
+      const bool passes_group = verdict.clears && !verdict.stops_short;
+      behavior::advance({explanation.chosen.path, &plan.trajectory, passes_group, verdict.cleared_end},
+                        scene_, parameters_, plan.manoeuvre);
     }
   }
   if (status != Status::kOk) {

@@ -43,8 +43,8 @@ std::string manoeuvre_text(const Plan& plan) {
   static constexpr const char* kClaims[] = {"", "claimed", "committed to", "cleared", "withdrawn from"};
   const ManoeuvreState& state = plan.manoeuvre;
   std::string words;
-  const auto add = [&](const std::string& what, std::uint32_t since_ms) {
-    words += format("%s%s for %.1f s", words.empty() ? "" : "; ", what.c_str(), 1e-3 * (plan.start_ms - since_ms));
+  const auto add = [&](const std::string& what, int age_ms) {
+    words += format("%s%s for %.1f s", words.empty() ? "" : "; ", what.c_str(), 1e-3 * age_ms);
   };
   if (state.lane_change != LaneChange::kKeep)
     add(format("change to the %s %s", state.side > 0 ? "left" : "right",

@@ -126,9 +126,9 @@ TEST(EcuReports, DigestIsCrc32) {
   }
   plan.fail_safe = {0.5F, 6.0F};
   for (const std::uint8_t byte : {0x00, 0x00, 0x00, 0x3f, 0x00, 0x00, 0xc0, 0x40}) bytes.push_back(byte);
-  plan.manoeuvre = {LaneChange::kCrossing, -1, RequiredChange::kApproaching, ZoneClaim::kCommitted, 1, 2, 3, 4};
-  for (const std::uint8_t byte : {2, 0xFF, 1, 2, 1, 0, 0, 0, 2, 0, 0, 0, 3, 0, 0, 0, 4, 0, 0, 0})
-    bytes.push_back(byte);
+  plan.manoeuvre = {
+      LaneChange::kCrossing, -1, RequiredChange::kApproaching, ZoneClaim::kCommitted, 1, 2, 3, 4};
+  for (const std::uint8_t byte : {2, 0xFF, 1, 2, 1, 0, 2, 0, 3, 0, 4, 0}) bytes.push_back(byte);
   EXPECT_EQ(plan_digest(plan), plain_crc(bytes));
 }
 

@@ -1,9 +1,8 @@
 // Manoeuvres as they are driven: what a plan taken, and where we are, make of the state.
 
-#include "algo/behavior/manoeuvres.hpp"
-
 #include <gtest/gtest.h>
 
+#include "algo/behavior/manoeuvres.hpp"
 #include "algo/core/standing.hpp"
 #include "tests/support/lane_change_road.hpp"
 #include "tests/support/planner_drive.hpp"
@@ -17,7 +16,6 @@ using namespace test;  // NOLINT: the map builders are the language of these tes
 struct Change {
   LaneChangeRoad road;
   ManoeuvreState state;
-  std::uint32_t now_ms = 1000;
 
   /// We are `d_m` left of the centre of the lane under us and `heading_rad` across; the plan taken follows path `path`.
   void take(float d_m, int path, float heading_rad = 0.0F) {
@@ -25,8 +23,8 @@ struct Change {
     own.rear_axle.heading_rad = heading_rad;
     put_ego(road.scene, own);
     const Trajectory trajectory = across(own, 0.0F, 0.0F);
-    state = advance(state, {path, &trajectory}, road.scene, now_ms, road.parameters);
-    now_ms += 100;
+    pass_time(100, state);
+    advance({path, &trajectory}, road.scene, road.parameters, state);
   }
   /// The left lane is under us, the right one beside.
   void come_over() {
@@ -46,7 +44,9 @@ TEST(LaneChangeState, FromKeepToKeep) {
   change.take(0.6F, 1);
   EXPECT_EQ(change.state.lane_change, LaneChange::kPrepare);
   EXPECT_EQ(change.state.side, 1);
-  EXPECT_EQ(change.state.lane_change_ms, 1100U);
+  EXPECT_EQ(change.state.lane_change_ms, 0);
+  change.take(0.6F, 1);
+  EXPECT_EQ(change.state.lane_change_ms, 100);
   change.take(0.8F, 1);
   EXPECT_EQ(change.state.lane_change, LaneChange::kCrossing);
   EXPECT_EQ(leads_to(change.state, change.road.scene), 1);
@@ -96,11 +96,12 @@ TEST(LaneChangeState, Turned) {
   add_ego_path(change.road.scene, change.road.map, path_of(change.road.map, {2}), scene::Manoeuvre::kLeft);
   add_ego_path(change.road.scene, change.road.map, path_of(change.road.map, {0}), scene::Manoeuvre::kRight);
   change.take(0.0F, 1);
-  EXPECT_EQ(change.state.lane_change_ms, 1000U);
+  change.take(0.0F, 1);
+  EXPECT_EQ(change.state.lane_change_ms, 100);
   change.take(0.0F, 2);
   EXPECT_EQ(change.state.lane_change, LaneChange::kPrepare);
   EXPECT_EQ(change.state.side, -1);
-  EXPECT_EQ(change.state.lane_change_ms, 1100U);
+  EXPECT_EQ(change.state.lane_change_ms, 0);
   EXPECT_EQ(leads_to(change.state, change.road.scene), 2);
 }
 
@@ -132,7 +133,6 @@ struct Crossing {
   scene::Scene scene;
   Parameters parameters;
   ManoeuvreState state;
-  std::uint32_t now_ms = 1000;
 
   Crossing() {
     scene::EgoPath& path = add_ego_path(scene, map, path_of(map, {0}));
@@ -148,8 +148,8 @@ struct Crossing {
   void take(float speed_mps, bool passes, int passed_zones = 0) {
     Trajectory trajectory;
     for (TrajectoryPoint& point : trajectory.points) point.speed_mps = speed_mps;
-    state = advance(state, {0, &trajectory, passes, passed_zones}, scene, now_ms, parameters);
-    now_ms += 100;
+    pass_time(100, state);
+    advance({0, &trajectory, passes, passed_zones}, scene, parameters, state);
   }
 };
 
@@ -161,7 +161,7 @@ TEST(ZoneClaimState, FromConsideredToCleared) {
   crossing.take(10.0F, false);
   EXPECT_EQ(crossing.state.zone_claim, ZoneClaim::kClaimed);
   EXPECT_EQ(crossing.state.zone_lane, 7);
-  EXPECT_EQ(crossing.state.zone_claim_ms, 1100U);
+  EXPECT_EQ(crossing.state.zone_claim_ms, 0);
   crossing.take(10.0F, true, 2);
   EXPECT_EQ(crossing.state.zone_claim, ZoneClaim::kCommitted);
   EXPECT_EQ(crossing.state.zone_lane, 8);
@@ -201,12 +201,14 @@ TEST(RequiredChangeState, ApproachesWaitsAndIsOver) {
   own.route_end_s_m = 94.0F;
   const auto take = [&](float s_m, float speed_mps) {
     put_ego(road.scene, state_on(road.map, own.path, s_m, speed_mps));
-    state = advance(state, {0, &trajectory}, road.scene, 500, road.parameters);
+    pass_time(100, state);
+    advance({0, &trajectory}, road.scene, road.parameters, state);
     return state.required_change;
   };
   EXPECT_EQ(take(50.0F, 0.0F), RequiredChange::kApproaching);
-  EXPECT_EQ(state.required_change_ms, 500U);
+  EXPECT_EQ(state.required_change_ms, 0);
   EXPECT_EQ(take(50.0F, 0.0F), RequiredChange::kApproaching);
+  EXPECT_EQ(state.required_change_ms, 100);
   EXPECT_EQ(take(80.0F, 1.0F), RequiredChange::kApproaching);
   EXPECT_EQ(take(80.0F, 0.0F), RequiredChange::kWaiting);
   EXPECT_EQ(take(80.0F, 0.0F), RequiredChange::kWaiting);
@@ -220,7 +222,8 @@ TEST(RequiredChangeState, ApproachesWaitsAndIsOver) {
 TEST(ManoeuvreState, StaysWhenNoPlanIsTaken) {
   PlannerDrive drive = on_straight_road(10.0F);
   ASSERT_EQ(drive.step(), Status::kOk);
-  drive.running.manoeuvre = {LaneChange::kPrepare, 1, RequiredChange::kApproaching, ZoneClaim::kClaimed, 1, 2, 3, 4};
+  drive.running.manoeuvre = {
+      LaneChange::kPrepare, 1, RequiredChange::kApproaching, ZoneClaim::kClaimed, 1, 2, 3, 4};
   drive.planner->allowance.candidates = 0;
   ASSERT_EQ(drive.step(), Status::kNoSafePlan);
   EXPECT_EQ(drive.running.kind, PlanKind::kMinimumRisk);
@@ -229,15 +232,29 @@ TEST(ManoeuvreState, StaysWhenNoPlanIsTaken) {
   EXPECT_EQ(state.side, 1);
   EXPECT_EQ(state.required_change, RequiredChange::kApproaching);
   EXPECT_EQ(state.zone_claim, ZoneClaim::kClaimed);
-  EXPECT_EQ(state.lane_change_ms, 1U);
+  EXPECT_EQ(state.lane_change_ms, 101);
   EXPECT_EQ(state.zone_lane, 4);
+}
+
+// CORE-078: what has been so for a minute has been so for at least that.
+TEST(ManoeuvreState, AMinuteIsTheLongest) {
+  ManoeuvreState state;
+  state.zone_claim_ms = 100;
+  pass_time(59'950, state);
+  EXPECT_EQ(state.lane_change_ms, 59'950);
+  EXPECT_EQ(state.zone_claim_ms, 60'000);
+  pass_time(-100, state);
+  EXPECT_EQ(state.lane_change_ms, 59'950);
+  pass_time(0x7FFFFFFF, state);
+  EXPECT_EQ(state.required_change_ms, 60'000);
 }
 
 // CORE-014 CORE-078: a state that is none of ours makes the running plan none of ours.
 TEST(ManoeuvreState, OneThatIsNoneOfOurs) {
   for (const ManoeuvreState& bad :
        {ManoeuvreState{static_cast<LaneChange>(5)}, ManoeuvreState{LaneChange::kKeep, 2},
-        ManoeuvreState{LaneChange::kKeep, -2}, ManoeuvreState{LaneChange::kKeep, 0, static_cast<RequiredChange>(3)},
+        ManoeuvreState{LaneChange::kKeep, -2},
+        ManoeuvreState{LaneChange::kKeep, 0, static_cast<RequiredChange>(3)},
         ManoeuvreState{LaneChange::kKeep, 0, RequiredChange::kNone, static_cast<ZoneClaim>(5)}}) {
     PlannerDrive drive = on_straight_road(10.0F);
     ASSERT_EQ(drive.step(), Status::kOk);
