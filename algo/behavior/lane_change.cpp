@@ -24,8 +24,8 @@ bool turns(const Situation& s) {
 bool dropped(const Situation& s) {
   return !s.goes_on;
 }
-bool comes_over(const Situation& s) {
-  return s.goes_on && s.over_line;
+bool over_line(const Situation& s) {
+  return s.over_line;
 }
 bool inside(const Situation& s) {
   return s.inside;
@@ -53,7 +53,7 @@ const Transition<LaneChange, Situation> kLaneChangeTable[kLaneChangeRows] = {
     {LaneChange::kPrepare, over_half, LaneChange::kFinish},
     {LaneChange::kPrepare, turns, LaneChange::kPrepare},
     {LaneChange::kPrepare, dropped, LaneChange::kKeep},
-    {LaneChange::kPrepare, comes_over, LaneChange::kCrossing},
+    {LaneChange::kPrepare, over_line, LaneChange::kCrossing},
     {LaneChange::kCrossing, over_half, LaneChange::kFinish},
     {LaneChange::kCrossing, dropped, LaneChange::kSettle},
     {LaneChange::kFinish, begins_over_line, LaneChange::kCrossing},

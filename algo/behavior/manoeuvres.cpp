@@ -35,7 +35,7 @@ void advance_zone_claim(const PlanTaken& plan, const scene::Scene& scene, const 
   state.zone_claim = next;
   state.zone_claim_ms = 0;
   const bool claims = next == ZoneClaim::kClaimed || next == ZoneClaim::kCommitted;
-  if (claims) state.zone_lane = claimed_lane(plan, scene);
+  if (claims) state.zone_lane = static_cast<std::int16_t>(claimed_lane(plan, scene));
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ bool stops_before(const Situation& s) {
   return !s.passes && s.leads_in;
 }
 bool falls_back(const Situation& s) {
-  return !s.passes && !s.leads_in;
+  return !s.passes;
 }
 
 }  // namespace
@@ -67,7 +67,7 @@ ZoneClaimSituation zone_claim_situation(const ManoeuvreState& state, const PlanT
   return situation;
 }
 
-LaneIndex claimed_lane(const PlanTaken& plan, const scene::Scene& scene) {
+int claimed_lane(const PlanTaken& plan, const scene::Scene& scene) {
   const auto& zones = scene.ego_paths[plan.path].zones;
   const bool known = plan.passes_group && plan.passed_zones > 0 && plan.passed_zones <= zones.size();
   return zones[known ? plan.passed_zones - 1 : 0].other_lane;

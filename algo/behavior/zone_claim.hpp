@@ -41,6 +41,6 @@ struct PlanTaken {
                                                       const Parameters& parameters);
 
 /// The lane crossed last in the group that the plan leads into or its fail-safe passes. \pre there is one ahead
-[[nodiscard]] LaneIndex claimed_lane(const PlanTaken& plan, const scene::Scene& scene);
+[[nodiscard]] int claimed_lane(const PlanTaken& plan, const scene::Scene& scene);
 
 }  // namespace s4tp::behavior

@@ -99,6 +99,8 @@ Status PlanningCycle::plan(const PlannerInput& input, Plan& plan, Explanation& e
       work_.spend(Stage::kScene, scene_.work + drivable_work + lateral_offset_work);
     }
     start_ = trajectory::plan_start(input.ego, input.now_ms, running_, start_ms_, parameters_);
+    reserved_ = {};
+    reserved_.goes_on = static_cast<std::int8_t>(behavior::leads_to(running_.manoeuvre, scene_));
     if (status == Status::kOk) {
       const StageScope scope(probe, Stage::kCheck);
       const int look_work =

@@ -1,4 +1,3 @@
-#include "algo/behavior/lane_change.hpp"
 #include "algo/core/inline.hpp"
 #include "algo/planner/lane_cost_to_go.hpp"
 #include "algo/planner/planner.hpp"
@@ -43,7 +42,7 @@ class PlanningCycle::Ranking final : public trajectory::CandidateVisitor {
       rejection = trajectory::Rejection::kLeftOut;
       return;
     }
-    planner_.work_.spend(Stage::kRank, planner_.guard_.judge_work(candidate.path));
+    planner_.work_.spend(Stage::kRank, planner_.verify_work(candidate.path));
     const safety::Verdict verdict = planner_.verify(candidate.path, rolled_out);
     rejection = verdict.safe() ? trajectory::Rejection::kNone : trajectory::Rejection::kRefused;
     if (verdict.hard) planner_.hard_ |= std::uint32_t{1} << index;
@@ -137,7 +136,7 @@ std::int32_t PlanningCycle::decode_work() const {
 std::int32_t PlanningCycle::judge_work() const {
   std::int32_t most = 0;
   for (int path = 0; path < scene_.ego_paths.size(); ++path) {
-    const std::int32_t one = guard_.judge_work(path);
+    const std::int32_t one = verify_work(path);
     if (one > most) most = one;
   }
   return most;
@@ -157,8 +156,6 @@ int PlanningCycle::affordable() const {
 void PlanningCycle::rank(bool careful, Explanation& explanation) {
   decisions_.clear();
   hard_ = 0;
-  reserved_ = {};
-  reserved_.goes_on = static_cast<std::int8_t>(behavior::leads_to(running_.manoeuvre, scene_));
   {
     const StageScope scope(probe, Stage::kCandidates);
     int left_out = 0;

@@ -142,7 +142,8 @@ bool Guard::followers_can_brake(const PathContext& context, const Trajectory& tr
     // From when we are over the line it has its response time, then it brakes down to our speed.
     const float from_s = max(0.0F, between.from_s + rss.response_s);
     float s_m = behind.bumper_s_m;
-    float speed_mps = behind.speed_mps;
+    float speed_mps =
+        behind.speed_mps + parameters_->law.gain_mps2 * own.later_s;  // it may gain speed until then
     float own_s_m = own.s_m[0] - half_m;
     float own_mps = own.speed_mps[0];
     constexpr float kLookS = 0.2F;
@@ -193,6 +194,7 @@ Verdict Guard::judge(int path_index, const Trajectory& trajectory, float later_s
   const auto& guard = parameters_->guard;
   const float takeover_s = guard.takeover_s + later_s;
   Own own;
+  own.later_s = later_s;
   own.s_m[0] = context.start_s_m + centre_m_;
   own.speed_mps[0] = trajectory.points[0].speed_mps;
   for (int i = 1; i < kTrajectoryPoints; ++i) {
@@ -279,7 +281,9 @@ Verdict Guard::judge(int path_index, const Trajectory& trajectory, float later_s
   if (verdict.stops_short) verdict.fail_safe.branch_s = takeover_s;
   if ((context.changes && !context.half_over) || (context.settles && !context.behind.empty())) {
     bool brakes = false;
-    for (int k = 0; k <= kSettlingCount && !brakes; ++k) {
+    const int tries =
+        later_s > 0.0F ? kSettlingCount : kSettlingCount + 1;  // what is in force cannot begin later
+    for (int k = 0; k < tries && !brakes; ++k) {
       const FailSafe stop = k < kSettlingCount ? FailSafe{max(takeover_s, kSettlings[k].drives_on_s),
                                                           kSettlings[k].share * guard.braking_mps2}
                                                : in_force();
