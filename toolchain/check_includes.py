@@ -29,7 +29,8 @@ ALGO = {
     "occupancy": ["core/", "scene/"],
     "satp": ["core/", "scene/", "occupancy/"],
     "sadrf": ["core/", "scene/", "satp/", "trajectory/bicycle.hpp"],
-    "trajectory": ["core/", "scene/", "occupancy/", "satp/", "sadrf/"],
+    "behavior": ["core/", "scene/", "occupancy/"],
+    "trajectory": ["core/", "scene/", "occupancy/", "satp/", "sadrf/", "behavior/"],
     # Never predictions, beliefs or the field: what protects must not rest on what decides.
     "safety": ["core/", "scene/", "occupancy/", *(f"trajectory/{name}.hpp" for name in (
         "along_path", "bicycle", "path_walk", "plan_limits", "speed_profile"))],

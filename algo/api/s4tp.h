@@ -51,7 +51,7 @@ const char* s4tp_status_name(s4tp_status status);
 
 /* ---- Versions --------------------------------------------------------------------------------------- */
 
-#define S4TP_API_VERSION 5  ///< of this header; compare with s4tp_get_versions().api once at start
+#define S4TP_API_VERSION 6  ///< of this header; compare with s4tp_get_versions().api once at start
 
 typedef struct s4tp_versions {
   uint8_t api;         ///< of the library linked
@@ -209,6 +209,22 @@ s4tp_status s4tp_clear_map(s4tp_lane_map* map);
 #define S4TP_PLAN_DRIVE 1
 #define S4TP_PLAN_MINIMUM_RISK 2  ///< comes to rest without leaving the lane where it can
 
+#define S4TP_LANE_CHANGE_KEEP 0
+#define S4TP_LANE_CHANGE_PREPARE 1   ///< the plan leads over, the car is still in its lane
+#define S4TP_LANE_CHANGE_CROSSING 2  ///< the car is over the line, and may still go back
+#define S4TP_LANE_CHANGE_FINISH 3    ///< more than half of it is over
+#define S4TP_LANE_CHANGE_SETTLE 4    ///< made or given up; others get used to it
+
+#define S4TP_REQUIRED_CHANGE_NONE 0
+#define S4TP_REQUIRED_CHANGE_APPROACHING 1  ///< the route asks for a lane change
+#define S4TP_REQUIRED_CHANGE_WAITING 2      ///< at rest at the last place for it
+
+#define S4TP_ZONE_CLAIM_CONSIDERED 0  ///< the plan stays out of the next crossing
+#define S4TP_ZONE_CLAIM_CLAIMED 1     ///< it leads in, its fail-safe stops before
+#define S4TP_ZONE_CLAIM_COMMITTED 2   ///< its fail-safe passes
+#define S4TP_ZONE_CLAIM_CLEARED 3     ///< it is passed
+#define S4TP_ZONE_CLAIM_WITHDRAWN 4   ///< claimed, and given up
+
 /// One instant of the plan; the reference point is the middle of the rear axle.
 typedef struct s4tp_plan_point {
   float x_m;  ///< |x|, |y| <= 110 000
@@ -228,6 +244,14 @@ typedef struct s4tp_plan {
   float fail_safe_branch_s;  ///< 0 .. 3: with no new plan in force this long after the start, brake along the
                              ///< plan's path: the guard has shown that this is safe
   float fail_safe_braking_mps2;  ///< 0 .. 13
+  uint8_t lane_change;           ///< S4TP_LANE_CHANGE_...; what was decided goes back with the running plan
+  int8_t lane_change_side;       ///< 1: to the left, -1: to the right, 0: none
+  uint8_t required_change;       ///< S4TP_REQUIRED_CHANGE_...
+  uint8_t zone_claim;            ///< S4TP_ZONE_CLAIM_...
+  uint16_t lane_change_ms;       ///< for how long that has been so; at most 60 000
+  uint16_t required_change_ms;   ///< the same
+  uint16_t zone_claim_ms;        ///< the same
+  int16_t zone_lane;             ///< index of the lane crossed last in the group of zones claimed
   s4tp_plan_point points[S4TP_PLAN_POINTS];
 } s4tp_plan;
 

@@ -5,6 +5,7 @@
 
 #include "algo/core/config.hpp"
 #include "algo/core/geometry.hpp"
+#include "algo/core/manoeuvre.hpp"
 
 namespace s4tp {
 
@@ -38,6 +39,7 @@ struct Plan {
   std::uint32_t start_ms = 0;  ///< vehicle time of points[0]
   Trajectory trajectory;
   FailSafe fail_safe;
+  ManoeuvreState manoeuvre;  ///< what was decided
 };
 
 /// The state a `share` of the way from `a` to `b`; headings along the shorter way. \pre 0 <= share <= 1

@@ -9,6 +9,9 @@ namespace s4tp::occupancy {
 /// Stands for "not within any time that matters" [s].
 inline constexpr float kNeverS = 1e3F;
 
+/// T_settle of the law (D4): until others are used to whoever changed into their lane.
+inline constexpr float kSettleS = 2.0F;
+
 /// A vehicle that gains speed up to a top speed and then keeps it.
 struct Pace {
   float speed_mps = 0.0F;  ///< now, >= 0

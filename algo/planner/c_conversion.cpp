@@ -17,7 +17,7 @@ static_assert(S4TP_MAX_TRACKS == kMaxTracks && S4TP_MAX_LANES == kMaxLanes &&
               S4TP_MAX_CONFLICTS == kMaxConflicts && S4TP_NO_LANE_INDEX == kNoLaneIndex);
 static_assert(S4TP_PLAN_POINTS == kTrajectoryPoints && S4TP_PLAN_STEP_MS == kStepMs &&
               S4TP_STAGE_COUNT == kStageCount);
-static_assert(sizeof(s4tp_plan) == 16 + sizeof(float) * 6 * kTrajectoryPoints, "no padding");
+static_assert(sizeof(s4tp_plan) == 28 + sizeof(float) * 6 * kTrajectoryPoints, "no padding");
 
 template <typename Enum>
 constexpr bool same(Enum core, std::uint32_t c) {
@@ -35,6 +35,19 @@ static_assert(same(Priority::kFirstYields, S4TP_FIRST_YIELDS) &&
               same(Priority::kFirstCome, S4TP_FIRST_COME));
 static_assert(same(PlanKind::kNone, S4TP_PLAN_NONE) && same(PlanKind::kDrive, S4TP_PLAN_DRIVE) &&
               same(PlanKind::kMinimumRisk, S4TP_PLAN_MINIMUM_RISK));
+static_assert(same(LaneChange::kKeep, S4TP_LANE_CHANGE_KEEP) &&
+              same(LaneChange::kPrepare, S4TP_LANE_CHANGE_PREPARE) &&
+              same(LaneChange::kCrossing, S4TP_LANE_CHANGE_CROSSING) &&
+              same(LaneChange::kFinish, S4TP_LANE_CHANGE_FINISH) &&
+              same(LaneChange::kSettle, S4TP_LANE_CHANGE_SETTLE));
+static_assert(same(RequiredChange::kNone, S4TP_REQUIRED_CHANGE_NONE) &&
+              same(RequiredChange::kApproaching, S4TP_REQUIRED_CHANGE_APPROACHING) &&
+              same(RequiredChange::kWaiting, S4TP_REQUIRED_CHANGE_WAITING));
+static_assert(same(ZoneClaim::kConsidered, S4TP_ZONE_CLAIM_CONSIDERED) &&
+              same(ZoneClaim::kClaimed, S4TP_ZONE_CLAIM_CLAIMED) &&
+              same(ZoneClaim::kCommitted, S4TP_ZONE_CLAIM_COMMITTED) &&
+              same(ZoneClaim::kCleared, S4TP_ZONE_CLAIM_CLEARED) &&
+              same(ZoneClaim::kWithdrawn, S4TP_ZONE_CLAIM_WITHDRAWN));
 static_assert(same(trajectory::Intent::kAccelerate, S4TP_INTENT_ACCELERATE) &&
               same(trajectory::Intent::kStop, S4TP_INTENT_STOP) &&
               same(trajectory::Intent::kFollow, S4TP_INTENT_FOLLOW) &&
@@ -175,8 +188,20 @@ bool copy_map(const s4tp_lane_map& from, LaneMap& to) {
   return true;
 }
 
+bool copy_manoeuvre(const s4tp_plan& from, ManoeuvreState& to) {
+  to = {static_cast<LaneChange>(from.lane_change),
+        from.lane_change_side,
+        static_cast<RequiredChange>(from.required_change),
+        static_cast<ZoneClaim>(from.zone_claim),
+        from.lane_change_ms,
+        from.required_change_ms,
+        from.zone_claim_ms,
+        from.zone_lane};
+  return is_known(to);
+}
+
 bool copy_plan(const s4tp_plan& from, Plan& to) {
-  if (from.kind > S4TP_PLAN_MINIMUM_RISK) return false;
+  if (from.kind > S4TP_PLAN_MINIMUM_RISK || !copy_manoeuvre(from, to.manoeuvre)) return false;
   to.kind = static_cast<PlanKind>(from.kind);
   to.start_ms = from.start_ms;
   to.fail_safe = {from.fail_safe_branch_s, from.fail_safe_braking_mps2};
@@ -202,6 +227,15 @@ void copy_back(const Plan& from, s4tp_plan& to) {
   to.start_ms = from.start_ms;
   to.fail_safe_branch_s = from.fail_safe.branch_s;
   to.fail_safe_braking_mps2 = from.fail_safe.braking_mps2;
+  const ManoeuvreState& state = from.manoeuvre;
+  to.lane_change = static_cast<std::uint8_t>(state.lane_change);
+  to.lane_change_side = state.side;
+  to.required_change = static_cast<std::uint8_t>(state.required_change);
+  to.zone_claim = static_cast<std::uint8_t>(state.zone_claim);
+  to.lane_change_ms = state.lane_change_ms;
+  to.required_change_ms = state.required_change_ms;
+  to.zone_claim_ms = state.zone_claim_ms;
+  to.zone_lane = state.zone_lane;
   for (int i = 0; i < kTrajectoryPoints; ++i) to.points[i] = c_point(from.trajectory.points[i]);
 }
 

@@ -35,6 +35,10 @@ DecisionKey decision_key(const scene::Scene& scene, int path_index, const Trajec
   return key;
 }
 
+int path_of(DecisionKey key) {
+  return static_cast<int>(key & ((DecisionKey{1} << kZoneBit) - 1U));
+}
+
 bool DecisionList::open_to(DecisionKey key, float least, int count) const {
   int better = 0;
   for (const Decision& decision : decisions_) {
@@ -56,15 +60,41 @@ void DecisionList::offer(DecisionKey key, int candidate, float score) {
   S4TP_ASSERT(kept);  // there are no more decisions than candidates
 }
 
-void DecisionList::shortlist(int count, bool has_must_keep, DecisionKey must_keep) {
+bool DecisionList::leads_path(int path, float score) const {
+  for (const Decision& decision : decisions_) {
+    if (path_of(decision.key) == path && decision.score <= score) return false;
+  }
+  return true;
+}
+
+void DecisionList::shortlist(int count, const Reserved& reserved) {
   sort(decisions_, [](const Decision& a, const Decision& b) { return a.score < b.score; });
   if (decisions_.size() <= count || count <= 0) return;
-  if (has_must_keep) {
-    for (int i = count; i < decisions_.size(); ++i) {
-      if (decisions_[i].key == must_keep) decisions_[count - 1] = decisions_[i];
+  bool kept[kMaxCandidates] = {};
+  int room = count;
+  const auto keep_first = [&](const auto& is_it) {
+    for (int i = 0; i < decisions_.size() && room > 0; ++i) {
+      if (!is_it(decisions_[i].key)) continue;
+      if (!kept[i]) --room;
+      kept[i] = true;
+      return;
     }
+  };
+  const auto on_path = [](int path) { return [path](DecisionKey key) { return path_of(key) == path; }; };
+  if (reserved.keeps_plan) keep_first([&](DecisionKey key) { return key == reserved.plan; });
+  if (reserved.goes_on != 0) {
+    keep_first(on_path(reserved.goes_on));
+    keep_first(on_path(0));
   }
-  decisions_.truncate(count);
+  for (int i = 0; i < decisions_.size() && room > 0; ++i) {
+    if (!kept[i]) --room;
+    kept[i] = true;
+  }
+  int size = 0;
+  for (int i = 0; i < decisions_.size(); ++i) {
+    if (kept[i]) decisions_[size++] = decisions_[i];
+  }
+  decisions_.truncate(size);
 }
 
 }  // namespace s4tp::planner

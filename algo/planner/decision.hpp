@@ -18,6 +18,16 @@ using DecisionKey = std::uint32_t;
 [[nodiscard]] DecisionKey decision_key(const scene::Scene& scene, int path, const Trajectory& trajectory,
                                        const satp::PredictionSet& marginal);
 
+[[nodiscard]] int path_of(DecisionKey key);
+
+/// What a shortlist may not be without.
+struct Reserved {
+  DecisionKey plan = 0;     ///< the running plan's, where ...
+  bool keeps_plan = false;  ///< ... it is among the candidates
+  std::int8_t goes_on = 0;  ///< the path on which the manoeuvre in force goes on
+  [[nodiscard]] bool holds(int path) const { return goes_on != 0 && (path == goes_on || path == 0); }
+};
+
 /// A candidate that stands for its decision.
 struct Decision {
   DecisionKey key = 0;
@@ -33,8 +43,11 @@ class DecisionList {
   [[nodiscard]] bool open_to(DecisionKey key, float least, int count) const;
   /// Offers a candidate; kept when it is the best of its decision so far.
   void offer(DecisionKey key, int candidate, float score);
-  /// Keeps at most `count`, cheapest first, but never drops `must_keep` when it is there.
-  void shortlist(int count, bool has_must_keep, DecisionKey must_keep);
+  /// Whether none that leads to `path` scores less.
+  [[nodiscard]] bool leads_path(int path, float score) const;
+  /// Keeps at most `count`, cheapest first, but never drops what is reserved: the decision `plan`, where it is there, and the
+  /// cheapest to each of `paths`, in this order while there is room.
+  void shortlist(int count, const Reserved& reserved);
   [[nodiscard]] int size() const { return decisions_.size(); }
   [[nodiscard]] const Decision& operator[](int index) const { return decisions_[index]; }
   void clear() { decisions_.clear(); }

@@ -11,7 +11,8 @@ namespace s4tp::planner {
 namespace {
 
 constexpr std::int32_t kLimitsWork = 150;  // to see whether a plan keeps to the limits of any plan
-constexpr float kCrashCost = 1000.0F;      // a certain crash outweighs all other terms of a score together
+constexpr float kHardStopCost = 60.0F;
+constexpr float kCrashCost = 1000.0F;  // a certain crash outweighs all other terms of a score together
 
 }  // namespace
 
@@ -20,6 +21,10 @@ float PlanningCycle::crash_cost(const satp::PredictionSet& prediction, Stage sta
   const float expected = sadrf::expected_collisions(scene_, prediction, chosen_, parameters_, meter);
   work_.spend(stage, -meter.left);
   return kCrashCost * expected;
+}
+
+float PlanningCycle::hard_cost(int index) const {
+  return (hard_ >> index & 1U) != 0 ? kHardStopCost : 0.0F;
 }
 
 bool PlanningCycle::hold(int index, Explanation& explanation) {
@@ -44,7 +49,7 @@ bool PlanningCycle::hold(int index, Explanation& explanation) {
   {
     const StageScope scope(probe, Stage::kCheck);
     count(explanation, Stage::kCheck, 1);
-    work_.spend(Stage::kCheck, guard_.judge_work(candidates_[index].path));
+    work_.spend(Stage::kCheck, verify_work(candidates_[index].path));
     if (!verify(candidates_[index].path, chosen_).safe()) {
       explanation.rejections[index] = trajectory::Rejection::kRefused;
       return false;
@@ -81,7 +86,7 @@ bool PlanningCycle::evaluate(int index, Explanation& explanation) {
   if (allowance.decisions <= 0 || !can_evaluate_risk(explanation)) return true;
   evaluate_risk(conditioned_.set, chosen_, explanation, explanation.risk);
   costs_[index].risk = parameters_.scoring.risk * sadrf::risk_integral(explanation.risk, parameters_) +
-                       crash_cost(conditioned_.set, Stage::kExactRisk) + hard_[index];
+                       crash_cost(conditioned_.set, Stage::kExactRisk) + hard_cost(index);
   return true;
 }
 
@@ -117,7 +122,7 @@ void PlanningCycle::refine(const trajectory::Candidate& candidate, Explanation& 
   {
     const StageScope scope(probe, Stage::kCheck);
     count(explanation, Stage::kCheck, 1);
-    work_.spend(Stage::kCheck, kLimitsWork + guard_.judge_work(candidate.path));
+    work_.spend(Stage::kCheck, kLimitsWork + verify_work(candidate.path));
     // A refinement that does not pass is dropped: what it started from has passed.
     const bool passes_check =
         trajectory::keeps_limits(refined_, parameters_) && verify(candidate.path, refined_).safe();

@@ -2,6 +2,7 @@
 
 #include <new>
 
+#include "algo/behavior/manoeuvres.hpp"
 #include "algo/core/inline.hpp"
 #include "algo/core/self_test.hpp"
 #include "algo/planner/input_check.hpp"
@@ -70,7 +71,10 @@ Status PlanningCycle::plan(const PlannerInput& input, Plan& plan, Explanation& e
   work_.begin(allowance.cycle);
 
   const bool running_valid = is_valid(running_, parameters_);
-  if (!running_valid) running_ = Plan{};  // whole: its fail-safe is believed no more than its points
+  // Whole: its fail-safe and its manoeuvre are believed no more than its points.
+  if (!running_valid || running_.kind == PlanKind::kNone) running_ = Plan{};
+  if (running_.kind != PlanKind::kNone)
+    behavior::pass_time(static_cast<std::int32_t>(start_ms_ - running_.start_ms), running_.manoeuvre);
   const bool ego_valid = is_valid(input.ego);
   if (ego_valid) {
     last_ego_ = input.ego;
@@ -95,12 +99,14 @@ Status PlanningCycle::plan(const PlannerInput& input, Plan& plan, Explanation& e
       work_.spend(Stage::kScene, scene_.work + drivable_work + lateral_offset_work);
     }
     start_ = trajectory::plan_start(input.ego, input.now_ms, running_, start_ms_, parameters_);
+    reserved_ = {};
+    reserved_.goes_on = static_cast<std::int8_t>(behavior::leads_to(running_.manoeuvre, scene_));
     if (status == Status::kOk) {
       const StageScope scope(probe, Stage::kCheck);
       const int look_work =
           guard_.look(scene_, start_, 0.001F * static_cast<float>(start_ms_ - scene_.time_ms), parameters_);
       // What comes last is paid for first.
-      work_.spend(Stage::kCheck, look_work + judge_work() + guard_.commit_work());
+      work_.spend(Stage::kCheck, look_work + judge_work() + guard_.commit_work() + behavior::kAdvanceWork);
       work_.spend(Stage::kExplain, work::kExplain);
       if (scene_.list_refused) status = Status::kStaleTracks;
     }
@@ -117,6 +123,7 @@ Status PlanningCycle::plan(const PlannerInput& input, Plan& plan, Explanation& e
   plan.kind = status == Status::kOk ? PlanKind::kDrive : PlanKind::kNone;
   plan.start_ms = start_ms_;
   plan.fail_safe = status == Status::kOk ? fail_safe_ : FailSafe{};
+  plan.manoeuvre = running_.manoeuvre;
   if (!start_known) {
     for (TrajectoryPoint& point : chosen_.points) point = TrajectoryPoint{};
   } else if (status != Status::kOk) {
@@ -231,6 +238,9 @@ Status PlanningCycle::choose(Explanation& explanation) {
   const safety::Verdict verdict = guard_.judge(candidates_[best].path, chosen_);
   guard_.commit(candidates_[best].path, verdict);
   fail_safe_ = verdict.fail_safe;
+  const bool passes_group = verdict.clears && !verdict.stops_short;
+  behavior::advance({candidates_[best].path, &chosen_, passes_group, verdict.cleared_end}, scene_,
+                    parameters_, running_.manoeuvre);
 
   const StageScope scope(probe, Stage::kExplain);
   explanation.chosen = candidates_[best];

@@ -103,7 +103,17 @@ class PlanningCycle {
   virtual void believe(scene::Scene&) const {}
   /// Whether a feasible plan may be driven. \param path  index of the ego path it follows
   [[nodiscard]] virtual safety::Verdict verify(int path, const Trajectory& trajectory) const {
-    return guard_.judge(path, trajectory);
+    const safety::Verdict verdict = guard_.judge(path, trajectory);
+    if (!verdict.safe() || !begins_change(path)) return verdict;
+    // Begun with a plan that does not pass a cycle later, too, it would be dropped at once.
+    const safety::Verdict later = guard_.judge(path, trajectory, kStepS);
+    return later.safe() ? verdict : later;
+  }
+  /// Whether who follows the path takes up a lane change.
+  [[nodiscard]] bool begins_change(int path) const { return path != 0 && path != reserved_.goes_on; }
+  /// What verify() takes at most [WorkMeter's units].
+  [[nodiscard]] std::int32_t verify_work(int path) const {
+    return (begins_change(path) ? 2 : 1) * guard_.judge_work(path);
   }
 
  private:
@@ -117,6 +127,7 @@ class PlanningCycle {
   void rank(bool careful, Explanation& explanation);
   /// Evaluates the shortlisted decisions with the predictions they bring about; leaves the best in chosen_.
   [[nodiscard]] Status choose(Explanation& explanation);
+  [[nodiscard]] float hard_cost(int index) const;
   void roll_out(int index);  ///< of the candidates, into chosen_
   /// The same, predicts for it and checks it.
   [[nodiscard]] bool hold(int index, Explanation& explanation);
@@ -153,7 +164,7 @@ class PlanningCycle {
   CycleWork work_;
   std::int32_t marginal_work_ = 0;  ///< of the prediction without plan
   std::uint32_t start_ms_ = 0;
-  Plan running_;
+  Plan running_;  ///< its manoeuvre is moved on as soon as another plan is taken
   scene::Scene scene_;
   sadrf::DrivableArea drivable_;
   safety::Guard guard_;
@@ -169,10 +180,9 @@ class PlanningCycle {
   trajectory::CandidateList candidates_;
   trajectory::Leader leaders_[decltype(scene::Scene::ego_paths)::kCapacity];  ///< along each path
   CostBreakdown costs_[kMaxCandidates];
-  float hard_[kMaxCandidates] = {};  ///< price of what can only be given up by braking hard
+  std::uint32_t hard_ = 0;  ///< bit i: candidate i can only be given up by braking hard
   DecisionList decisions_;
-  bool keeps_plan_ = false;  ///< the running plan is among the candidates, as decision plan_key_
-  DecisionKey plan_key_ = 0;
+  Reserved reserved_;          ///< on the shortlist
   int decisions_to_come_ = 0;  ///< exact risks, with this one
   /// Before anything is predicted for a plan, its room serves the network.
   union Conditioned {

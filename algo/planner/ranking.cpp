@@ -5,10 +5,6 @@
 #include "algo/planner/stage_scope.hpp"
 
 namespace s4tp::planner {
-namespace {
-constexpr float kHardStopCost = 60.0F;
-}
-
 /// Looks at each candidate while its roll-out is in chosen_.
 class PlanningCycle::Ranking final : public trajectory::CandidateVisitor {
  public:
@@ -40,17 +36,16 @@ class PlanningCycle::Ranking final : public trajectory::CandidateVisitor {
     const InnerStageScope scope(planner_.probe, Stage::kCandidates, Stage::kRank);
     const trajectory::Candidate& candidate = planner_.candidates_[index];
     const bool previous = candidate.intent == trajectory::Intent::kPrevious;
-    if (previous && index == 0) plan_path_ = candidate.path;
     const bool leaves_lane = planner_.scene_.ego_paths[candidate.path].manoeuvre != scene::Manoeuvre::kKeep;
     trajectory::Rejection& rejection = explanation_.rejections[index];
-    if (free() < work::kMostScore || (careful_ && leaves_lane && !previous)) {
+    if (free() < work::kMostScore || (careful_ && leaves_lane && !goes_on(candidate))) {
       rejection = trajectory::Rejection::kLeftOut;
       return;
     }
-    planner_.work_.spend(Stage::kRank, planner_.guard_.judge_work(candidate.path));
+    planner_.work_.spend(Stage::kRank, planner_.verify_work(candidate.path));
     const safety::Verdict verdict = planner_.verify(candidate.path, rolled_out);
     rejection = verdict.safe() ? trajectory::Rejection::kNone : trajectory::Rejection::kRefused;
-    planner_.hard_[index] = verdict.hard ? kHardStopCost : 0.0F;
+    if (verdict.hard) planner_.hard_ |= std::uint32_t{1} << index;
     if (rejection == trajectory::Rejection::kNone) {
       score(index, candidate, previous);
     } else {
@@ -59,6 +54,11 @@ class PlanningCycle::Ranking final : public trajectory::CandidateVisitor {
   }
 
  private:
+  /// Whether it does not leave the manoeuvre in force.
+  [[nodiscard]] bool goes_on(const trajectory::Candidate& candidate) const {
+    return candidate.path == planner_.reserved_.goes_on;
+  }
+
   /// What may be spent on the candidate at hand.
   [[nodiscard]] std::int32_t free() const { return planner_.work_.left() - kept_; }
 
@@ -67,24 +67,27 @@ class PlanningCycle::Ranking final : public trajectory::CandidateVisitor {
     const Parameters& parameters = planner_.parameters_;
     DecisionList& decisions = planner_.decisions_;
     CostBreakdown& cost = planner_.costs_[index];
-    const bool other_lane = candidate.path != plan_path_;
     int took = work::kVisit;
     cost = score_motion(scene, cost_to_go_, candidate.path, planner_.guard_.start_s_m(candidate.path),
-                        rolled_out, other_lane, careful_, parameters, took);
+                        rolled_out, !goes_on(candidate), careful_, parameters, took);
     planner_.work_.spend(Stage::kRank, took);
     count(explanation_, Stage::kRank, 1);
     const DecisionKey key = decision_key(scene, candidate.path, rolled_out, planner_.marginal_);
     if (previous) {
-      planner_.keeps_plan_ = true;
-      planner_.plan_key_ = key;
+      planner_.reserved_.keeps_plan = true;
+      planner_.reserved_.plan = key;
     }
-    // Risk only adds to the score: who is beaten without it needs none computed. The plan's own decision
-    // stays anyway.
-    const bool stays = planner_.keeps_plan_ && key == planner_.plan_key_;
-    const int places = stays ? kMaxCandidates : planner_.shortlisted();
-    if (!decisions.open_to(key, cost.total(), places)) return;
-    cost.risk = planner_.crash_cost(planner_.marginal_, Stage::kRank) + planner_.hard_[index];
-    if (!decisions.open_to(key, cost.total(), places)) return;
+    // Risk only adds to the score: who is beaten without it needs none computed. What is reserved stays anyway.
+    const Reserved& reserved = planner_.reserved_;
+    const auto is_open = [&]() {
+      const bool stays =
+          (reserved.keeps_plan && key == reserved.plan) ||
+          (reserved.holds(candidate.path) && decisions.leads_path(candidate.path, cost.total()));
+      return decisions.open_to(key, cost.total(), stays ? kMaxCandidates : planner_.shortlisted());
+    };
+    if (!is_open()) return;
+    cost.risk = planner_.crash_cost(planner_.marginal_, Stage::kRank) + planner_.hard_cost(index);
+    if (!is_open()) return;
     if (risk_work_.left > free()) risk_work_.left = free();
     if (risk_work_.left <= 0) {
       explanation_.rejections[index] = trajectory::Rejection::kLeftOut;
@@ -94,7 +97,7 @@ class PlanningCycle::Ranking final : public trajectory::CandidateVisitor {
     cost.risk += parameters.scoring.risk * sadrf::rank_risk_of_vehicles(scene, planner_.marginal_,
                                                                         planner_.constant_velocity_,
                                                                         rolled_out, parameters, risk_work_);
-    if (decisions.open_to(key, cost.total(), places)) {
+    if (is_open()) {
       cost.risk += parameters.scoring.risk *
                    sadrf::rank_risk_of_road(planner_.drivable_, rolled_out, parameters, risk_work_);
       decisions.offer(key, index, cost.total());
@@ -119,7 +122,6 @@ class PlanningCycle::Ranking final : public trajectory::CandidateVisitor {
   std::int32_t kept_;       ///< for one decision, and for what the candidates still take
   std::int32_t given_ = 0;  ///< to the candidates themselves
   LaneCostToGo cost_to_go_;
-  int plan_path_ = 0;  ///< where the running plan leads, as far as it can go on; our own lane's path else
 };
 
 int PlanningCycle::shortlisted() const {
@@ -134,7 +136,7 @@ std::int32_t PlanningCycle::decode_work() const {
 std::int32_t PlanningCycle::judge_work() const {
   std::int32_t most = 0;
   for (int path = 0; path < scene_.ego_paths.size(); ++path) {
-    const std::int32_t one = guard_.judge_work(path);
+    const std::int32_t one = verify_work(path);
     if (one > most) most = one;
   }
   return most;
@@ -153,7 +155,7 @@ int PlanningCycle::affordable() const {
 
 void PlanningCycle::rank(bool careful, Explanation& explanation) {
   decisions_.clear();
-  keeps_plan_ = false;
+  hard_ = 0;
   {
     const StageScope scope(probe, Stage::kCandidates);
     int left_out = 0;
@@ -168,7 +170,7 @@ void PlanningCycle::rank(bool careful, Explanation& explanation) {
   }
   const StageScope scope(probe, Stage::kRank);
   work_.spend(Stage::kRank, work::kVisit);
-  decisions_.shortlist(affordable(), keeps_plan_, plan_key_);
+  decisions_.shortlist(affordable(), reserved_);
 }
 
 }  // namespace s4tp::planner

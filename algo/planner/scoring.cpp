@@ -21,7 +21,7 @@ constexpr float kLateShare = 4.0F;     // of what progress is worth, each metre 
 /// Price of being in the right lane so late: all of a missed route where that takes another change's way, and beyond
 /// that more than the way driven gains. \param changes  left to make
 float late_cost(float late_by_m, float changes, const Parameters& parameters) {
-  return kMissedRoute * parameters.scoring.lane_route * min(changes, late_by_m / trajectory::kChangeWayM) +
+  return kMissedRoute * parameters.scoring.lane_route * min(changes, late_by_m / scene::kChangeWayM) +
          kLateShare * parameters.scoring.progress * late_by_m;
 }
 
@@ -45,7 +45,7 @@ float no_room_cost(const scene::Scene& scene, int path_index, float end_s_m, flo
   float count = 0.0F;
   for (const float by_s_m : path.change_by_s_m) {
     count = count + 1.0F;
-    const float changes_m = trajectory::kChangeWayM * count;
+    const float changes_m = scene::kChangeWayM * count;
     const float needed_m = waits ? changes_m + stop_m : max(changes_m, stop_m);
     cost = max(cost, late_cost(max(0.0F, needed_m - (by_s_m - front_s_m)), count, parameters));
   }
@@ -135,9 +135,9 @@ struct LastPlace {
   /// Way that what is left to be changed at the last place takes, and more the further the motion goes past it; before
   /// that, how far beyond it the change would be made. 0: in time.
   [[nodiscard]] float late_by_m(float width_m) const {
-    const float way_m = trajectory::kChangeWayM * left_m / width_m;
+    const float way_m = scene::kChangeWayM * left_m / width_m;
     const float past_m = at_s_m - s_m;
-    return passed ? way_m * (1.0F + past_m / trajectory::kChangeWayM) : max(0.0F, past_m + way_m);
+    return passed ? way_m * (1.0F + past_m / scene::kChangeWayM) : max(0.0F, past_m + way_m);
   }
 };
 
@@ -155,7 +155,7 @@ trajectory::MergeTarget merge_target_of(const scene::Scene& scene, const LaneCos
 }
 
 CostBreakdown score_motion(const scene::Scene& scene, const LaneCostToGo& cost_to_go, int path_index,
-                           float start_s_m, const Trajectory& trajectory, bool other_lane, bool careful,
+                           float start_s_m, const Trajectory& trajectory, bool leaves, bool careful,
                            const Parameters& parameters, int& work) {
   work += kMotionWork + cost_to_go.asking_work();
   const scene::EgoPath& path = scene.ego_paths[path_index];
@@ -218,7 +218,7 @@ CostBreakdown score_motion(const scene::Scene& scene, const LaneCostToGo& cost_t
     cost.lane = cost.lane + gap_cost(scene, cost_to_go, path_index, s_m, end_mps, lane, parameters);
   if (path.manoeuvre != scene::Manoeuvre::kKeep && own.changes_needed != 0)
     cost.lane = cost.lane + late_cost(last.late_by_m(width_m), 1.0F, parameters);
-  if (other_lane) cost.lane = cost.lane + parameters.scoring.lane_change;
+  if (leaves) cost.lane = cost.lane + parameters.scoring.lane_change;
   return cost;
 }
 

@@ -20,8 +20,6 @@ constexpr float kSwingM = 0.7F;        // room for that beside our box: a turn b
 constexpr float kSoonM = 10.0F;        // further than where we can stand, a plan may yet bring us
 constexpr float kCurvesMps2 = 3.0F;
 constexpr int kCapSamples = 4;
-constexpr float kSettleS = 2.0F;       // T_settle of the law (D4)
-constexpr float kBesideShare = 0.25F;  // of a lane's width from its centre we are on one side of it
 
 // Work (WorkMeter's units).
 constexpr int kMostWork = 15'000;  // beyond, the next path is not looked at any more
@@ -92,12 +90,13 @@ float Guard::changing_s() const {
 }
 
 void Guard::follow_change() {
-  if (changing_s() > kSettleS || scene_->ego_paths.empty()) change_.side = 0.0F;
+  if (changing_s() > occupancy::kSettleS || scene_->ego_paths.empty()) change_.side = 0.0F;
   if (change_.side == 0.0F) return;
   const scene::EgoPath& own = scene_->ego_paths[0];
   // In the lane it leads to we are short of the centre, in the one it leaves beyond it.
   const float beyond_m = change_.side * own.frenet.d_m;
-  const float most_m = kBesideShare * scene::path_point(*scene_->map, own.path, own.frenet.s_m).width_m;
+  const float most_m =
+      scene::kBesideShare * scene::path_point(*scene_->map, own.path, own.frenet.s_m).width_m;
   const bool comes_over = !change_.over && beyond_m < -most_m;
   if (comes_over) change_.since_ms = scene_->time_ms;
   change_.over = comes_over || (change_.over && beyond_m < most_m);

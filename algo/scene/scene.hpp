@@ -57,6 +57,10 @@ inline constexpr int kMaxChanges = 4;  ///< more that are needed are known when 
 /// How the ego may use a lane beside or under it.
 enum class Manoeuvre : std::uint8_t { kKeep = 0, kLeft = 1, kRight = 2 };
 
+inline constexpr float kBesideShare = 0.25F;  ///< of a lane's width from its centre we are on one side of it
+/// Way of a slow lane change: a quintic over 3.2 m, bent as gently as roll_out.cpp bends it, takes 14.3 m.
+inline constexpr float kChangeWayM = 15.0F;
+
 /// One way we may go: along our lane or a neighbour, then along the route.
 struct EgoPath {
   Manoeuvre manoeuvre = Manoeuvre::kKeep;

@@ -171,7 +171,7 @@ float change_room_m(const scene::Scene& scene, const scene::EgoPath& path) {
   const Lane& last = scene.map->lanes[path.path.lanes[path.path.lanes.size() - 1].lane];
   float changes_m = 0.0F;
   for (const float by_s_m : path.change_by_s_m) {
-    if (by_s_m < path.path.length_m + kAtGoalM) changes_m = changes_m + kChangeWayM;
+    if (by_s_m < path.path.length_m + kAtGoalM) changes_m = changes_m + scene::kChangeWayM;
   }
   // Only the last lane itself can be left sideways: half of it is to be driven on in any case.
   return min(changes_m, 0.5F * last.length_m);

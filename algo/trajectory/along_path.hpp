@@ -53,8 +53,6 @@ struct Leader {
 /// Arc length where `path` ends for good, or kNoDeadEndM: not where only our knowledge ends, nor at the goal.
 inline constexpr float kNoDeadEndM = 1e6F;
 [[nodiscard]] float dead_end_s_m(const scene::Scene& scene, const scene::EgoPath& path);
-/// Way of a slow lane change: a quintic over 3.2 m, bent as gently as roll_out.cpp bends it, takes 14.3 m.
-inline constexpr float kChangeWayM = 15.0F;
 /// Room before such an end in which the lane changes still due can be made, even from rest.
 [[nodiscard]] float change_room_m(const scene::Scene& scene, const scene::EgoPath& path);
 

@@ -1,5 +1,6 @@
 #include "algo/trajectory/candidates.hpp"
 
+#include "algo/behavior/lane_change.hpp"
 #include "algo/core/inline.hpp"
 #include "algo/core/sort.hpp"
 #include "algo/trajectory/along_path.hpp"
@@ -44,7 +45,6 @@ constexpr float kStopShortOfEndM = 1.0F;  // before the end of a road
 constexpr float kDriveShare = 0.85F;      // of the strongest drive: some is left to follow the plan with
 constexpr float kStopBeforeZoneM = 1.0F;  // waiting beyond a stop line, before the zone itself
 constexpr float kPassedM = 0.5F;          // a stopping place this far behind us is passed
-constexpr float kPlanOnPathM = 1.5F;      // the running plan belongs to the path its end is this near to
 constexpr float kOnPlanM = 0.01F;         // from where we start exactly on it
 
 constexpr float kHorizonS = static_cast<float>(kHorizonSteps) * kStepS;
@@ -119,16 +119,12 @@ void prepare(const scene::Scene& scene, const scene::EgoPath& path, const Trajec
   meter.spend(work + course.leader.work);
 }
 
-/// Whether the running plan goes on from exactly here and stays on this path.
-bool continues(const Plan& running, const TrajectoryPoint& start, std::uint32_t start_ms,
-               const ReferenceLine& line, const Course& course) {
+/// Whether the running plan goes on from exactly here. Where it leads, its manoeuvre says.
+bool continues(const Plan& running, const TrajectoryPoint& start, std::uint32_t start_ms) {
   if (running.kind != PlanKind::kDrive || !plan_covers(running, start_ms)) return false;
   if (static_cast<std::int32_t>(start_ms - running.start_ms) % kStepMs != 0) return false;
   const TrajectoryPoint planned = sample(running, start_ms);
-  if (distance(position(planned.rear_axle), position(start.rear_axle)) > kOnPlanM) return false;
-  const Point end = position(running.trajectory.points[kHorizonSteps].rear_axle);
-  const float guess_s_m = course.where.s_m + distance(end, position(start.rear_axle));
-  return abs(locate_on(line, end, guess_s_m).d_m) < kPlanOnPathM;
+  return distance(position(planned.rear_axle), position(start.rear_axle)) <= kOnPlanM;
 }
 
 Reach reach_of(const Candidate& candidate, const Trajectory& trajectory) {
@@ -164,10 +160,10 @@ bool aim_at_gap(const scene::Scene& scene, const Course& course, float lead_s, c
   return true;
 }
 
-/// The longitudinal half of a recipe. \return false when this path has no such thing
-bool shape_longitudinal(const scene::Scene& scene, const Trial& trial, const ReferenceLine& line,
-                        const Course& course, const TrajectoryPoint& start, const Plan& running,
-                        std::uint32_t start_ms, float lead_s, const MergeTarget& aim,
+/// The longitudinal half of a recipe. \param goes_on  the running plan does, here \return false when this path has no such
+/// thing
+bool shape_longitudinal(const scene::Scene& scene, const Trial& trial, const Course& course,
+                        const TrajectoryPoint& start, bool goes_on, float lead_s, const MergeTarget& aim,
                         const Parameters& parameters, Candidate& candidate) {
   candidate.intent = trial.intent;
   candidate.acceleration_mps2 = parameters.comfort.acceleration_mps2;
@@ -188,7 +184,7 @@ bool shape_longitudinal(const scene::Scene& scene, const Trial& trial, const Ref
       candidate.target_speed_mps = course.leader.speed_mps;
       return true;
     case Intent::kPrevious:
-      return continues(running, start, start_ms, line, course);
+      return goes_on;
   }
   return false;
 }
@@ -244,18 +240,29 @@ void generate_candidates(const scene::Scene& scene, const TrajectoryPoint& start
   if (scene.map == nullptr) return;
   const std::int32_t lead_ms = static_cast<std::int32_t>(start_ms - scene.time_ms);
   const float lead_s = clamp(0.001F * static_cast<float>(lead_ms), 0.0F, kMaxLeadS);
-  Course courses[decltype(scene::Scene::ego_paths)::kCapacity];
+  constexpr int kPaths = decltype(scene::Scene::ego_paths)::kCapacity;
+  Course courses[kPaths];
+  // To go on with the manoeuvre in force, then to give it up: what there is no room for is neither.
+  const int in_force = behavior::leads_to(running.manoeuvre, scene);
+  int order[kPaths];
+  order[0] = in_force;
+  int count = 1;
+  for (int path = 0; path < scene.ego_paths.size(); ++path) {
+    if (path != in_force) order[count++] = path;
+  }
   int paths = 0;  // that can be prepared with the work there is
-  for (int path = 0; path < scene.ego_paths.size() && visitor.meter.left > 0; ++path) {
-    paths = path + 1;
+  for (; paths < scene.ego_paths.size() && visitor.meter.left > 0; ++paths) {
+    const int path = order[paths];
     prepare(scene, scene.ego_paths[path], start, lead_s, parameters, lines[path], courses[path],
             visitor.meter);
     visitor.leaders[path] = courses[path].leader;
   }
+  const bool goes_on = continues(running, start, start_ms);
   Trajectory& trajectory = visitor.rolled_out;
   Reach reaches[kMaxCandidates];
   for (int round = 0; round < kRoundCount; ++round) {
-    for (int path = 0; path < paths; ++path) {
+    for (int place = 0; place < paths; ++place) {
+      const int path = order[place];
       const ReferenceLine& line = lines[path];
       Course& course = courses[path];
       course.lateral_length_m = lateral_length_m(line, start, course.where, parameters);
@@ -263,7 +270,7 @@ void generate_candidates(const scene::Scene& scene, const TrajectoryPoint& start
       for (int k = kRounds[round]; k < kRounds[round + 1]; ++k) {
         Candidate candidate;
         candidate.path = static_cast<std::uint8_t>(path);
-        if (!shape_longitudinal(scene, kTrials[k], line, course, start, running, start_ms, lead_s, aim,
+        if (!shape_longitudinal(scene, kTrials[k], course, start, goes_on && path == in_force, lead_s, aim,
                                 parameters, candidate))
           continue;
         const bool done = visitor.roll_outs + kStretches + kSteeredRollOuts > kMaxRollOuts ||

@@ -93,7 +93,8 @@ inline constexpr int kSteeredWork = 430;  ///< ... of a steered one
 
 /// Feasible candidates from `start`, at most `most` and kMaxCandidates (CAND-009): diversity over (path,
 /// intent) first, then progress; two that move alike count once. The keep path's hard braking and stops are
-/// always among those tried first, while `visitor.meter` lasts.
+/// always among those tried first, while `visitor.meter` lasts. To go on with the running plan's manoeuvre, and to stay in our
+/// own lane, come before all else.
 /// \param lines  receives what the candidates are rolled out on \param
 /// left_out  receives how many feasible ones did not fit, and how many `most` left untried \param aim  adds
 /// a candidate that settles there, and one beside it in our own lane, behind our own leader (CAND-015)

@@ -37,6 +37,14 @@ std::uint32_t plan_digest(const Plan& plan) {
   }
   crc = add(crc, plan.fail_safe.branch_s);
   crc = add(crc, plan.fail_safe.braking_mps2);
+  const ManoeuvreState& state = plan.manoeuvre;
+  crc = crc32_word(crc, static_cast<std::uint32_t>(state.lane_change) |
+                            static_cast<std::uint32_t>(static_cast<std::uint8_t>(state.side)) << 8U |
+                            static_cast<std::uint32_t>(state.required_change) << 16U |
+                            static_cast<std::uint32_t>(state.zone_claim) << 24U);
+  crc = crc32_word(crc, state.lane_change_ms | static_cast<std::uint32_t>(state.required_change_ms) << 16U);
+  crc = crc32_word(crc, state.zone_claim_ms |
+                            static_cast<std::uint32_t>(static_cast<std::uint16_t>(state.zone_lane)) << 16U);
   return ~crc;
 }
 

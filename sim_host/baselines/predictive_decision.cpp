@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "algo/behavior/manoeuvres.hpp"
 #include "algo/core/check.hpp"
 #include "algo/core/math.hpp"
 #include "algo/sadrf/futures.hpp"
@@ -167,6 +168,9 @@ Status PredictiveDecision::plan(const planner::PlannerInput& input, Plan& plan,
                                        parameters_, scene_);
   plan.start_ms = input.start_ms;
   plan.kind = PlanKind::kDrive;
+  plan.manoeuvre = running.manoeuvre;
+  if (running.kind != PlanKind::kNone)
+    behavior::pass_time(static_cast<std::int32_t>(input.start_ms - running.start_ms), plan.manoeuvre);
   satp::PredictionSet chosen;
   if (status == Status::kOk) {
     explanation.learned = weights_.present();
@@ -202,6 +206,9 @@ Status PredictiveDecision::plan(const planner::PlannerInput& input, Plan& plan,
       const safety::Verdict verdict = guard_.judge(explanation.chosen.path, plan.trajectory);
       guard_.commit(explanation.chosen.path, verdict);
       plan.fail_safe = verdict.fail_safe;
+      const bool passes_group = verdict.clears && !verdict.stops_short;
+      behavior::advance({explanation.chosen.path, &plan.trajectory, passes_group, verdict.cleared_end},
+                        scene_, parameters_, plan.manoeuvre);
     }
   }
   if (status != Status::kOk) {

@@ -36,6 +36,28 @@ std::string blocking_text(const campaign::CycleTrace& cycle, const planner::Bloc
   return line;
 }
 
+/// What was decided, and since when; nothing where nothing was.
+std::string manoeuvre_text(const Plan& plan) {
+  static constexpr const char* kChanges[] = {"", "prepared", "crossing", "finishing", "settling"};
+  static constexpr const char* kRequired[] = {"", "approaching its last place", "waiting at its last place"};
+  static constexpr const char* kClaims[] = {"", "claimed", "committed to", "cleared", "withdrawn from"};
+  const ManoeuvreState& state = plan.manoeuvre;
+  std::string words;
+  const auto add = [&](const std::string& what, int age_ms) {
+    words += format("%s%s for %.1f s", words.empty() ? "" : "; ", what.c_str(), 1e-3 * age_ms);
+  };
+  if (state.lane_change != LaneChange::kKeep)
+    add(format("change to the %s %s", state.side > 0 ? "left" : "right",
+               kChanges[static_cast<int>(state.lane_change)]),
+        state.lane_change_ms);
+  if (state.required_change != RequiredChange::kNone)
+    add(std::string("required change ") + kRequired[static_cast<int>(state.required_change)],
+        state.required_change_ms);
+  if (state.zone_claim != ZoneClaim::kConsidered)
+    add(std::string("zones ahead ") + kClaims[static_cast<int>(state.zone_claim)], state.zone_claim_ms);
+  return words.empty() ? words : "\n  manoeuvre: " + words;
+}
+
 }  // namespace
 
 const char* name_of(scene::Manoeuvre manoeuvre) {
@@ -59,6 +81,7 @@ std::string in_numbers(const campaign::CycleTrace& cycle) {
       lines += "\n  runner-up: " + candidate_text(e.runner_up, e.runner_up_manoeuvre) + "; " +
                cost_text(e.runner_up_cost);
   }
+  lines += manoeuvre_text(cycle.record.plan);
   lines += format("\n  rejected of %d: %d infeasible, %d refused by the guard, %d left out (and %d not made)",
                   e.candidate_count, rejected(e, trajectory::Rejection::kInfeasible),
                   rejected(e, trajectory::Rejection::kRefused), rejected(e, trajectory::Rejection::kLeftOut),

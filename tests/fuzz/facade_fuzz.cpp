@@ -168,7 +168,8 @@ void check(s4tp_status status, const s4tp_input& input, const Given& given, cons
   expect(!good || !given.honest || !given.map_sound || status != S4TP_INVALID_INPUT,
          "what is, its own last plan among it, is known for it");
   if (plan.kind == S4TP_PLAN_NONE) {
-    const s4tp_plan none = {S4TP_PLAN_NONE, plan.start_ms, 0.0F, 0.0F, {}};
+    s4tp_plan none = {};
+    none.start_ms = plan.start_ms;
     expect(status == S4TP_INVALID_INPUT && std::memcmp(&none, &plan, sizeof plan) == 0,
            "no plan is all zeros");
     return;

@@ -90,6 +90,9 @@ TEST(EcuReports, Digest) {
   other = plan;
   other.kind = PlanKind::kMinimumRisk;
   EXPECT_NE(plan_digest(other), digest);
+  other = plan;
+  other.manoeuvre.side = -1;
+  EXPECT_NE(plan_digest(other), digest);
 }
 
 /// CRC-32 as everybody computes it, a bit at a time.
@@ -102,7 +105,8 @@ std::uint32_t plain_crc(const std::vector<std::uint8_t>& bytes) {
   return ~crc;
 }
 
-// ECU-064: against a plain CRC-32 over kind, start, 31 x 6 floats and the fail-safe's two, little endian.
+// ECU-064: against a plain CRC-32 over kind, start, 31 x 6 floats, the fail-safe's two and what was decided,
+// little endian.
 TEST(EcuReports, DigestIsCrc32) {
   Plan plan;
   plan.kind = PlanKind::kDrive;
@@ -122,6 +126,9 @@ TEST(EcuReports, DigestIsCrc32) {
   }
   plan.fail_safe = {0.5F, 6.0F};
   for (const std::uint8_t byte : {0x00, 0x00, 0x00, 0x3f, 0x00, 0x00, 0xc0, 0x40}) bytes.push_back(byte);
+  plan.manoeuvre = {
+      LaneChange::kCrossing, -1, RequiredChange::kApproaching, ZoneClaim::kCommitted, 1, 2, 3, 4};
+  for (const std::uint8_t byte : {2, 0xFF, 1, 2, 1, 0, 2, 0, 3, 0, 4, 0}) bytes.push_back(byte);
   EXPECT_EQ(plan_digest(plan), plain_crc(bytes));
 }
 

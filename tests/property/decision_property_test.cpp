@@ -15,17 +15,19 @@ struct Scored {
 };
 
 // Leaving out what open_to() declares beaten before its risk is known changes no shortlist: 24 candidates of
-// 6 decisions, no two scores alike (the 24 differ modulo 32), with and without a decision that must be kept.
+// 12 decisions, no two scores alike (the 24 differ modulo 32), with and without decisions that are reserved.
 TEST(DecisionProperty, WhoIsBeatenWithoutRiskIsBeaten) {
   EXPECT_TRUE(rc::check([] {
+    Reserved reserved;
     const int count = *rc::gen::inRange(1, 5);
-    const bool has_must_keep = *rc::gen::arbitrary<bool>();
-    const DecisionKey must_keep = 2;
+    reserved.keeps_plan = *rc::gen::arbitrary<bool>();
+    reserved.plan = 2;
+    reserved.goes_on = *rc::gen::inRange(0, 3);
     const auto scored = rc::gen::apply(
         [](int key, int base, int risk) {
           return Scored{static_cast<DecisionKey>(key), static_cast<float>(base), static_cast<float>(risk)};
         },
-        rc::gen::inRange(0, 6), rc::gen::inRange(0, 8), rc::gen::inRange(0, 8));
+        rc::gen::inRange(0, 12), rc::gen::inRange(0, 8), rc::gen::inRange(0, 8));
     const auto candidates = *rc::gen::container<std::vector<Scored>>(kMaxCandidates, scored);
     DecisionList all;
     DecisionList open;
@@ -34,12 +36,15 @@ TEST(DecisionProperty, WhoIsBeatenWithoutRiskIsBeaten) {
       one.without_risk = 32.0F * one.without_risk + static_cast<float>(i);
       one.risk = 32.0F * one.risk;
       all.offer(one.key, i, one.without_risk + one.risk);
-      const int places = has_must_keep && one.key == must_keep ? kMaxCandidates : count;
+      const int path = path_of(one.key);
+      const bool stays = (reserved.keeps_plan && one.key == reserved.plan) ||
+                         (reserved.holds(path) && open.leads_path(path, one.without_risk));
+      const int places = stays ? kMaxCandidates : count;
       if (open.open_to(one.key, one.without_risk, places))
         open.offer(one.key, i, one.without_risk + one.risk);
     }
-    all.shortlist(count, has_must_keep, must_keep);
-    open.shortlist(count, has_must_keep, must_keep);
+    all.shortlist(count, reserved);
+    open.shortlist(count, reserved);
     RC_ASSERT(open.size() == all.size());
     for (int i = 0; i < all.size(); ++i) RC_ASSERT(open[i].candidate == all[i].candidate);
   }));

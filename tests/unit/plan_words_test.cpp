@@ -235,6 +235,19 @@ TEST(PlanWords, NumbersForAnEngineer) {
   }
 }
 
+// What was decided, and for how long it has been so; of what was not decided nothing is said.
+TEST(PlanWords, SaysWhatWasDecided) {
+  campaign::CycleTrace cycle = plan(8.0F, 8.0F);
+  EXPECT_EQ(in_numbers(cycle).find("manoeuvre:"), std::string::npos);
+  cycle.record.plan.manoeuvre = {
+      LaneChange::kCrossing, -1, RequiredChange::kApproaching, ZoneClaim::kCommitted, 800, 5000, 100, 0};
+  EXPECT_NE(
+      in_numbers(cycle).find("manoeuvre: change to the right crossing for 0.8 s; required change approaching "
+                             "its last place for 5.0 s; zones ahead committed to for 0.1 s"),
+      std::string::npos)
+      << in_numbers(cycle);
+}
+
 // What the plan rests on: whoever is expected to let us pass is named with how likely that is, when we go; the numbers
 // name the other future, too, and who predicted it.
 TEST(PlanWords, SaysWhichFutureThePlanRestsOn) {

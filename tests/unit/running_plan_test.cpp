@@ -86,12 +86,14 @@ TEST(Candidates, RunningPlanGoesOn) {
   running.kind = PlanKind::kDrive;
   running.start_ms = kNow - 100;
   running.trajectory = rolled(roads.scene, *find(first, 1, Intent::kAccelerate, 0.0F), roads.start);
+  running.manoeuvre.lane_change = LaneChange::kPrepare;
+  running.manoeuvre.side = 1;
   const TrajectoryPoint start = sample(running, kNow);
   put_ego(roads.scene, start);
   const CandidateList list = generate(roads.scene, start, running);
   const Candidate* previous = find(list, 1, Intent::kPrevious);
   ASSERT_NE(previous, nullptr);
-  EXPECT_EQ(find(list, 0, Intent::kPrevious), nullptr);  // it ends in the left lane, not in ours
+  EXPECT_EQ(find(list, 0, Intent::kPrevious), nullptr);  // it leads to the left lane
   const Trajectory trajectory = rolled(roads.scene, *previous, start, running);
   for (int i = 1; i < kHorizonSteps; ++i) {
     EXPECT_EQ(trajectory.points[i].rear_axle.y_m, running.trajectory.points[i + 1].rear_axle.y_m);

@@ -68,6 +68,12 @@ TEST_F(CFacade, AnswersInvalidInputWithMinimumRisk) {
   strange.points[30].curvature_1pm = 0.0F;
   strange.points[3].heading_rad = 1e30F;
   expect_invalid("heading of the running plan");
+  strange.points[3].heading_rad = 0.0F;
+  strange.lane_change_side = 2;
+  expect_invalid("side of the running plan's lane change");
+  strange.lane_change_side = 0;
+  strange.zone_claim = 5;
+  expect_invalid("zone claim of the running plan");
   input.running = nullptr;
 
   input.start_ms = input.now_ms + 201;
@@ -97,7 +103,8 @@ TEST_F(CFacade, AStopBeginsWhereWeAreKnownToBe) {
   input.ego.heading_rad = kNaN;
   plan.points[7].x_m = 5.0F;
   EXPECT_EQ(plan_now(), S4TP_INVALID_INPUT);
-  const s4tp_plan empty = {S4TP_PLAN_NONE, input.start_ms, 0.0F, 0.0F, {}};
+  s4tp_plan empty = {};
+  empty.start_ms = input.start_ms;
   EXPECT_EQ(std::memcmp(&plan, &empty, sizeof(plan)), 0);
 
   input.ego = good_ego;

@@ -59,6 +59,7 @@ TEST_F(CFacade, PlansAsThePlannerDoes) {
       ASSERT_EQ(plan.points[i].acceleration_mps2, point.acceleration_mps2);
       ASSERT_EQ(plan.points[i].curvature_1pm, point.curvature_1pm);
     }
+    EXPECT_EQ(plan.lane_change, static_cast<std::uint8_t>(expected.manoeuvre.lane_change));
     EXPECT_EQ(why.chosen.cost_total, reason.chosen_cost.total());
     EXPECT_EQ(why.candidates, reason.candidate_count);
     EXPECT_EQ(why.dominating_track, reason.dominating_track);
