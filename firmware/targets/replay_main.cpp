@@ -31,7 +31,7 @@ bool self_test() {
 
 /// Cuts a file into lines. \return false when it cannot be read or a line is too long
 bool feed(int handle) {
-  static char chunk[1024];
+  static char chunk[512];
   static char line[160];
   int size = 0;
   for (;;) {

@@ -48,7 +48,7 @@ TEST(BehaviorProperty, OnlyRowsOfTheTables) {
       scene.ego_paths.clear();
       scene::EgoPath& own =
           add_ego_path(scene, road->map, path_of(road->map, {static_cast<LaneIndex>(under)}));
-      own.changes_needed = static_cast<std::int8_t>(*rc::gen::inRange(-1, 2));
+      need_changes(own, *rc::gen::inRange(-1, 2), static_cast<float>(*rc::gen::inRange(50, 100)));
       if (*rc::gen::arbitrary<bool>())
         (void)own.zones.push({60.0F, 64.0F, 55.0F, static_cast<LaneIndex>(*rc::gen::inRange(3, 5))});
       const auto beside = under == 0 ? scene::Manoeuvre::kLeft : scene::Manoeuvre::kRight;

@@ -197,8 +197,7 @@ TEST(RequiredChangeState, ApproachesWaitsAndIsOver) {
   Trajectory trajectory;
   ManoeuvreState state;
   scene::EgoPath& own = road.scene.ego_paths[0];
-  own.changes_needed = 1;
-  own.route_end_s_m = 94.0F;
+  need_changes(own, 1, 94.0F);
   const auto take = [&](float s_m, float speed_mps) {
     put_ego(road.scene, state_on(road.map, own.path, s_m, speed_mps));
     pass_time(100, state);
@@ -214,7 +213,7 @@ TEST(RequiredChangeState, ApproachesWaitsAndIsOver) {
   EXPECT_EQ(take(80.0F, 0.0F), RequiredChange::kWaiting);
   EXPECT_EQ(take(80.0F, kStandingMps), RequiredChange::kApproaching);
   EXPECT_EQ(take(80.0F, 0.0F), RequiredChange::kWaiting);
-  own.changes_needed = 0;
+  need_changes(own, 0, 94.0F);
   EXPECT_EQ(take(80.0F, 0.0F), RequiredChange::kNone);
 }
 
