@@ -72,7 +72,7 @@ struct EgoPath {
   /// By when each of the `changes_needed` is to be made, in their order; the first one by route_end_s_m.
   BoundedVector<float, kMaxChanges> change_by_s_m;
   float change_from_s_m = 0.0F;  ///< where a lane to change to begins
-  float goal_s_m = 0.0F;          ///< where the goal lies along it
+  float goal_s_m = 0.0F;         ///< where the goal lies along it
   BoundedVector<ConflictZone, kMaxPathZones> zones;
 };
 
