@@ -49,7 +49,7 @@ bool PlanningCycle::hold(int index, Explanation& explanation) {
   {
     const StageScope scope(probe, Stage::kCheck);
     count(explanation, Stage::kCheck, 1);
-    work_.spend(Stage::kCheck, verify_work(candidates_[index].path));
+    work_.spend(Stage::kCheck, guard_.judge_work(candidates_[index].path));
     if (!verify(candidates_[index].path, chosen_).safe()) {
       explanation.rejections[index] = trajectory::Rejection::kRefused;
       return false;
@@ -122,7 +122,7 @@ void PlanningCycle::refine(const trajectory::Candidate& candidate, Explanation& 
   {
     const StageScope scope(probe, Stage::kCheck);
     count(explanation, Stage::kCheck, 1);
-    work_.spend(Stage::kCheck, kLimitsWork + verify_work(candidate.path));
+    work_.spend(Stage::kCheck, kLimitsWork + guard_.judge_work(candidate.path));
     // A refinement that does not pass is dropped: what it started from has passed.
     const bool passes_check =
         trajectory::keeps_limits(refined_, parameters_) && verify(candidate.path, refined_).safe();

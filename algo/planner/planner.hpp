@@ -103,17 +103,7 @@ class PlanningCycle {
   virtual void believe(scene::Scene&) const {}
   /// Whether a feasible plan may be driven. \param path  index of the ego path it follows
   [[nodiscard]] virtual safety::Verdict verify(int path, const Trajectory& trajectory) const {
-    const safety::Verdict verdict = guard_.judge(path, trajectory);
-    if (!verdict.safe() || !begins_change(path)) return verdict;
-    // Begun with a plan that does not pass a cycle later, too, it would be dropped at once.
-    const safety::Verdict later = guard_.judge(path, trajectory, kStepS);
-    return later.safe() ? verdict : later;
-  }
-  /// Whether who follows the path takes up a lane change.
-  [[nodiscard]] bool begins_change(int path) const { return path != 0 && path != reserved_.goes_on; }
-  /// What verify() takes at most [WorkMeter's units].
-  [[nodiscard]] std::int32_t verify_work(int path) const {
-    return (begins_change(path) ? 2 : 1) * guard_.judge_work(path);
+    return guard_.judge(path, trajectory);
   }
 
  private:

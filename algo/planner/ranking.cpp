@@ -42,7 +42,7 @@ class PlanningCycle::Ranking final : public trajectory::CandidateVisitor {
       rejection = trajectory::Rejection::kLeftOut;
       return;
     }
-    planner_.work_.spend(Stage::kRank, planner_.verify_work(candidate.path));
+    planner_.work_.spend(Stage::kRank, planner_.guard_.judge_work(candidate.path));
     const safety::Verdict verdict = planner_.verify(candidate.path, rolled_out);
     rejection = verdict.safe() ? trajectory::Rejection::kNone : trajectory::Rejection::kRefused;
     if (verdict.hard) planner_.hard_ |= std::uint32_t{1} << index;
@@ -136,7 +136,7 @@ std::int32_t PlanningCycle::decode_work() const {
 std::int32_t PlanningCycle::judge_work() const {
   std::int32_t most = 0;
   for (int path = 0; path < scene_.ego_paths.size(); ++path) {
-    const std::int32_t one = verify_work(path);
+    const std::int32_t one = guard_.judge_work(path);
     if (one > most) most = one;
   }
   return most;

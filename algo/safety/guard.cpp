@@ -142,8 +142,7 @@ bool Guard::followers_can_brake(const PathContext& context, const Trajectory& tr
     // From when we are over the line it has its response time, then it brakes down to our speed.
     const float from_s = max(0.0F, between.from_s + rss.response_s);
     float s_m = behind.bumper_s_m;
-    float speed_mps =
-        behind.speed_mps + parameters_->law.gain_mps2 * own.later_s;  // it may gain speed until then
+    float speed_mps = behind.speed_mps;
     float own_s_m = own.s_m[0] - half_m;
     float own_mps = own.speed_mps[0];
     constexpr float kLookS = 0.2F;
@@ -183,7 +182,7 @@ FailSafe Guard::in_force() const {
   return {clamp(fail_safe_.branch_s - driven_s, guard.takeover_s, kHorizonS), fail_safe_.braking_mps2};
 }
 
-Verdict Guard::judge(int path_index, const Trajectory& trajectory, float later_s) const {
+Verdict Guard::judge(int path_index, const Trajectory& trajectory) const {
   Verdict verdict;
   if (!looked_ || scene_->map == nullptr || path_index < 0 || path_index >= scene_->ego_paths.size()) {
     verdict.cause = Cause::kNoPath;
@@ -192,17 +191,15 @@ Verdict Guard::judge(int path_index, const Trajectory& trajectory, float later_s
   const scene::EgoPath& path = scene_->ego_paths[path_index];
   const PathContext& context = contexts_[path_index];
   const auto& guard = parameters_->guard;
-  const float takeover_s = guard.takeover_s + later_s;
   Own own;
-  own.later_s = later_s;
   own.s_m[0] = context.start_s_m + centre_m_;
   own.speed_mps[0] = trajectory.points[0].speed_mps;
   for (int i = 1; i < kTrajectoryPoints; ++i) {
     own.speed_mps[i] = trajectory.points[i].speed_mps;
     own.s_m[i] = own.s_m[i - 1] + 0.5F * (own.speed_mps[i - 1] + own.speed_mps[i]) * kStepS;
   }
-  const int branch = to_int(takeover_s / kStepS - 0.5F, 0, kHorizonSteps - 1);
-  const float on_s = takeover_s - static_cast<float>(branch) * kStepS;
+  const int branch = to_int(guard.takeover_s / kStepS - 0.5F, 0, kHorizonSteps - 1);
+  const float on_s = guard.takeover_s - static_cast<float>(branch) * kStepS;
   own.branch_mps = lerp(own.speed_mps[branch], own.speed_mps[branch + 1], on_s / kStepS);
   own.start_mps2 = trajectory.points[0].acceleration_mps2;
   own.branch_mps2 = lerp(trajectory.points[branch].acceleration_mps2,
@@ -210,7 +207,7 @@ Verdict Guard::judge(int path_index, const Trajectory& trajectory, float later_s
   own.branch_s_m = own.s_m[branch] + 0.5F * on_s * (own.speed_mps[branch] + own.branch_mps);
   const float stop_s_m = own.stop_s_m(guard.braking_mps2);
 
-  verdict.fail_safe = {takeover_s, guard.braking_mps2};
+  verdict.fail_safe = {guard.takeover_s, guard.braking_mps2};
   const float front_m = front_m_ - centre_m_;
   // Who cannot stop before the end any more brakes; at rest it stays.
   const float last_s_m = context.end_s_m - front_m;
@@ -222,7 +219,7 @@ Verdict Guard::judge(int path_index, const Trajectory& trajectory, float later_s
   }
   // Behind a leader. The fail-safe in force stops behind whoever keeps to the law; a moving one nearer than
   // that has broken it: then it only must not get worse, and behind a slower one that takes braking.
-  const float coasting_s_m = at_once_s_m + own.speed_mps[0] * takeover_s;
+  const float coasting_s_m = at_once_s_m + own.speed_mps[0] * guard.takeover_s;
   const auto reachable_s_m = [&](float free_s_m, float its_mps) {
     if (own.nearest_stop_s_m(guard.braking_mps2) <= free_s_m) return free_s_m;
     const bool slower = its_mps < own.speed_mps[0];
@@ -278,17 +275,15 @@ Verdict Guard::judge(int path_index, const Trajectory& trajectory, float later_s
     if (!passes_group(path, context, group, own, verdict)) return verdict;
     if (verdict.stops_short) break;  // the fail-safe comes no further
   }
-  if (verdict.stops_short) verdict.fail_safe.branch_s = takeover_s;
+  if (verdict.stops_short) verdict.fail_safe.branch_s = guard.takeover_s;
   if ((context.changes && !context.half_over) || (context.settles && !context.behind.empty())) {
     bool brakes = false;
-    const int tries =
-        later_s > 0.0F ? kSettlingCount : kSettlingCount + 1;  // what is in force cannot begin later
-    for (int k = 0; k < tries && !brakes; ++k) {
-      const FailSafe stop = k < kSettlingCount ? FailSafe{max(takeover_s, kSettlings[k].drives_on_s),
+    for (int k = 0; k <= kSettlingCount && !brakes; ++k) {
+      const FailSafe stop = k < kSettlingCount ? FailSafe{max(guard.takeover_s, kSettlings[k].drives_on_s),
                                                           kSettlings[k].share * guard.braking_mps2}
                                                : in_force();
       const float stops_s_m =
-          stop.branch_s > takeover_s
+          stop.branch_s > guard.takeover_s
               ? own.place_at_m(stop.branch_s, 0.0F) +
                     occupancy::stopping_way_m(own.speed_at_mps(stop.branch_s, 0.0F), stop.braking_mps2)
               : own.stop_s_m(stop.braking_mps2);

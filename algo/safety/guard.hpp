@@ -90,9 +90,8 @@ class Guard {
            const Parameters& parameters);
 
   /// \param path_index  of the ego path the trajectory follows \pre look() was called this cycle
-  /// \param later_s  the fail-safe begins so much later than it has to; passing so, a plan is one that passes then
   /// \note bounded work: steps + vehicles at the path's zones
-  [[nodiscard]] Verdict judge(int path_index, const Trajectory& trajectory, float later_s = 0.0F) const;
+  [[nodiscard]] Verdict judge(int path_index, const Trajectory& trajectory) const;
 
   /// What judging a plan on `path` takes at most [WorkMeter's units].
   [[nodiscard]] int judge_work(int path) const;

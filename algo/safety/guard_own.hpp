@@ -18,8 +18,7 @@ struct Guard::Own {
   float branch_s_m;  ///< of the box centre, where the fail-safe begins to brake
   float branch_mps;
   float branch_mps2;
-  bool blocked;   ///< somebody ahead makes us brake
-  float later_s;  ///< so much later the fail-safe begins
+  bool blocked;  ///< somebody ahead makes us brake
 
   [[nodiscard]] float end_s_m() const { return s_m[kHorizonSteps]; }
   [[nodiscard]] float stop_s_m(float braking_mps2) const {
