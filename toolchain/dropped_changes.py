@@ -75,8 +75,11 @@ def main():
             for scenario in options.scenarios.split(","):
                 for seed in range(options.first_seed, options.first_seed + options.episodes):
                     more = ["--parameters", options.parameters] if options.parameters else []
+                    log.unlink(missing_ok=True)  # a run that could not begin must not leave the one before to be counted again
                     subprocess.run([options.tool, "run", "--scenario", scenario, "--traffic", options.traffic, "--flavour", flavour,
                                     "--seed", str(seed), "--log", log, "--out", folder, *more], stdout=subprocess.DEVNULL, check=False)
+                    if not log.exists():
+                        sys.exit(f"{options.tool} drove no {scenario} {flavour} {seed}: it said why above")
                     with log.open(encoding="utf-8") as lines:
                         drive = runs(list(paths(lines, *where)))
                     for path, cycles, place in drive[:-1]:  # the last one is cut off by the drive's end

@@ -45,8 +45,8 @@ class DecisionList {
   void offer(DecisionKey key, int candidate, float score);
   /// Whether none that leads to `path` scores less.
   [[nodiscard]] bool leads_path(int path, float score) const;
-  /// Keeps at most `count`, cheapest first, but never drops what is reserved: the decision `plan`, where it is there, and the
-  /// cheapest to each of `paths`, in this order while there is room.
+  /// Keeps at most `count`, cheapest first, but never drops what is reserved: the running plan's decision, and, where a
+  /// manoeuvre is in force, the cheapest that goes on with it and the cheapest in our own lane; in this order while there is room.
   void shortlist(int count, const Reserved& reserved);
   [[nodiscard]] int size() const { return decisions_.size(); }
   [[nodiscard]] const Decision& operator[](int index) const { return decisions_[index]; }

@@ -11,8 +11,8 @@ namespace s4tp::planner {
 namespace {
 
 constexpr std::int32_t kLimitsWork = 150;  // to see whether a plan keeps to the limits of any plan
-constexpr float kHardStopCost = 60.0F;
-constexpr float kCrashCost = 1000.0F;  // a certain crash outweighs all other terms of a score together
+constexpr float kHardStopCost = 60.0F;     // of a plan that can only be given up by braking hard
+constexpr float kCrashCost = 1000.0F;      // a certain crash outweighs all other terms of a score together
 
 }  // namespace
 

@@ -64,7 +64,7 @@ inline constexpr float kChangeWayM = 15.0F;
 /// One way we may go: along our lane or a neighbour, then along the route.
 struct EgoPath {
   Manoeuvre manoeuvre = Manoeuvre::kKeep;
-  std::int8_t changes_needed = 0;  ///< from that lane to the route's
+  std::int8_t changes_needed = 0;  ///< on the last lane along it that leads on, to the route's
   LanePath path;
   Frenet frenet;                  ///< of our rear axle
   float lateral_offset_m = 0.0F;  ///< left of the centre line it is driven, past who stand
