@@ -41,8 +41,9 @@ inline map::Network network_of(const std::string& text) {
   return map::load_network(folder.write("network.net.xml", text));
 }
 
-inline scenario::Scenario shipped(const std::string& name) {
-  return scenario::load_scenario(std::filesystem::path(S4TP_SOURCE_DIR) / "sim_host/scenarios" / name);
+inline scenario::Scenario shipped(const std::string& name, const std::string& flavour = {}) {
+  return scenario::load_scenario(std::filesystem::path(S4TP_SOURCE_DIR) / "sim_host/scenarios" / name,
+                                 flavour);
 }
 
 inline const map::Lane& lane(const map::Network& network, const std::string& name) {

@@ -239,6 +239,27 @@ TEST(Attribution, OverTheLine) {
   EXPECT_EQ(pair(side_by_side(1.0, 2.7)), std::pair(Fault::kEgo, Cause::kChangedLane));
 }
 
+/// Both from the left lane into the right one, a metre behind each other; each one's centre comes over at its time.
+Verdict both_come_over(double ego_s, double its_s) {
+  return judged(test::judged_road(Rule::kFirstCome), -2.5, 0.0, [&](double t) {
+    CarState ego = eastbound(0, 50.0 + 10.0 * t, t < ego_s ? 2.2 : 0.4, 10.0);
+    ego.lane = t < ego_s ? 1 : 0;
+    CarState other = eastbound(7, 51.0 + 10.0 * t, t < its_s ? 2.2 : 0.4, 10.0);
+    other.lane = t < its_s ? 1 : 0;
+    return std::vector<CarState>{ego, other};
+  });
+}
+
+// LAW-028 It comes over beside us, who have been over for a second; the other way round; it was over half a second before us;
+// both at once.
+TEST(Attribution, WhoComesOverLast) {
+  constexpr double kNotYet = 1.0;
+  EXPECT_EQ(pair(both_come_over(-1.0, kNotYet)), std::pair(Fault::kOther, Cause::kChangedLane));
+  EXPECT_EQ(pair(both_come_over(kNotYet, -1.0)), std::pair(Fault::kEgo, Cause::kChangedLane));
+  EXPECT_EQ(pair(both_come_over(-1.0, -1.5)), std::pair(Fault::kEgo, Cause::kChangedLane));
+  EXPECT_EQ(pair(both_come_over(-1.0, -1.0)), std::pair(Fault::kEgo, Cause::kChangedLane));
+}
+
 // LAW-029 Off every lane there is no row: ours.
 TEST(Attribution, UnclearIsOurs) {
   EXPECT_EQ(pair(judged(test::judged_road(Rule::kFirstCome), -2.0, 0.0,

@@ -253,7 +253,7 @@ bool Traffic::may_enter(const Actor& self, const Mind& mind, double to_group_m, 
 }
 
 bool Traffic::may_change(const traffic::Car& car, const traffic::WayPart& beside) const {
-  if (!ego_) return true;
+  if (!ego_ || ego_->actor.lane == map::kNoLane) return true;
   Actor self;
   self.id = car.id;
   self.lane = beside.lane;
@@ -261,10 +261,6 @@ bool Traffic::may_change(const traffic::Car& car, const traffic::WayPart& beside
   self.speed_mps = car.speed_mps;
   self.length_m = car.length_m;
   self.guide = &plan_->ways[car.way].guide;
-  // Where it may be by then: it may come over, too, and a change begun is not given up.
-  Actor ego = ego_->actor;
-  if (ego.lane != map::kNoLane && lane(ego.lane).edge == lane(beside.lane).edge) ego.lane = beside.lane;
-  const traffic::TrafficView two(*road_, {ego, self});
   const double rate =
       std::min(1.0 / kUsualChange_s, std::max(car.speed_mps, kChangesAtLeast_mps) / kSlowChange_mps);
   const double to_line_s = 0.5 / rate;
@@ -274,13 +270,25 @@ bool Traffic::may_change(const traffic::Car& car, const traffic::WayPart& beside
     const double gap_m = found.gap_m - (rear_mps - front_mps) * to_line_s - slack_m;
     return gap_m >= judge::rss_gap_m(law_.rss, rear_mps, front_mps);
   };
-  const traffic::Leader ahead = two.leader(two.actors()[1].way, car.id, car.length_m);
-  if (ahead.actor != nullptr &&
-      !left(ahead, car.speed_mps, std::max(0.0, ahead.actor->speed_mps - gained_mps))) {
-    return false;
+  const auto leaves_gaps = [&](map::LaneId ego_lane) {
+    Actor ego = ego_->actor;
+    ego.lane = ego_lane;
+    const traffic::TrafficView two(*road_, {ego, self});
+    const traffic::Leader ahead = two.leader(two.actors()[1].way, car.id, car.length_m);
+    if (ahead.actor != nullptr &&
+        !left(ahead, car.speed_mps, std::max(0.0, ahead.actor->speed_mps - gained_mps))) {
+      return false;
+    }
+    const traffic::Leader behind = two.follower(beside.lane, self.s_m, car.id, car.length_m);
+    return behind.actor == nullptr || left(behind, behind.actor->speed_mps + gained_mps, car.speed_mps);
+  };
+  // Where the ego may be by then: it may come over, too, and a change begun is not given up.
+  map::LaneId ego_lane = ego_->actor.lane;
+  while (lane(ego_lane).right != map::kNoLane) ego_lane = lane(ego_lane).right;
+  for (; ego_lane != map::kNoLane; ego_lane = lane(ego_lane).left) {
+    if (!leaves_gaps(ego_lane)) return false;
   }
-  const traffic::Leader behind = two.follower(beside.lane, self.s_m, car.id, car.length_m);
-  return behind.actor == nullptr || left(behind, behind.actor->speed_mps + gained_mps, car.speed_mps);
+  return true;
 }
 
 }  // namespace s4tp::adversary

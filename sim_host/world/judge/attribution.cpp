@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 
@@ -19,6 +20,7 @@ constexpr double kZonePad_m = 3.0;  // a car beside its lane's centre touches a 
 constexpr double kSlow_mps = 1.0;   // who is slower in a zone was stopped there
 constexpr double kQueue_mps = 2.0;  // who is slower beyond a junction leaves no room
 constexpr double kOverLine_m = 0.05;
+constexpr double kInfinite_s = std::numeric_limits<double>::infinity();
 constexpr double kSameWay_rad = 0.25 * std::numbers::pi;  // headings differ by less
 
 struct Party {
@@ -138,22 +140,24 @@ bool over_the_line(const map::Network& network, const traffic::CarState& car) {
   });
 }
 
-bool changed_lane_lately(const Law& law, const map::Network& network, const Journey& journey) {
+/// When the centre came into the lane it is in, in settle_s: since then the car is one of that lane's, new to the others.
+std::optional<double> came_over_s(const Law& law, const map::Network& network, const Journey& journey) {
+  std::optional<double> came_s;
   for (std::size_t i = 1; i < journey.points.size(); ++i) {
     const map::Lane& from = network.lanes[static_cast<std::size_t>(journey.points[i - 1].lane)];
     const map::LaneId to = journey.points[i].lane;
-    if (journey.points[i].time_s >= journey.points.back().time_s - law.settle_s &&
-        (to == from.left || to == from.right)) {
-      return true;
+    const double time_s = journey.points[i].time_s;
+    if (time_s >= journey.points.back().time_s - law.settle_s && (to == from.left || to == from.right)) {
+      came_s = time_s;
     }
   }
-  return false;
+  return came_s;
 }
 
-/// The one of whom `strayed` holds and not of the other; both or neither: the ego.
-template <class Strayed>
-Verdict by_line(const Party& ego, const Party& other, Cause cause, const Strayed& strayed) {
-  return blame(strayed(other) && !strayed(ego) ? other : ego, cause);
+/// Whoever strayed later; where nobody did, the ego. `strayed_s`: when, or the more the later.
+template <class StrayedAt>
+Verdict by_line(const Party& ego, const Party& other, Cause cause, const StrayedAt& strayed_s) {
+  return blame(strayed_s(other) > strayed_s(ego) ? other : ego, cause);
 }
 
 Verdict nose_to_tail(const Law& law, const Evidence& evidence, const map::RouteGuide& guide,
@@ -189,7 +193,7 @@ Verdict attribute(const map::Network& network, const map::RouteGuide& guide,
   const double turned_rad = std::abs(map::wrap_angle(car.car->heading_rad - us.car->heading_rad));
   if (turned_rad > std::numbers::pi - kSameWay_rad) {
     return by_line(us, car, Cause::kOncoming,
-                   [&](const Party& party) { return over_the_line(network, *party.car); });
+                   [&](const Party& party) { return over_the_line(network, *party.car) ? 1.0 : 0.0; });
   }
   if (turned_rad > kSameWay_rad) {
     return {traffic::Fault::kEgo, Cause::kUnclear};
@@ -204,8 +208,11 @@ Verdict attribute(const map::Network& network, const map::RouteGuide& guide,
     return ahead < 0.0 ? nose_to_tail(law, evidence, guide, us, car, time_s)
                        : nose_to_tail(law, evidence, guide, car, us, time_s);
   }
+  // D3 is owed to whoever has come over before.
   return by_line(us, car, Cause::kChangedLane, [&](const Party& party) {
-    return over_the_line(network, *party.car) || changed_lane_lately(law, network, *party.journey);
+    const std::optional<double> came_s = came_over_s(law, network, *party.journey);
+    const double still_to_come_s = over_the_line(network, *party.car) ? kInfinite_s : -kInfinite_s;
+    return came_s.value_or(still_to_come_s);
   });
 }
 

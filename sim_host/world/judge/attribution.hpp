@@ -12,7 +12,8 @@
 /// | LAW-025 | nose to tail; we are in front and stand for 1 s without reason (reasons.hpp)     | we             | kStopped      |
 /// | LAW-026 | nose to tail                                                                     | the one behind | kRanInto      |
 /// | LAW-027 | head-on; one is over its line, the other not                                     | the first      | kOncoming     |
-/// | LAW-028 | side by side; one is over its line, or came over it in settle_s; the other not    | the first      | kChangedLane  |
+/// | LAW-028 | side by side; came over its line in settle_s, or is over it with its centre short  | the last one   | kChangedLane  |
+/// |         | of it; of two: who came over later, or has not come yet                          |                |               |
 /// | LAW-029 | anything else                                                                    | we             | kUnclear      |
 
 #include <span>
