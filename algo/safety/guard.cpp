@@ -139,7 +139,7 @@ bool Guard::followers_can_brake(const PathContext& context, const Trajectory& tr
       verdict.agent = behind.agent;
       return false;
     }
-    // From when we are over the line it has its response time, then it brakes down to our speed.
+    // Until we are over the line it gains speed as it may; then it has its response time, and brakes down to our speed.
     const float from_s = max(0.0F, between.from_s + rss.response_s);
     float s_m = behind.bumper_s_m;
     float speed_mps = behind.speed_mps;
@@ -158,8 +158,10 @@ bool Guard::followers_can_brake(const PathContext& context, const Trajectory& tr
         own_s_m = own_s_m + 0.5F * (own_mps + later_mps) * kLookS;
         own_mps = later_mps;
       }
+      const float gained_mps =
+          min(speed_mps + parameters_->law.gain_mps2 * kLookS, max(speed_mps, context.fastest_mps));
       const float later_mps =
-          time_s > from_s ? max(0.0F, speed_mps - rss.braking_min_mps2 * kLookS) : speed_mps;
+          time_s > from_s ? max(0.0F, speed_mps - rss.braking_min_mps2 * kLookS) : gained_mps;
       s_m = s_m + 0.5F * (speed_mps + later_mps) * kLookS;
       speed_mps = later_mps;
       if (time_s < between.from_s) continue;

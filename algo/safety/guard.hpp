@@ -4,15 +4,16 @@
 /// GUARD-001 A plan passes that can still be stopped before a group of zones and before the road ends;
 /// without map or path nothing does. Who stands nearer to the group goes on standing, and comes no nearer.
 /// GUARD-002 Else it goes through when all others are gone, come later, or
-/// leave it to us. GUARD-003 Nobody stops in a group where it gives way, nor enters one without room beyond.
+/// leave it to us. GUARD-003 Nobody stops in a group where it gives way, nor enters one without room beyond whoever
+/// leads or merges ahead.
 /// GUARD-004 It can be stopped behind a leader who brakes as hard as can be, and while our box comes over to the
 /// path, behind whoever leads where it still is; behind a cut-in it only must not get worse. GUARD-005 What is
 /// safe only by hard braking says so. GUARD-006 A licence used holds, for the ground it was given for, until we
 /// stand, for a plan that leaves that in time; used it is once we cannot stop before it any more.
 /// GUARD-007 Who cannot stay out of a zone any more leaves it no later than it was to. GUARD-008 Merging
-/// leaves room, in both orders. GUARD-009 A lane change leaves who is behind room to brake, and begins only
-/// when who is ahead is ahead of all of us by the time we are over the line, braking as hard as can be. Whoever stands
-/// there needs no such room: our box keeps off its.
+/// leaves room, in both orders. GUARD-009 A lane change leaves who is behind, who may gain speed until we are over
+/// the line, room to brake, and begins only when who is ahead is ahead of all of us by then, braking as hard as can
+/// be. Whoever stands there needs no such room: our box keeps off its.
 /// GUARD-010 Whoever drives only what passes, and else the last fail-safe, touches nobody who keeps to the
 /// law. GUARD-011 Who entered a group by right may stand in it, short of one that comes after all and
 /// before we were to be gone, where nobody comes who cannot stop for it and nobody has let us go.
@@ -153,12 +154,13 @@ class Guard {
     float leader_stop_s_m = 0.0F;  ///< foremost place for our front bumper if who is ahead brakes hard
     std::uint8_t leader = 255;
     float leader_mps = 0.0F;
-    Passing beside;          ///< our front stays behind it until a change is over the line
-    bool changes = false;    ///< our box is, or comes, from another lane
-    bool half_over = false;  ///< most of us is in the lane already
-    bool settles = false;    ///< our lane, and a change is in force or made or given up just now
-    InLaneList behind;       ///< only where `changes` or `settles`: those for whom we are new
-    InLaneList on_way_over;  ///< ahead, where our box may be before it has come over to the path's strip
+    Passing beside;            ///< our front stays behind it until a change is over the line
+    bool changes = false;      ///< our box is, or comes, from another lane
+    bool half_over = false;    ///< most of us is in the lane already
+    bool settles = false;      ///< our lane, and a change is in force or made or given up just now
+    float fastest_mps = 0.0F;  ///< that anybody may drive in our lane
+    InLaneList behind;         ///< only where `changes` or `settles`: those for whom we are new
+    InLaneList on_way_over;    ///< ahead, where our box may be before it has come over to the path's strip
     BoundedVector<ZoneGroup, kMaxPathZones> groups;
     BoundedVector<Threat, kMostThreats> threats;
     std::uint16_t staying_out[kMaxPathZones] = {};  ///< of each zone; bit i: agent i leaves it to us
@@ -205,6 +207,11 @@ class Guard {
   [[nodiscard]] bool is_latched(std::uint8_t track, LaneIndex lane) const;
   [[nodiscard]] bool passes_group(const scene::EgoPath& path, const PathContext& context,
                                   const ZoneGroup& group, const Own& own, Verdict& verdict) const;
+  [[nodiscard]] float half_length_m(const Threat& threat) const;
+  /// Whether it is in the merging zone, nearer to its end than we are.
+  [[nodiscard]] bool is_ahead(const scene::ConflictZone& zone, const Threat& threat, const Own& own) const;
+  /// Where our centre stands behind whoever merges before us, after it has braked as hard as can be.
+  [[nodiscard]] float behind_s_m(const scene::ConflictZone& zone, const Threat& threat) const;
   [[nodiscard]] bool passes_threat(const scene::EgoPath& path, const PathContext& context,
                                    const Threat& threat, const Own& own, Verdict& verdict) const;
   /// Whether the fail-safe stands where nobody comes who cannot stop for it.

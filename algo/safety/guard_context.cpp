@@ -113,7 +113,9 @@ void Guard::look_at_path(int path_index) {
   context.end_s_m = trajectory::dead_end_s_m(*scene_, path);
   context.leader_stop_s_m = trajectory::kNoDeadEndM;
   context.beside.stop_s_m = trajectory::kNoDeadEndM;
-  const float half_lane_m = 0.5F * scene::path_point(*scene_->map, path.path, path.frenet.s_m).width_m;
+  const scene::PathPoint here = scene::path_point(*scene_->map, path.path, path.frenet.s_m);
+  const float half_lane_m = 0.5F * here.width_m;
+  context.fastest_mps = parameters_->law.over_limit * here.speed_limit_mps;
   context.changes = path.manoeuvre != scene::Manoeuvre::kKeep;
   work_ += kPathWork;
   context.half_over = abs(path.frenet.d_m) < half_lane_m;

@@ -14,6 +14,26 @@ constexpr float kLateS = 0.3F;               // so much later, who has let us go
 
 }  // namespace
 
+float Guard::half_length_m(const Threat& threat) const {
+  return threat.agent == kUnseen ? scene::kUsualHalfLengthM
+                                 : 0.5F * scene_->agents[threat.agent].track.length_m;
+}
+
+bool Guard::is_ahead(const scene::ConflictZone& zone, const Threat& threat, const Own& own) const {
+  // Along the common lane: our centre's way and its centre's way to where the zone ends.
+  const float its_to_exit_m = threat.when.to_exit_m - (half_length_m(threat) - scene::kUsualHalfLengthM);
+  return threat.when.to_entry_m <= 0.0F && zone.exit_s_m - own.s_m[0] > its_to_exit_m;
+}
+
+float Guard::behind_s_m(const scene::ConflictZone& zone, const Threat& threat) const {
+  const float its_half_m = half_length_m(threat);
+  const float its_to_exit_m = threat.when.to_exit_m - (its_half_m - scene::kUsualHalfLengthM);
+  const float its_mps = threat.agent == kUnseen ? 0.0F : scene_->agents[threat.agent].track.speed_mps;
+  const float stop_m = occupancy::stopping_way_m(its_mps, parameters_->law.braking_max_mps2);
+  return zone.exit_s_m - its_to_exit_m + stop_m - 0.5F * parameters_->vehicle.length_m - its_half_m -
+         parameters_->guard.margin_m;
+}
+
 bool Guard::passes_threat(const scene::EgoPath& path, const PathContext& context, const Threat& threat,
                           const Own& own, Verdict& verdict) const {
   const scene::ConflictZone& zone = path.zones[threat.zone];
@@ -28,25 +48,18 @@ bool Guard::passes_threat(const scene::EgoPath& path, const PathContext& context
   if (when.until_s < in_s) return true;  // it is certain to have left
   if (!zone.merging && when.from_s > out_s) return true;
   if (zone.merging) {
-    const bool unseen = threat.agent == kUnseen;
-    const float its_half_m =
-        unseen ? scene::kUsualHalfLengthM : 0.5F * scene_->agents[threat.agent].track.length_m;
-    // Along the common lane: our centre's way and its centre's way to where the zone ends.
+    const float its_half_m = half_length_m(threat);
     const float half_m = 0.5F * parameters_->vehicle.length_m + its_half_m;
     const float its_to_exit_m = when.to_exit_m - (its_half_m - scene::kUsualHalfLengthM);
-    const bool ahead = when.to_entry_m <= 0.0F && zone.exit_s_m - own.s_m[0] > its_to_exit_m;
-    if (ahead) {
-      const float its_mps = unseen ? 0.0F : scene_->agents[threat.agent].track.speed_mps;
-      const float stop_m = occupancy::stopping_way_m(its_mps, parameters_->law.braking_max_mps2);
-      const float behind_s_m = zone.exit_s_m - its_to_exit_m + stop_m - half_m;
-      if (own.stop_s_m(parameters_->guard.braking_mps2) <= behind_s_m - parameters_->guard.margin_m)
-        return true;
+    if (is_ahead(zone, threat, own)) {
+      if (own.stop_s_m(parameters_->guard.braking_mps2) <= behind_s_m(zone, threat)) return true;
     } else {
       const float respond_s = max(in_s, 0.0F) + parameters_->law.duty_response_s;
       const Pace fastest =
-          unseen ? fastest_legal(*scene_, threat.lane, scene_->map->lanes[threat.lane].speed_limit_mps, zone,
-                                 *parameters_)
-                 : fastest_legal(*scene_, scene_->agents[threat.agent], zone, *parameters_);
+          threat.agent == kUnseen
+              ? fastest_legal(*scene_, threat.lane, scene_->map->lanes[threat.lane].speed_limit_mps, zone,
+                              *parameters_)
+              : fastest_legal(*scene_, scene_->agents[threat.agent], zone, *parameters_);
       const float its_mps = occupancy::speed_after_mps(fastest, respond_s + lead_s_);
       const auto gap_m = [&](float time_s) {
         return its_to_exit_m - occupancy::way_after_m(fastest, time_s + lead_s_) -
@@ -87,10 +100,19 @@ bool Guard::passes_group(const scene::EgoPath& path, const PathContext& context,
       verdict = {Cause::kNoRoom};
       return false;
     }
-    // Room beyond it, if whoever is ahead brakes hard.
+    // Room beyond it, if whoever is ahead, or merges ahead of us, brakes hard.
     const float rear_to_front_m = front_m_ - centre_m_;
     if (context.leader_stop_s_m - rear_to_front_m - parameters_->guard.margin_m < group.exit_s_m) {
       verdict = {Cause::kNoRoom, context.leader};
+      return false;
+    }
+    for (const Threat& threat : context.threats) {
+      if (threat.zone < group.first || threat.zone >= group.end) continue;
+      const scene::ConflictZone& zone = path.zones[threat.zone];
+      const bool goes_first =
+          threat.when.until_s < own.time_at_s(zone.entry_s_m, group.cap_mps) || is_ahead(zone, threat, own);
+      if (!zone.merging || !goes_first || behind_s_m(zone, threat) >= group.exit_s_m) continue;
+      verdict = {Cause::kNoRoom, threat.agent};
       return false;
     }
   }

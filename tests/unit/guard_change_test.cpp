@@ -30,9 +30,19 @@ TEST(Guard, MergingBeforeAnotherLeavesItRoomToBrake) {
 // 95; from 9 m/s at 102.1, which leaves 96.6.
 TEST(Guard, MergingBehindAnotherStopsBehindIt) {
   for (const float other_mps : {7.5F, 9.0F}) {
-    SharedGround road(Priority::kFirstYields, true);
+    SharedGround road(Priority::kFirstHasPriority, true);
     road.other(97.0F, other_mps);
     EXPECT_EQ(road.safe(92.0F, 5.0F, 0.0F), other_mps > 8.0F) << other_mps;
+  }
+}
+
+// GUARD-003 The same where we give way, and need room beyond the zone: our centre at 104, so its own at 109.5. From 100 at
+// 12 m/s it stops at 109, from 15 m/s at 114.
+TEST(Guard, MergingBehindAnotherNeedsRoomBeyondTheZone) {
+  for (const float other_mps : {12.0F, 15.0F}) {
+    SharedGround road(Priority::kFirstYields, true);
+    road.other(100.0F, other_mps);
+    EXPECT_EQ(road.cause(92.0F, 5.0F, 0.0F), other_mps > 13.0F ? Cause::kNone : Cause::kNoRoom) << other_mps;
   }
 }
 
@@ -91,6 +101,17 @@ TEST(Guard, AChangeLeavesTheFollowerRoomToBrake) {
     change.in_left_lane(100.0F - 5.0F - gap_m, 15.0F);
     EXPECT_EQ(change.cause(10.0F, 0.0F), gap_m < 10.0F ? Cause::kFollower : Cause::kNone) << gap_m;
     EXPECT_EQ(change.cause(10.0F, 0.0F, 0), Cause::kNone);
+  }
+}
+
+// GUARD-009 As fast as we are, it may gain 2 m/s^2 until we are over the line after 0.8 s, and for 0.5 s more: 1.7 m nearer and 2.6
+// m/s faster, which takes 0.7 m to brake away. With the 0.5 m kept that is 2.9 m. 0.5 m on the way we are over 0.4 s sooner.
+TEST(Guard, WhoIsBehindMayGainSpeedUntilWeAreOver) {
+  for (const float gap_m : {4.0F, 2.0F}) {
+    Change change;
+    change.in_left_lane(100.0F - 5.0F - gap_m, 10.0F);
+    EXPECT_EQ(change.cause(10.0F, 0.0F), gap_m < 3.0F ? Cause::kFollower : Cause::kNone) << gap_m;
+    EXPECT_EQ(change.cause_across(10.0F, 0.0F, 1, 0.5F, kLaneWidthM), Cause::kNone) << gap_m;
   }
 }
 
