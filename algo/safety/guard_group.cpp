@@ -19,18 +19,19 @@ float Guard::half_length_m(const Threat& threat) const {
                                  : 0.5F * scene_->agents[threat.agent].track.length_m;
 }
 
+float Guard::to_common_end_m(const Threat& threat) const {
+  return threat.when.to_exit_m - (half_length_m(threat) - scene::kUsualHalfLengthM);
+}
+
 bool Guard::is_ahead(const scene::ConflictZone& zone, const Threat& threat, const Own& own) const {
-  // Along the common lane: our centre's way and its centre's way to where the zone ends.
-  const float its_to_exit_m = threat.when.to_exit_m - (half_length_m(threat) - scene::kUsualHalfLengthM);
-  return threat.when.to_entry_m <= 0.0F && zone.exit_s_m - own.s_m[0] > its_to_exit_m;
+  return threat.when.to_entry_m <= 0.0F && zone.exit_s_m - own.s_m[0] > to_common_end_m(threat);
 }
 
 float Guard::behind_s_m(const scene::ConflictZone& zone, const Threat& threat) const {
-  const float its_half_m = half_length_m(threat);
-  const float its_to_exit_m = threat.when.to_exit_m - (its_half_m - scene::kUsualHalfLengthM);
   const float its_mps = threat.agent == kUnseen ? 0.0F : scene_->agents[threat.agent].track.speed_mps;
-  const float stop_m = occupancy::stopping_way_m(its_mps, parameters_->law.braking_max_mps2);
-  return zone.exit_s_m - its_to_exit_m + stop_m - 0.5F * parameters_->vehicle.length_m - its_half_m -
+  const float its_stop_s_m = zone.exit_s_m - to_common_end_m(threat) +
+                             occupancy::stopping_way_m(its_mps, parameters_->law.braking_max_mps2);
+  return its_stop_s_m - half_length_m(threat) - 0.5F * parameters_->vehicle.length_m -
          parameters_->guard.margin_m;
 }
 
@@ -48,12 +49,11 @@ bool Guard::passes_threat(const scene::EgoPath& path, const PathContext& context
   if (when.until_s < in_s) return true;  // it is certain to have left
   if (!zone.merging && when.from_s > out_s) return true;
   if (zone.merging) {
-    const float its_half_m = half_length_m(threat);
-    const float half_m = 0.5F * parameters_->vehicle.length_m + its_half_m;
-    const float its_to_exit_m = when.to_exit_m - (its_half_m - scene::kUsualHalfLengthM);
     if (is_ahead(zone, threat, own)) {
       if (own.stop_s_m(parameters_->guard.braking_mps2) <= behind_s_m(zone, threat)) return true;
     } else {
+      const float half_m = 0.5F * parameters_->vehicle.length_m + half_length_m(threat);
+      const float its_to_exit_m = to_common_end_m(threat);
       const float respond_s = max(in_s, 0.0F) + parameters_->law.duty_response_s;
       const Pace fastest =
           threat.agent == kUnseen
