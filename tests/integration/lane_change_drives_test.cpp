@@ -40,10 +40,11 @@ Changes changes_of(const std::string& name, const std::string& flavour, std::uin
   return changes;
 }
 
-// BEHAV-002: two drives that took a change up and dropped it within 0.9 s while each cycle guessed anew what had been begun.
+// BEHAV-002: three drives that took a change up and dropped it within 0.9 s while each cycle guessed anew what had been begun.
 TEST(LaneChangeDrives, NothingIsDroppedAtOnce) {
   for (const auto& [name, flavour, seed] :
-       {std::tuple{"merge", "social", 306}, std::tuple{"overtake", "social", 305}}) {
+       {std::tuple{"merge", "social", 306}, std::tuple{"overtake", "social", 311},
+        std::tuple{"overtake", "social", 314}}) {
     const Changes changes = changes_of(name, flavour, static_cast<std::uint64_t>(seed));
     EXPECT_GT(changes.taken_up, 0) << name << seed;
     EXPECT_EQ(changes.dropped, 0) << name << seed;
