@@ -16,7 +16,7 @@ from slcan_check import Board
 COMMAND, STEERING, MOTION = (f"t{number:03X}".encode() for number in (0x008, 0x011, 0x010))
 SETTLES, JUDGED = 95, 510  # ticks; status lines are told of the hundreds
 # The newest of many motion frames is that right before the tick, which wants to be 4 ms behind it: so each tick is put off, by half a
-# millisecond at most, and the next frames come as close again. Measured: 10.5 ms on a quiet host, 10.04 at least on a busy one.
+# millisecond at most, and the next frames come as close again. Measured: 10.5 ms on a quiet host, 10.03 at least on a busy one.
 UNSHIFTED_MS, SHIFT_MS = (9.9, 10.02), 0.02
 
 
