@@ -109,9 +109,10 @@ bool Guard::passes_group(const scene::EgoPath& path, const PathContext& context,
     for (const Threat& threat : context.threats) {
       if (threat.zone < group.first || threat.zone >= group.end) continue;
       const scene::ConflictZone& zone = path.zones[threat.zone];
+      if (!zone.merging || behind_s_m(zone, threat) >= group.exit_s_m) continue;
       const bool goes_first =
-          threat.when.until_s < own.time_at_s(zone.entry_s_m, group.cap_mps) || is_ahead(zone, threat, own);
-      if (!zone.merging || !goes_first || behind_s_m(zone, threat) >= group.exit_s_m) continue;
+          is_ahead(zone, threat, own) || threat.when.until_s < own.time_at_s(zone.entry_s_m, group.cap_mps);
+      if (!goes_first) continue;
       verdict = {Cause::kNoRoom, threat.agent};
       return false;
     }

@@ -40,9 +40,11 @@ Status Guard::apply(const planner::PlannerInput& input, Status status, Plan& pla
   const Status seen = scene_builder_.build(input.now_ms, input.ego, input.tracks, input.tracks_ms, input.map,
                                            parameters_, scene_);
   if (status == Status::kOk) status = seen;
+  const TrajectoryPoint start =
+      trajectory::plan_start(input.ego, input.now_ms, running, input.start_ms, parameters_);
+  if (seen == Status::kOk)
+    guard_.look(scene_, start, 1e-3F * static_cast<float>(input.start_ms - scene_.time_ms), parameters_);
   if (status == Status::kOk) {
-    guard_.look(scene_, plan.trajectory.points[0],
-                1e-3F * static_cast<float>(input.start_ms - scene_.time_ms), parameters_);
     const int path = path_of(scene_, plan.trajectory);
     const safety::Verdict verdict = guard_.judge(path, plan.trajectory);
     if (verdict.safe() && trajectory::feasible(plan.trajectory, parameters_)) {
@@ -57,15 +59,12 @@ Status Guard::apply(const planner::PlannerInput& input, Status status, Plan& pla
   }
   explanation.status = status;
   if (status == Status::kOk) return status;
-  const TrajectoryPoint start =
-      trajectory::plan_start(input.ego, input.now_ms, running, input.start_ms, parameters_);
   // A licence not yet used may be gone: who can still stop before the zones does, whatever the fail-safe in force.
   if (seen == Status::kOk && running.fail_safe.branch_s > parameters_.guard.takeover_s) {
     Plan at_once = running;
     at_once.fail_safe.branch_s = 0.0F;
     safety::drive_fail_safe(at_once, start, input.start_ms, parameters_.guard.braking_mps2, parameters_,
                             plan);
-    guard_.look(scene_, start, 1e-3F * static_cast<float>(input.start_ms - scene_.time_ms), parameters_);
     const int path = path_of(scene_, plan.trajectory);
     const safety::Verdict verdict = guard_.judge(path, plan.trajectory);
     if (verdict.safe() && !verdict.clears) {

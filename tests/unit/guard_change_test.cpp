@@ -46,6 +46,16 @@ TEST(Guard, MergingBehindAnotherNeedsRoomBeyondTheZone) {
   }
 }
 
+// GUARD-003 Nor behind one that is still before the zone, at 95, and certain to go first: we come in after 1 s, it is out after 0.9
+// s from 14 m/s, braking with 8 m/s^2, and stops at 107; from 17.5 m/s at 114.
+TEST(Guard, MergingBehindWhoGoesFirstNeedsRoomBeyondTheZone) {
+  for (const float other_mps : {14.0F, 17.5F}) {
+    SharedGround road(Priority::kFirstYields, true);
+    road.other(95.0F, other_mps);
+    EXPECT_EQ(road.cause(88.0F, 8.0F, 0.0F), other_mps > 15.0F ? Cause::kNone : Cause::kNoRoom) << other_mps;
+  }
+}
+
 // GUARD-002 GUARD-008 Where two lanes become one a vehicle stands, whoever owes whom the way, and for whatever reason: at 8 m/s,
 // 0.1 s after 0.1 s, no plan passes that could not be left any more before our box is at its own. From there none does until it
 // has been driven through: 36 in a row did once.

@@ -253,7 +253,7 @@ bool Traffic::may_enter(const Actor& self, const Mind& mind, double to_group_m, 
 }
 
 bool Traffic::may_change(const traffic::Car& car, const traffic::WayPart& beside) const {
-  if (!ego_ || ego_->actor.lane == map::kNoLane) return true;
+  if (!ego_) return true;
   Actor self;
   self.id = car.id;
   self.lane = beside.lane;

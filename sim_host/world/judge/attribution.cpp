@@ -154,7 +154,12 @@ std::optional<double> came_over_s(const Law& law, const map::Network& network, c
   return came_s;
 }
 
-/// Whoever strayed later; where nobody did, the ego. `strayed_s`: when, or the more the later.
+/// For a car over its line: it comes over later than anybody who has. For one in its lane: before everybody.
+double still_to_come_s(const map::Network& network, const traffic::CarState& car) {
+  return over_the_line(network, car) ? kInfinite_s : -kInfinite_s;
+}
+
+/// Whoever strayed later, by `strayed_s`; where nobody did, the ego.
 template <class StrayedAt>
 Verdict by_line(const Party& ego, const Party& other, Cause cause, const StrayedAt& strayed_s) {
   return blame(strayed_s(other) > strayed_s(ego) ? other : ego, cause);
@@ -193,7 +198,7 @@ Verdict attribute(const map::Network& network, const map::RouteGuide& guide,
   const double turned_rad = std::abs(map::wrap_angle(car.car->heading_rad - us.car->heading_rad));
   if (turned_rad > std::numbers::pi - kSameWay_rad) {
     return by_line(us, car, Cause::kOncoming,
-                   [&](const Party& party) { return over_the_line(network, *party.car) ? 1.0 : 0.0; });
+                   [&](const Party& party) { return still_to_come_s(network, *party.car); });
   }
   if (turned_rad > kSameWay_rad) {
     return {traffic::Fault::kEgo, Cause::kUnclear};
@@ -210,9 +215,7 @@ Verdict attribute(const map::Network& network, const map::RouteGuide& guide,
   }
   // D3 is owed to whoever has come over before.
   return by_line(us, car, Cause::kChangedLane, [&](const Party& party) {
-    const std::optional<double> came_s = came_over_s(law, network, *party.journey);
-    const double still_to_come_s = over_the_line(network, *party.car) ? kInfinite_s : -kInfinite_s;
-    return came_s.value_or(still_to_come_s);
+    return came_over_s(law, network, *party.journey).value_or(still_to_come_s(network, *party.car));
   });
 }
 
