@@ -83,8 +83,8 @@ MUTANTS = {
                               ("const bool bound = context.stop_s_m > path.zones[z].entry_s_m;",
                                "const bool bound = true;")],
         "guard.cpp": [("  latched_.clear();\n  if (!verdict.clears ||", "  if (!verdict.clears ||")],
-        "guard_group.cpp": [("if (threat.licensed && (own.blocked || leaves_in_time(group, own, kLateS))) continue;",
-                             "if (threat.licensed) continue;")]}),
+        "guard_group.cpp": [("if (threat.kind == ThreatKind::kLicensed && (own.blocked || leaves_in_time(group, own, kLateS))) continue;",
+                             "if (threat.kind == ThreatKind::kLicensed) continue;")]}),
     "no_latch": Mutant("a licence used is asked anew each cycle", {
         "guard.cpp": [("if (latch.track == track && latch.lane == lane) return true;", "")]},
         lives="GUARD-007 lets a plan pass that leaves the zone when it was to; who is later is refused, and goes "

@@ -138,10 +138,11 @@ typedef struct s4tp_track {
 /// All vehicles around us at one instant. A vehicle missing from a list is coasted for a second, then dropped.
 typedef struct s4tp_tracks {
   uint32_t time_ms;  ///< vehicle time of the list: at most 500 ms from now_ms, not before the last one's
-  int32_t count;     ///< 0 .. S4TP_MAX_TRACKS; of more vehicles the nearest
+  int32_t count;     ///< 0 .. S4TP_MAX_TRACKS; of more vehicles those of the least distance less 2 s of
+                     ///< |their velocity - ours|: who can be near us soonest
   int32_t
-      left_out;  ///< how many more there are, 0 or more: API-017 somebody legal may be anywhere beyond the
-                 ///< furthest of `items`, and the plan reckons with that
+      left_out;  ///< how many more there are, 0 or more: API-017 somebody legal may be anywhere where it is,
+                 ///< by that, no sooner than any of `items`, and the plan reckons with that
   s4tp_track items[S4TP_MAX_TRACKS];
 } s4tp_tracks;
 

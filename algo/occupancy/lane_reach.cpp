@@ -24,11 +24,13 @@ bool has_lane(const LaneMap& map, LaneIndex lane) {
 }  // namespace
 
 float LaneReach::to_start_m(LaneIndex lane) const {
-  return kMPerCm * static_cast<float>(to_start_cm_[lane]);
+  if (to_start_cm_[lane] >= kNoWayCm) return kNoWayM;
+  return kMPerCm * static_cast<float>(to_start_cm_[lane]) + back_m_;
 }
 
 int LaneReach::measure(const LaneMap& map, const scene::Agent& agent, bool changes) {
   for (std::int16_t& way_cm : to_start_cm_) way_cm = kNoWayCm;
+  back_m_ = 0.0F;
   int work = kReachWork;
   LaneIndex front[kMaxLanes];  // lanes whose neighbours are still to be looked at
   int count = 0;

@@ -31,8 +31,12 @@ class LaneReach {
   /// there. \pre lane is an index of the map
   [[nodiscard]] float to_start_m(LaneIndex lane) const;
 
+  /// As measured, but from so much further back on the same lane, or on what leads into it.
+  void move_back(float way_m) { back_m_ = back_m_ + way_m; }
+
  private:
   std::int16_t to_start_cm_[kMaxLanes];
+  float back_m_ = 0.0F;
 };
 
 }  // namespace s4tp::occupancy

@@ -18,8 +18,8 @@
 /// law. GUARD-011 Who entered a group by right may stand in it, short of one that comes after all and
 /// before we were to be gone, where nobody comes who cannot stop for it and nobody has let us go.
 /// GUARD-012 Beyond the known ground (scene.hpp) there may be anybody: on each lane that leads in from there
-/// somebody comes at the limit's speed, in a lane we change into as well; on our way out of it somebody
-/// stands. Where there are more such lanes than can be followed, somebody is everywhere. Whoever is nearer in that
+/// somebody comes as fast as we were, and somebody as fast as may be who would have been listed were it nearer; in a lane
+/// we change into as well; on our way out of it somebody brakes. Where there are more such lanes than can be followed, somebody is everywhere. Whoever is nearer in that
 /// lane and stays out of a zone, leads us, or follows us, is in its way.
 /// GUARD-013 Until a change has been made or given up for two seconds, who is behind in that lane keeps its room to brake: a plan
 /// that goes back, until it has left that lane; its answer counts from when we came over.
@@ -117,12 +117,18 @@ class Guard {
   static constexpr int kMostThreats = 32;  ///< of one path; more: the zone counts as taken
   static constexpr int kPaths = decltype(scene::Scene::ego_paths)::kCapacity;
 
+  enum class ThreatKind : std::uint8_t {
+    kTold,      ///< in the list
+    kLicensed,  ///< the same, latched: only a plan that is out of the group in time counts on it
+    kComes,     ///< unseen, as fast as may be
+    kAlike,     ///< unseen, as fast as we are
+  };
   /// A vehicle that may be in a zone of the path.
   struct Threat {
     std::uint8_t zone = 0;
     std::uint8_t agent = 0;  ///< or kUnseen: the one that comes first
     LaneIndex lane = kNoLaneIndex;
-    bool licensed = false;  ///< latched: only a plan that is out of the group in time counts on it
+    ThreatKind kind = ThreatKind::kTold;
     ZoneOccupancy when;
   };
   /// Somebody in the lane of the path, ahead or behind.
@@ -194,7 +200,13 @@ class Guard {
                     PathContext& context);
   // guard_unseen.cpp
   void look_beyond(const occupancy::LaneReach (&reach)[kMaxTracks]);
-  void expect_from(LaneIndex lane, float s_m, const occupancy::LaneReach (&reach)[kMaxTracks]);
+  void expect_from(LaneIndex lane, float edge_s_m, const occupancy::LaneReach (&reach)[kMaxTracks]);
+  void expect(scene::Agent& somebody, ThreatKind kind, const occupancy::LaneReach& anyhow,
+              const occupancy::LaneReach& straight_on, const occupancy::LaneReach (&reach)[kMaxTracks]);
+  [[nodiscard]] float unseen_mps(LaneIndex lane, ThreatKind kind) const;
+  /// Of those unseen ones that may come into a zone the first, with what none of them can; where lanes merge a fast
+  /// one and a slow one.
+  static void add_unseen(const Threat& threat, bool merging, PathContext& context);
   void expect_everywhere();                        ///< in every zone, and beside us
   void expect_beside(PathContext& context) const;  ///< in the lane we change into, and nobody else there
   void expect_ahead(const scene::EgoPath& path, PathContext& context);

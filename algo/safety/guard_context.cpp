@@ -225,7 +225,7 @@ void Guard::find_threats(const scene::EgoPath& path, const occupancy::LaneReach 
     ZoneOccupancy when[kMaxTracks];
     const auto expect = [&](int i, bool licensed) {
       const Threat threat{static_cast<std::uint8_t>(z), static_cast<std::uint8_t>(i), scene_->agents[i].lane,
-                          licensed, when[i]};
+                          licensed ? ThreatKind::kLicensed : ThreatKind::kTold, when[i]};
       if (!context.threats.push(threat)) context.too_many = true;
     };
     // Two who set off at once have both seen the other stand: who can still stop has not used its licence.

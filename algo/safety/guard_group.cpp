@@ -57,8 +57,7 @@ bool Guard::passes_threat(const scene::EgoPath& path, const PathContext& context
       const float respond_s = max(in_s, 0.0F) + parameters_->law.duty_response_s;
       const Pace fastest =
           threat.agent == kUnseen
-              ? fastest_legal(*scene_, threat.lane, scene_->map->lanes[threat.lane].speed_limit_mps, zone,
-                              *parameters_)
+              ? fastest_legal(*scene_, threat.lane, unseen_mps(threat.lane, threat.kind), zone, *parameters_)
               : fastest_legal(*scene_, scene_->agents[threat.agent], zone, *parameters_);
       const float its_mps = occupancy::speed_after_mps(fastest, respond_s + lead_s_);
       const auto gap_m = [&](float time_s) {
@@ -126,7 +125,7 @@ bool Guard::passes_group(const scene::EgoPath& path, const PathContext& context,
     if (threat.zone < group.first || threat.zone >= group.end) continue;
     const scene::ConflictZone& zone = path.zones[threat.zone];
     if (own.s_m[0] > zone.exit_s_m) continue;
-    if (threat.licensed && (own.blocked || leaves_in_time(group, own, kLateS))) continue;
+    if (threat.kind == ThreatKind::kLicensed && (own.blocked || leaves_in_time(group, own, kLateS))) continue;
     Verdict refused = verdict;
     if (passes_threat(path, context, threat, own, refused)) continue;
     // Who cannot stay out any more leaves it as soon as it was to.
@@ -154,7 +153,7 @@ bool Guard::stops_short(const scene::EgoPath& path, const PathContext& context, 
     const bool stands_there = own.s_m[0] <= zone.exit_s_m && stop_s_m > zone.entry_s_m;
     // D2 binds the others to ground we are on, or cannot stay out of; to no more. Who has let us go is not
     // stopped for.
-    const bool ours = bound_s_m > zone.entry_s_m && (own.blocked || !threat.licensed);
+    const bool ours = bound_s_m > zone.entry_s_m && (own.blocked || threat.kind != ThreatKind::kLicensed);
     if (stands_there && !(ours && threat.when.can_stop)) return false;
   }
   return true;

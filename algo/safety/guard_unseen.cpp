@@ -19,8 +19,8 @@ constexpr int kChordWork = 2;      // ... of each of its chords, and ...
 constexpr int kTwoAheadWork = 1;   // ... of two chords along our path
 constexpr int kLedIntoWork = 290;
 constexpr int kExpectWork = 30;
-constexpr int kZoneWork = 8;  // and ...
-constexpr int kHeldWork = 1;  // ... of each vehicle there
+constexpr int kZoneWork = 8;
+constexpr int kHeldWork = 1;  // of each vehicle, where somebody may come
 
 bool is_known(const scene::KnownGround& known, Point place) {
   return distance(place, known.centre) < known.radius_m;
@@ -50,6 +50,7 @@ void Guard::look_beyond(const LaneReach (&reach)[kMaxTracks]) {
   const LaneMap& map = *scene_->map;
   for (int path = 0; path < scene_->ego_paths.size(); ++path)
     expect_ahead(scene_->ego_paths[path], contexts_[path]);
+  if (!(known.radius_m > 0.0F)) return expect_everywhere();
   const int most = work_ + kMostWork;
   for (LaneIndex index = 0; index < kMaxLanes; ++index) {
     const Lane& lane = map.lanes[index];
@@ -102,54 +103,76 @@ void Guard::expect_beside(PathContext& context) const {
   (void)context.behind.push({kUnseen, context.start_s_m + front_m_, start_.speed_mps});
 }
 
-void Guard::expect_from(LaneIndex lane, float s_m, const LaneReach (&reach)[kMaxTracks]) {
-  const float limit_mps = scene_->map->lanes[lane].speed_limit_mps;
+// Whoever is missing `x` beyond the edge is no faster than we by more than x / kListLeadS, or it would be in the list. In the
+// time t it comes x (t / kListLeadS - 1) + a t^2 / 2 further than we would: no further than either who is as fast as we at
+// the edge or, later, who is at the fastest speed already, by v faster and v kListLeadS - a kListLeadS^2 / 2 beyond.
+void Guard::expect_from(LaneIndex lane, float edge_s_m, const LaneReach (&reach)[kMaxTracks]) {
   scene::Agent somebody;
-  somebody.track.speed_mps = limit_mps;
   somebody.track.length_m = kLengthM;
   somebody.age_ms = scene_->known.age_ms;
   somebody.lane = lane;
   scene::LanePath lane_path;
   (void)lane_path.lanes.push({lane, 0.0F});
   (void)somebody.paths.push(lane_path);
-  somebody.frenet[0].s_m = s_m;
+  somebody.frenet[0].s_m = edge_s_m;
   LaneReach anyhow;
   LaneReach straight_on;
-  work_ += kExpectWork + anyhow.measure(*scene_->map, somebody) +
-           straight_on.measure(*scene_->map, somebody, false);
+  work_ += anyhow.measure(*scene_->map, somebody) + straight_on.measure(*scene_->map, somebody, false);
+  expect(somebody, ThreatKind::kAlike, anyhow, straight_on, reach);
+  const float faster_mps = unseen_mps(lane, ThreatKind::kComes) - unseen_mps(lane, ThreatKind::kAlike);
+  const float back_m = faster_mps * kListLeadS - 0.5F * parameters_->law.gain_mps2 * square(kListLeadS);
+  anyhow.move_back(max(back_m, 0.0F));
+  straight_on.move_back(max(back_m, 0.0F));
+  expect(somebody, ThreatKind::kComes, anyhow, straight_on, reach);
+}
+
+float Guard::unseen_mps(LaneIndex lane, ThreatKind kind) const {
+  const float fastest_mps = parameters_->law.over_limit * scene_->map->lanes[lane].speed_limit_mps;
+  return kind == ThreatKind::kAlike ? min(norm(scene_->known.velocity), fastest_mps) : fastest_mps;
+}
+
+void Guard::expect(scene::Agent& somebody, ThreatKind kind, const LaneReach& anyhow,
+                   const LaneReach& straight_on, const LaneReach (&reach)[kMaxTracks]) {
+  const float speed_mps = unseen_mps(somebody.lane, kind);
+  somebody.track.speed_mps = speed_mps;
+  work_ += kExpectWork;
   for (int p = 0; p < scene_->ego_paths.size(); ++p) {
     const scene::EgoPath& path = scene_->ego_paths[p];
     PathContext& context = contexts_[p];
-    work_ += (kZoneWork + kHeldWork * scene_->agents.size()) * path.zones.size();
+    work_ += kZoneWork * path.zones.size();
     for (int z = 0; z < path.zones.size(); ++z) {
       const scene::ConflictZone& zone = path.zones[z];
-      Threat threat{static_cast<std::uint8_t>(z), kUnseen, lane, false,
+      Threat threat{static_cast<std::uint8_t>(z), kUnseen, somebody.lane, kind,
                     zone_occupancy(*scene_, somebody, zone.merging ? straight_on : anyhow, zone, lead_s_,
                                    *parameters_)};
       if (threat.when.claim != Claim::kMayCome) continue;
       threat.when.until_s = kNeverS;  // another one may follow
-      if (held_back(context, z, zone, straight_on, reach, threat.when)) continue;
-      int known = 0;
-      while (known < context.threats.size() &&
-             !(context.threats[known].zone == threat.zone && context.threats[known].agent == kUnseen))
-        ++known;
-      if (known == context.threats.size()) {
-        if (!context.threats.push(threat)) context.too_many = true;
-      } else if (threat.when.from_s < context.threats[known].when.from_s) {
-        context.threats[known] = threat;
-      }
+      work_ += kHeldWork * scene_->agents.size();
+      if (!held_back(context, z, zone, straight_on, reach, threat.when))
+        add_unseen(threat, zone.merging, context);
     }
     // In a lane we change into, behind us: where nobody is between.
     const float to_start_m = straight_on.to_start_m(path.path.lanes[0].lane);
-    if (!context.changes || to_start_m >= kNoWayM) continue;
+    if (!context.changes || to_start_m >= kNoWayM || -to_start_m > path.frenet.s_m + centre_m_) continue;
+    bool between = false;
+    for (const InLane& other : context.behind) between = between || other.agent != kUnseen;
+    if (between) continue;
     const float since_s = lead_s_ + 1e-3F * static_cast<float>(scene_->known.age_ms);
-    const InLane behind{kUnseen, -to_start_m + 0.5F * kLengthM + limit_mps * since_s, limit_mps};
-    if (-to_start_m > path.frenet.s_m + centre_m_) continue;
-    const bool nearer = context.behind.size() == 1 && context.behind[0].agent == kUnseen &&
-                        behind.bumper_s_m > context.behind[0].bumper_s_m;
-    if (nearer) context.behind[0] = behind;
-    if (context.behind.empty()) (void)context.behind.push(behind);
+    keep_nearest(context.behind, {kUnseen, -to_start_m + 0.5F * kLengthM + speed_mps * since_s, speed_mps},
+                 context.start_s_m + centre_m_);
   }
+}
+
+void Guard::add_unseen(const Threat& threat, bool merging, PathContext& context) {
+  for (Threat& known : context.threats) {
+    if (known.zone != threat.zone || known.agent != kUnseen) continue;
+    if (merging && known.kind != threat.kind) continue;
+    const bool can_stop = known.when.can_stop && threat.when.can_stop;
+    if (threat.when.from_s < known.when.from_s) known = threat;
+    known.when.can_stop = can_stop;
+    return;
+  }
+  if (!context.threats.push(threat)) context.too_many = true;
 }
 
 bool Guard::held_back(const PathContext& context, int zone, const scene::ConflictZone& ground,
@@ -182,8 +205,13 @@ void Guard::expect_ahead(const scene::EgoPath& path, PathContext& context) {
       const Point to = lane.points[i];
       const float length_m = distance(from, to);
       if (start_s_m + length_m > centre_s_m && !is_known(known, to)) {
+        // The slower the further off, or it would be in the list.
+        const float own_mps = norm(known.velocity);
+        const float its_mps = min(own_mps, kListLeadS * parameters_->law.braking_max_mps2);
+        const float stop_m = kListLeadS * (own_mps - its_mps) +
+                             occupancy::stopping_way_m(its_mps, parameters_->law.braking_max_mps2);
         const float edge_s_m = start_s_m + clamp(cut(known, from, to).out_m, 0.0F, length_m);
-        context.leader_stop_s_m = max(edge_s_m, centre_s_m) - 0.5F * kLengthM;
+        context.leader_stop_s_m = max(edge_s_m, centre_s_m) + stop_m - 0.5F * kLengthM;
         context.leader = kUnseen;
         context.leader_mps = 0.0F;
         return;

@@ -59,9 +59,8 @@ void SatpPredictor::encode(const satp::Weights& weights, const scene::Scene& sce
 void SatpPredictor::believe(int index, const satp::Futures& futures, AgentPrediction& result) const {
   const float(&pair)[satp::kPairFeatures] = encoded_.pair[index];
   const Track& track = scene_->agents[index].track;
-  const float entry_m = pair[static_cast<int>(satp::PairFeature::kEntryM)];
-  // Whoever stands may go on standing, in the junction, too.
-  const bool stands = track.speed_mps < kStandingMps && entry_m <= kStaysM;
+  // Of whoever stands it was seen that it goes on standing, in the junction, too.
+  const bool stands = track.speed_mps < kStandingMps;
   if (!stands && pair[static_cast<int>(satp::PairFeature::kZone)] == 0.0F) return;
   const float seen_if_yielding = exp(beliefs_ == nullptr ? 0.0F : beliefs_->evidence(track.id));
   float sum = 0.0F;

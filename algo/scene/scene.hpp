@@ -76,23 +76,24 @@ struct EgoPath {
   BoundedVector<ConflictZone, kMaxPathZones> zones;
 };
 
-/// The ground on which nobody is missing. CORE-036 It reaches as far as the furthest vehicle of a list that
-/// left some out, and no further than those the scene has no room for: the nearest of all, missing ones among
-/// them, are kept. Sensors that see less far than the map, or past whom they cannot see, do not bound it.
+/// The ground on which nobody is missing. CORE-036 It reaches as far as the last vehicle of a list that left some
+/// out, by list_distance_m, and no further than those the scene has no room for: the first of all by that, missing ones
+/// among them, are kept. Sensors that see less far than the map, or past whom they cannot see, do not bound it.
 ///
 /// \code
 ///        . - ~ - .      centre: our box, at the list's time
-///      '   [1] [2] '    radius: to the furthest of the list
-///     | [us]        [16]      [?]  left out
+///      '   [1] [2] '    radius: to the last of the list, if it drives as we do
+///     | [us]        [16]      [?]->  left out: beyond by as much as the two come nearer in 2 s, or more
 ///      .    [3]    .
 ///        ' - _ - '
 /// \endcode
 struct KnownGround {
   static constexpr float kEverywhereM = 1e4F;
   Point centre;
-  float radius_m = kEverywhereM;
-  std::uint16_t age_ms = 0;   ///< of the list
-  std::uint8_t left_out = 0;  ///< how many are known to be beyond it
+  float radius_m = kEverywhereM;  ///< of nobody is it known that it is not missing: 0
+  std::uint16_t age_ms = 0;       ///< of the list
+  std::uint8_t left_out = 0;      ///< how many are known to be beyond it
+  Point velocity;                 ///< ours, at the list's time [m/s]
 };
 
 /// Everything one planning cycle knows of the world.

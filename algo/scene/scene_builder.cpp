@@ -93,7 +93,8 @@ void SceneBuilder::take_list(const TrackList& tracks, std::uint32_t list_time_ms
   if (!in_time || !(first || since_last_ms > 0)) return;
   const float to_centre_m = 0.5F * parameters.vehicle.length_m - parameters.vehicle.rear_overhang_m;
   const float since_m = 1e-3F * static_cast<float>(list_age_ms) * scene.ego.speed_mps;
-  memory_.take(tracks, list_time_ms, offset_point(scene.ego.rear_axle, to_centre_m - since_m, 0.0F));
+  memory_.take(tracks, list_time_ms, offset_point(scene.ego.rear_axle, to_centre_m - since_m, 0.0F),
+               scene.ego.speed_mps * direction(scene.ego.rear_axle.heading_rad));
 }
 
 void SceneBuilder::add_agents(const LaneTable& table, std::int32_t passed_ms, Scene& scene) {

@@ -95,19 +95,19 @@ void TrackMemory::add(const Track& track, bool nameless, std::uint32_t list_ms) 
   past.nameless = nameless;
   past.seen_ms = list_ms;
   if (tracks.push(past)) return;
-  float furthest_m = distance(position(track.centre), listed_.centre);
+  float furthest_m = away_m(track, 0.0F);
   int furthest = -1;  // the new one itself
   for (int i = 0; i < tracks.size(); ++i) {
     const float seconds = 1e-3F * static_cast<float>(elapsed_ms(tracks[i].seen_ms, list_ms));
-    const float away_m = distance(coasted(tracks[i].track, seconds), listed_.centre);
-    if (away_m <= furthest_m) continue;
+    const float its_m = away_m(tracks[i].track, seconds);
+    if (its_m <= furthest_m) continue;
     furthest = i;
-    furthest_m = away_m;
+    furthest_m = its_m;
   }
   if (furthest >= 0) tracks[furthest] = past;
   if (kept_ms_ != list_ms) kept_ = KnownGround{};
   kept_ms_ = list_ms;
-  kept_.radius_m = min(kept_.radius_m, furthest_m);
+  kept_.radius_m = max(0.0F, min(kept_.radius_m, furthest_m));
   ++kept_.left_out;
 }
 
@@ -123,15 +123,21 @@ KnownGround TrackMemory::known_ground(std::uint32_t time_ms) const {
   return known;
 }
 
-void TrackMemory::take(const TrackList& list, std::uint32_t list_ms, Point centre) {
+float TrackMemory::away_m(const Track& track, float coasted_s) const {
+  const Point velocity = track.speed_mps * direction(track.centre.heading_rad);
+  return list_distance_m(distance(coasted(track, coasted_s), listed_.centre),
+                         norm(velocity - listed_.velocity));
+}
+
+void TrackMemory::take(const TrackList& list, std::uint32_t list_ms, Point centre, Point velocity) {
   listed_.centre = centre;
+  listed_.velocity = velocity;
   listed_.left_out = list.left_out;
   listed_.radius_m = KnownGround::kEverywhereM;
   if (list.left_out > 0) {
     listed_.radius_m = 0.0F;
     for (const Track& track : list) {
-      if (sound(track))
-        listed_.radius_m = max(listed_.radius_m, distance(position(track.centre), listed_.centre));
+      if (sound(track)) listed_.radius_m = max(listed_.radius_m, away_m(track, 0.0F));
     }
   }
   drop_unseen(list_ms);  // after a time without lists: they need their room for who is there now

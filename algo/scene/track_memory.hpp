@@ -33,8 +33,8 @@ class TrackMemory {
   /// Time has jumped: nobody of now was anybody then.
   void forget_all();
 
-  /// Takes a whole list. \param centre  of our box, at the list's time
-  void take(const TrackList& list, std::uint32_t list_ms, Point centre);
+  /// Takes a whole list. \param centre  of our box, at the list's time \param velocity  ours then [m/s]
+  void take(const TrackList& list, std::uint32_t list_ms, Point centre, Point velocity);
 
   /// CORE-030 Drops who is missing from the lists of a second, or is where the newest has another vehicle. No list says
   /// that anybody has gone while there is none: without lists for a second all stay until we stand, a minute at most.
@@ -57,6 +57,8 @@ class TrackMemory {
   void drop_unseen(std::uint32_t by_ms);
   void add(const Track& track, bool nameless, std::uint32_t list_ms);
   [[nodiscard]] std::uint8_t spare_id(const TrackList& list);
+  /// list_distance_m of the newest list, after coasting for so long.
+  [[nodiscard]] float away_m(const Track& track, float coasted_s) const;
 
   KnownGround listed_;         ///< as the newest list has it
   KnownGround kept_;           ///< as far as all had room, at ...

@@ -1,6 +1,7 @@
 #include "algo/trajectory/reference_line.hpp"
 
 #include "algo/core/inline.hpp"
+#include "algo/occupancy/pace.hpp"
 #include "algo/trajectory/bicycle.hpp"
 
 namespace s4tp::trajectory {
@@ -18,10 +19,12 @@ constexpr int kMostPasses = 16;      // to widen a bend
 constexpr int kEdgeSamples = 4;      // at the ends, which widening leaves as they are
 constexpr int kWidenedSamples = 8;   // each way around what is too tight
 constexpr float kSwingOut = 0.5F;    // of what a pass cuts is given back outside
+constexpr int kBeyondSamples = 16;   // for bends and limits beyond the line
 
 // Work (WorkMeter's units), beside scene::kSeekWork.
 constexpr int kLineWork = 400;
 constexpr int kPassWork = 250;
+constexpr int kBeyondWork = 3;  // of a sample
 
 /// Triangle of five: weights 1 2 3 2 1. \param chosen  samples to smooth; null: all
 void smooth(const bool* chosen, ReferenceLine& line) {
@@ -124,10 +127,35 @@ float steerable_mps(const ReferenceLine& line, int i, const Parameters& paramete
   return rate_radps / max(slope_1pm2 * parameters.vehicle.wheelbase_m, kFlat);  // d atan(x) <= dx
 }
 
+float bend_speed_mps(float curvature_1pm, const Parameters& parameters) {
+  return sqrt(parameters.comfort.lateral_mps2 / max(abs(curvature_1pm), kFlat));
+}
+
+/// Speed at the line's end with which the bends and limits further on are met in time: a plan ends 3 s ahead, and from there
+/// on we may have to brake for longer than the line is. \param work  what it took is added [WorkMeter's units]
+float speed_at_end_mps(const LaneMap& map, const scene::LanePath& path, const ReferenceLine& line,
+                       float speed_mps, const Parameters& parameters, int& work) {
+  const float braking_mps2 = kGentle * parameters.comfort.braking_mps2;
+  const float end_s_m = line.start_s_m + static_cast<float>(kReferenceSamples - 1) * line.spacing_m;
+  const float planned_m = static_cast<float>(kHorizonSteps) * kStepS * speed_mps;
+  const float ahead_m = (static_cast<float>(kReferenceSamples - 1) - kBehind) * line.spacing_m;
+  const float reach_m = planned_m + occupancy::stopping_way_m(speed_mps, braking_mps2) - ahead_m;
+  float end_mps = line.samples[kReferenceSamples - 1].speed_cap_mps;
+  if (reach_m <= 0.0F) return end_mps;
+  scene::PathCursor cursor(map, path);
+  for (int i = 1; i <= kBeyondSamples; ++i) {
+    const float beyond_m = reach_m * static_cast<float>(i) / static_cast<float>(kBeyondSamples);
+    const scene::PathPoint there = cursor.at(end_s_m + beyond_m);
+    const float cap_mps = min(there.speed_limit_mps, bend_speed_mps(there.curvature_1pm, parameters));
+    end_mps = min(end_mps, sqrt(square(cap_mps) + 2.0F * braking_mps2 * beyond_m));
+  }
+  work += kBeyondWork * kBeyondSamples + scene::kSeekWork * cursor.seeks();
+  return end_mps;
+}
+
 /// Caps by curves, then backwards: v^2 = v_next^2 + 2 b ds, so that each slower part is reached in time.
-void cap_speeds(const Parameters& parameters, ReferenceLine& line) {
+void cap_speeds(const Parameters& parameters, float next_mps, ReferenceLine& line) {
   const float gain_m2ps2 = 2.0F * kGentle * parameters.comfort.braking_mps2 * line.spacing_m;
-  float next_mps = line.samples[kReferenceSamples - 1].speed_cap_mps;
   for (int i = kReferenceSamples - 1; i >= 0; --i) {
     float& cap_mps = line.samples[i].speed_cap_mps;
     const float bend_1pm = abs(line.samples[i].curvature_1pm);
@@ -158,8 +186,9 @@ int build_reference(const LaneMap& map, const scene::LanePath& path, float from_
   smooth(nullptr, line);
   const int passes = widen_tight_bends(parameters, line);
   differentiate(line);
-  cap_speeds(parameters, line);
-  return kLineWork + kPassWork * passes + scene::kSeekWork * cursor.seeks();
+  int work = kLineWork + kPassWork * passes + scene::kSeekWork * cursor.seeks();
+  cap_speeds(parameters, speed_at_end_mps(map, path, line, speed_mps, parameters, work), line);
+  return work;
 }
 
 namespace {

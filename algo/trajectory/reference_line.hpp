@@ -22,7 +22,9 @@ struct ReferenceLine {
   struct Sample {
     Pose pose;
     float curvature_1pm = 0.0F;
-    float speed_cap_mps = 0.0F;  ///< limit, curves and their onset, ahead too: braked for in time
+    /// Limit, curves and their onset, ahead too: braked for in time. CAND-024 As far ahead as it takes from a
+    /// plan's end on, which may be further than the line is.
+    float speed_cap_mps = 0.0F;
   };
   float start_s_m = 0.0F;  ///< arc length of samples[0] along the path
   float spacing_m = 1.0F;

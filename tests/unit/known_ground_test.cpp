@@ -49,6 +49,26 @@ TEST(KnownGround, ReachesAsFarAsTheFurthestOfTheList) {
   EXPECT_EQ(lists.scene.known.radius_m, scene::KnownGround::kEverywhereM);
 }
 
+// CORE-036 The last of the list by distance less 2 s of way: 40 m away at 15 m/s counts as 10, before one that stands at 30.
+TEST(KnownGround, EndsSoonerForWhoDrives) {
+  Lists lists;
+  TrackList list = queue(3, 10.0F);
+  (void)list.push(car(9, 11.5F + 40.0F, 0.0F, 0.0F, 15.0F));
+  list.left_out = 2;
+  lists.step(list);
+  EXPECT_NEAR(lists.scene.known.radius_m, 30.0F, 1e-3F);
+}
+
+// CORE-036 Where all that are listed are as near as that less their way, nothing is known of who stands.
+TEST(KnownGround, IsNowhereAmongOnlyFastOnes) {
+  Lists lists;
+  TrackList list;
+  (void)list.push(car(9, 11.5F + 20.0F, 0.0F, 0.0F, 15.0F));
+  list.left_out = 1;
+  lists.step(list);
+  EXPECT_EQ(lists.scene.known.radius_m, 0.0F);
+}
+
 // CORE-036 A list of nobody that left somebody out vouches for nothing.
 TEST(KnownGround, AnEmptyListThatLeftSomebodyOutKnowsNothing) {
   Lists lists;

@@ -55,6 +55,22 @@ TEST(Perception, ShowsTheNearestSixteen) {
   EXPECT_NEAR(tracks.items[15].x_m, 80.0F, 0.006F);
 }
 
+// WORLD-010 WIRE-020 Sixteen within 80 m drive as we do: one that is 15 m/s faster counts as 30 m nearer, and comes in from
+// 110 m on instead of the last of them.
+TEST(Perception, ShowsWhoCanBeNearSoonest) {
+  for (const double away_m : {109.0, 111.0}) {
+    std::vector<traffic::CarState> others{car(99, away_m, 0.0)};
+    others[0].speed_mps = 25.0;
+    for (int i = 1; i <= 16; ++i) others.push_back(car(i, 5.0 * i, 0.0));
+    Perception perception({}, {0.0, 0.0}, 1);
+    const wire::Tracks tracks = seen(perception, others);
+    ASSERT_EQ(tracks.count, 16);
+    float furthest_m = 0.0F;
+    for (int i = 0; i < tracks.count; ++i) furthest_m = std::max(furthest_m, tracks.items[i].x_m);
+    EXPECT_EQ(furthest_m > 100.0F, away_m < 110.0) << away_m;
+  }
+}
+
 // Positions are relative to the odometry origin: 105 - 100 = 5 m.
 TEST(Perception, SpeaksInOdometryCoordinates) {
   Perception perception({}, {100.0, 50.0}, 1);

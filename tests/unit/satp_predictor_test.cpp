@@ -119,15 +119,18 @@ TEST(SatpPredictor, GivesFuturesAndBeliefsTheirMass) {
   EXPECT_GT(told_apart, 0);
 }
 
-// SATP-053 The same of one that has stood before us in the junction for 30 s, another behind it, by the weights a build
-// carries: evidence makes the futures likelier in which it goes on standing.
-TEST(SatpPredictor, BelievesThatWhoStandsInTheJunctionStays) {
+// SATP-053 The same of one that has stood for 30 s before us in the junction, or before it first in line, another behind it,
+// by the weights a build carries: evidence makes the futures likelier in which it goes on standing.
+class WhoStands : public testing::TestWithParam<float> {};
+
+TEST_P(WhoStands, IsBelievedToStay) {
   const satp::ShippedWeights shipped = satp::shipped_weights();
   Junction junction;
   ASSERT_EQ(satp::Weights::check(shipped.image, shipped.size_bytes, junction.weights),
             satp::WeightStatus::kOk);
   junction.ego = test::ego_at(1.6F, -1.5F, 1.5707963F, 0.0F);
-  junction.tracks = {test::car(2, -1.0F, -1.6F, 0.0F, 0.0F), test::car(3, -8.0F, -1.6F, 0.0F, 0.0F)};
+  const float x_m = GetParam();
+  junction.tracks = {test::car(2, x_m, -1.6F, 0.0F, 0.0F), test::car(3, x_m - 7.0F, -1.6F, 0.0F, 0.0F)};
   scene::SceneBuilder builder;
   for (std::uint32_t now_ms = 1000; now_ms <= 31000; now_ms += 100) {
     (void)builder.build(now_ms, junction.ego, test::track_list(junction.tracks), now_ms, &junction.cross.map,
@@ -139,8 +142,10 @@ TEST(SatpPredictor, BelievesThatWhoStandsInTheJunctionStays) {
   for (int i = 0; i < 20; ++i) beliefs.observe(junction.scene, hypotheses);
   const auto stays = [&](const YieldBeliefs* believed) {
     float sum = 0.0F;
-    for (const Mode& mode : junction.predict(junction.weights, nullptr, believed).agents[0].modes)
-      sum += 0.01F * static_cast<float>(mode.yields_percent) * mode.probability;
+    for (const Mode& mode : junction.predict(junction.weights, nullptr, believed).agents[0].modes) {
+      const Pose& end = mode.steps[kHorizonSteps - 1];
+      if (std::hypot(end.x_m - x_m, end.y_m + 1.6F) < 0.9F) sum += mode.probability;
+    }
     return sum;
   };
   const float prior = stays(nullptr);
@@ -148,6 +153,7 @@ TEST(SatpPredictor, BelievesThatWhoStandsInTheJunctionStays) {
   EXPECT_LT(prior, 0.95F);
   EXPECT_GT(stays(&beliefs), 0.97F);
 }
+INSTANTIATE_TEST_SUITE_P(InAndBeforeTheJunction, WhoStands, testing::Values(-1.0F, -10.0F));
 
 // SATP-050 SATP-051 A prediction that comes true keeps full trust; one that is off by more than three times
 // the usual error leaves half each time; a vehicle that is new, or gone and new again, is trusted.

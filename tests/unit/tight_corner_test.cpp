@@ -35,6 +35,21 @@ struct Corner {
   }
 };
 
+// CAND-024 A bend of 9 m radius, 5.2 m/s at 3 m/s^2, begins 110 m ahead at 16.7 m/s: the line reaches 70 m, and 40 m before
+// the bend sqrt(5.2^2 + 4 * 40) = 13.7 m/s may be driven, to brake with 2 m/s^2.
+TEST(TightCorner, IsBrakedForFromAPlansEnd) {
+  LaneMap map;
+  const LaneIndex before = add_lane(map, {{-200.0F, 0.0F}, {0.0F, 0.0F}});
+  const LaneIndex turn = add_lane(map, arc({0.0F, 0.0F, 0.0F}, 9.0F, 1.5708F, 9));
+  link(map, before, turn);
+  for (const LaneIndex lane : {before, turn}) map.lanes[lane].speed_limit_mps = 16.7F;
+  const scene::LanePath path = path_of(map, {before, turn});
+  trajectory::ReferenceLine line;
+  trajectory::build_reference(map, path, 90.0F, 16.7F, Parameters{}, line);
+  EXPECT_NEAR(trajectory::speed_cap_at(line, 160.0F), 13.7F, 0.5F);
+  EXPECT_FLOAT_EQ(trajectory::speed_cap_at(line, 90.0F), 16.7F);
+}
+
 float sharpest_1pm(const trajectory::ReferenceLine& line) {
   float most = 0.0F;
   for (const trajectory::ReferenceLine::Sample& sample : line.samples)

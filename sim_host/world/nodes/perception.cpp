@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "algo/core/world_state.hpp"
 #include "sim_host/world/traffic/box.hpp"
 
 namespace s4tp::nodes {
@@ -72,9 +73,14 @@ void Perception::observe(const traffic::CarState& ego, const std::vector<traffic
       seen.push_back(car);
     }
   }
-  std::stable_sort(seen.begin(), seen.end(), [&](const traffic::CarState& a, const traffic::CarState& b) {
-    return distance_m(ego, a) < distance_m(ego, b);
-  });
+  const auto list_distance_m = [&](const traffic::CarState& car) {
+    const double x_mps =
+        car.speed_mps * std::cos(car.heading_rad) - ego.speed_mps * std::cos(ego.heading_rad);
+    const double y_mps =
+        car.speed_mps * std::sin(car.heading_rad) - ego.speed_mps * std::sin(ego.heading_rad);
+    return distance_m(ego, car) - kListLeadS * std::hypot(x_mps, y_mps);
+  };
+  std::ranges::stable_sort(seen, {}, list_distance_m);
   Pending pending;
   pending.due_ms = vehicle_time_ms + 10U * static_cast<std::uint32_t>(std::max(0, options_.latency_ticks));
   const std::size_t count = std::min<std::size_t>(seen.size(), wire::kMaxTracks);
