@@ -19,8 +19,8 @@
 /// before we were to be gone, where nobody comes who cannot stop for it and nobody has let us go.
 /// GUARD-012 Beyond the known ground (scene.hpp) there may be anybody: on each lane that leads in from there
 /// somebody comes as fast as we were, and somebody as fast as may be who would have been listed were it nearer; in a lane
-/// we change into as well; on our way out of it somebody brakes. Where there are more such lanes than can be followed, somebody is everywhere. Whoever is nearer in that
-/// lane and stays out of a zone, leads us, or follows us, is in its way.
+/// we change into as well; on our way out of it somebody brakes. Where there are more such lanes than can be followed,
+/// somebody is everywhere. Whoever is nearer in that lane and stays out of a zone, leads us, or follows us, is in its way.
 /// GUARD-013 Until a change has been made or given up for two seconds, who is behind in that lane keeps its room to brake: a plan
 /// that goes back, until it has left that lane; its answer counts from when we came over.
 ///

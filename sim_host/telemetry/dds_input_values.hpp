@@ -32,7 +32,7 @@ class TrackIds {
   std::array<Holder, 256> holders_;
 };
 
-/// TELE-041 At most 16 objects in frame "odom" (the nearest: the publisher's choice), boxes by centre and
+/// TELE-041 At most 16 objects in frame "odom" (whom to name of more is the publisher's choice), boxes by centre and
 /// size, stamped with vehicle time. Refused: a number that is none, a value the wire cannot carry, a box
 /// without a size, no unit quaternion, an object named twice. Backwards slower than 1 m/s counts as standing.
 /// \param tracks  written when taken only
