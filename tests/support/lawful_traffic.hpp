@@ -20,7 +20,8 @@ struct Traffic {
   float time_s = 0.0F;
   float waited_s = 0.0F;
   bool touched_left_out = false;  ///< somebody who was left out before, when run() answers false
-  float sight_m = scene::KnownGround::kEverywhereM;  ///< who is further away is left out of lists
+  float sight_m =
+      scene::KnownGround::kEverywhereM;  ///< who is further, by list_distance_m, is left out of lists
   bool merging = false;
   bool committed = false;       ///< the plan in force goes through the zone
   float ego_entered_s = -1.0F;  ///< when it came into the zone
@@ -37,22 +38,24 @@ struct Traffic {
     return road.scene.ego_paths[0].zones[0].priority != Priority::kFirstHasPriority;
   }
 
-  [[nodiscard]] Point place_of(const Lawful& other) const {
-    return position(
-        state_on(road.map, other.leads ? road.ours : road.theirs, other.motion.s_m, 0.0F).rear_axle);
+  [[nodiscard]] Pose pose_of(const Lawful& other) const {
+    return state_on(road.map, other.leads ? road.ours : road.theirs, other.motion.s_m, 0.0F).rear_axle;
   }
-  [[nodiscard]] Point own_place() const {
-    return position(state_on(road.map, road.ours, ego.s_m, 0.0F).rear_axle);
-  }
+  [[nodiscard]] Point place_of(const Lawful& other) const { return position(pose_of(other)); }
+  [[nodiscard]] Pose own_pose() const { return state_on(road.map, road.ours, ego.s_m, 0.0F).rear_axle; }
+  [[nodiscard]] Point own_place() const { return position(own_pose()); }
+  [[nodiscard]] Point own_velocity() const { return ego.speed_mps * direction(own_pose().heading_rad); }
   [[nodiscard]] bool left_out(const Lawful& other) const {
-    return distance(place_of(other), own_place()) > sight_m;
+    const Point velocity = other.motion.speed_mps * direction(pose_of(other).heading_rad);
+    return list_distance_m(distance(place_of(other), own_place()), norm(velocity - own_velocity())) > sight_m;
   }
 
   /// The scene as the planner is told it.
   void observe() {
     scene::Scene& scene = road.scene;
     scene.agents.clear();
-    scene.known = {own_place(), sight_m, 0, std::uint8_t{sight_m < scene::KnownGround::kEverywhereM}};
+    scene.known = {own_place(), sight_m, 0, std::uint8_t{sight_m < scene::KnownGround::kEverywhereM},
+                   own_velocity()};
     for (Lawful& other : others) {
       if (left_out(other)) {
         other.was_left_out = true;
