@@ -33,16 +33,12 @@ struct Track {
 
 /// By what a list is cut where more vehicles are around than it holds: who can be near us soonest comes in, so that a
 /// column that stands around us hides nobody who comes fast, nor one that drives along with us whoever stands ahead.
+/// In so long the two come nearer by as much as counts: by distance less that way it is ordered.
 inline constexpr float kListLeadS = 2.0F;
-/// How far away a vehicle is, less the way by which the two can come nearer in kListLeadS [m]. \param relative_mps
-/// amount of the difference of its velocity and ours
-[[nodiscard]] constexpr float list_distance_m(float distance_m, float relative_mps) {
-  return distance_m - kListLeadS * relative_mps;
-}
 
 /// The vehicles of one list.
 struct TrackList : BoundedVector<Track, kMaxTracks> {
-  std::uint8_t left_out = 0;  ///< how many more there are, none of less list_distance_m than any of these
+  std::uint8_t left_out = 0;  ///< how many more there are, none that comes before any of these
 };
 
 using LaneIndex = std::int8_t;

@@ -123,6 +123,10 @@ KnownGround TrackMemory::known_ground(std::uint32_t time_ms) const {
   return known;
 }
 
+float list_distance_m(float distance_m, float relative_mps) {
+  return distance_m - kListLeadS * relative_mps;
+}
+
 float TrackMemory::away_m(const Track& track, float coasted_s) const {
   const Point velocity = track.speed_mps * direction(track.centre.heading_rad);
   return list_distance_m(distance(coasted(track, coasted_s), listed_.centre),

@@ -24,6 +24,10 @@ struct RememberedTrack {
   History history;
 };
 
+/// What lists are ordered by: how far away a vehicle is, less the way by which the two can come nearer in kListLeadS [m].
+/// \param relative_mps  amount of the difference of its velocity and ours
+[[nodiscard]] float list_distance_m(float distance_m, float relative_mps);
+
 class TrackMemory {
  public:
   void reset();

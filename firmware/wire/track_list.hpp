@@ -2,7 +2,7 @@
 /// The track list on the wire: a header (TrackList) and two members a track (TrackPose, TrackMotion), all of
 /// one generation. WIRE-020 A list counts only when whole; until then the previous one stands and ages.
 /// Those come into it that can be near our box's centre soonest: by distance less 2 s of the difference of the two
-/// velocities nobody left out comes before any of these (s4tp::list_distance_m).
+/// velocities nobody left out comes before any of these (s4tp::scene::list_distance_m).
 /// WIRE-023 Whole means that the header's digest fits all members, too: against corruption, not forgery.
 
 #include <cstdint>

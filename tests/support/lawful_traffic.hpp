@@ -7,6 +7,7 @@
 #include <random>
 #include <vector>
 
+#include "algo/scene/track_memory.hpp"
 #include "tests/support/lawful_driver.hpp"
 #include "tests/support/shared_ground.hpp"
 
@@ -47,7 +48,8 @@ struct Traffic {
   [[nodiscard]] Point own_velocity() const { return ego.speed_mps * direction(own_pose().heading_rad); }
   [[nodiscard]] bool left_out(const Lawful& other) const {
     const Point velocity = other.motion.speed_mps * direction(pose_of(other).heading_rad);
-    return list_distance_m(distance(place_of(other), own_place()), norm(velocity - own_velocity())) > sight_m;
+    return scene::list_distance_m(distance(place_of(other), own_place()), norm(velocity - own_velocity())) >
+           sight_m;
   }
 
   /// The scene as the planner is told it.
