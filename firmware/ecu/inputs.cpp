@@ -12,6 +12,7 @@ constexpr std::uint32_t kMapAgeMaxMs = 5000;
 constexpr std::int32_t kIntervalMinMs = 8;
 constexpr std::int32_t kIntervalMaxMs = 12;
 constexpr float kSecondsPerMs = 0.001F;
+static_assert(kListLeadS == wire::kListLeadS, "senders cut lists as the guard expects");
 
 Track to_track(const wire::Track& from) {
   Track to;

@@ -1,8 +1,8 @@
 #pragma once
 /// The track list on the wire: a header (TrackList) and two members a track (TrackPose, TrackMotion), all of
 /// one generation. WIRE-020 A list counts only when whole; until then the previous one stands and ages.
-/// Those come into it that can be near our box's centre soonest: by distance less 2 s of the difference of the two
-/// velocities nobody left out comes before any of these (s4tp::scene::list_distance_m).
+/// Those come into it that can be near our box's centre soonest: by distance less kListLeadS of the difference of the
+/// two velocities nobody left out comes before any of these.
 /// WIRE-023 Whole means that the header's digest fits all members, too: against corruption, not forgery.
 
 #include <cstdint>
@@ -13,6 +13,7 @@
 namespace s4tp::wire {
 
 inline constexpr int kMaxTracks = 16;
+inline constexpr float kListLeadS = 2.0F;  ///< of relative velocity counts as way when a list is cut
 
 struct Track {
   std::uint8_t id = 0;

@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <utility>
 
-#include "algo/core/world_state.hpp"
 #include "sim_host/world/traffic/box.hpp"
 
 namespace s4tp::nodes {
@@ -78,7 +77,7 @@ void Perception::observe(const traffic::CarState& ego, const std::vector<traffic
         car.speed_mps * std::cos(car.heading_rad) - ego.speed_mps * std::cos(ego.heading_rad);
     const double y_mps =
         car.speed_mps * std::sin(car.heading_rad) - ego.speed_mps * std::sin(ego.heading_rad);
-    return distance_m(ego, car) - kListLeadS * std::hypot(x_mps, y_mps);
+    return distance_m(ego, car) - wire::kListLeadS * std::hypot(x_mps, y_mps);
   };
   std::ranges::stable_sort(seen, {}, list_distance_m);
   Pending pending;
