@@ -28,6 +28,10 @@ float LaneReach::to_start_m(LaneIndex lane) const {
   return kMPerCm * static_cast<float>(to_start_cm_[lane]) + back_m_;
 }
 
+void LaneReach::move_back(float way_m) {
+  back_m_ = back_m_ + way_m;
+}
+
 int LaneReach::measure(const LaneMap& map, const scene::Agent& agent, bool changes) {
   for (std::int16_t& way_cm : to_start_cm_) way_cm = kNoWayCm;
   back_m_ = 0.0F;

@@ -32,7 +32,7 @@ class LaneReach {
   [[nodiscard]] float to_start_m(LaneIndex lane) const;
 
   /// As measured, but from so much further back on the same lane, or on what leads into it.
-  void move_back(float way_m) { back_m_ = back_m_ + way_m; }
+  void move_back(float way_m);
 
  private:
   std::int16_t to_start_cm_[kMaxLanes];
