@@ -31,9 +31,9 @@ struct Track {
   float width_m = 0.0F;            ///< 0.3 .. 3
 };
 
-/// By what a list is cut where more vehicles are around than it holds: who can be near us soonest comes in, so that a
-/// column that stands around us hides nobody who comes fast, nor one that drives along with us whoever stands ahead.
-/// In so long the two come nearer by as much as counts: by distance less that way it is ordered.
+/// A list that does not hold all vehicles names those who can be near us soonest, by distance less the way of so long at
+/// the difference of their velocity and ours: a column that stands around us hides nobody who comes fast, and one that
+/// drives along with us nobody who stands ahead.
 inline constexpr float kListLeadS = 2.0F;
 
 /// The vehicles of one list.
