@@ -9,7 +9,6 @@ namespace {
 constexpr float kDeeperM = 0.3F;       // boxes that touch from the start count once this much deeper
 constexpr float kRoundingM = 0.01F;    // more than what rounding can change in a distance within reach
 constexpr std::int32_t kLookWork = 2;  // WorkMeter's units
-constexpr float kShareKept = 0.5F;     // of a gap that was below the margin from the start
 
 /// Our boxes along a trajectory, made as they are needed, for looks at many futures.
 class OwnBoxes {
@@ -31,14 +30,20 @@ class OwnBoxes {
   /// From one point to the next at most.
   [[nodiscard]] float longest_step_m() const { return longest_step_m_; }
   /// From rear axle to the other's box centre, and above both half diagonals.
-  [[nodiscard]] float reach_m(const Track& other, float margin_m) const {
-    return abs(centre_m_) + margin_m +
-           0.5F * (vehicle_.length_m + vehicle_.width_m + other.length_m + other.width_m);
+  [[nodiscard]] float reach_m(const Track& other) const {
+    return abs(centre_m_) + 0.5F * (vehicle_.length_m + vehicle_.width_m + other.length_m + other.width_m);
   }
 
-  /// Separation at trajectory point `point`, or something smaller that is more than `enough_m`.
-  /// \param half_diagonal_m  of the other
-  [[nodiscard]] float separation_from(const Box& other, float half_diagonal_m, float enough_m, int point) {
+  /// What the boxes are apart at trajectory point `point`.
+  [[nodiscard]] float gap_m(const Box& other, int point) const {
+    const Pose centre = shift_ahead(trajectory_.points[point].rear_axle, centre_m_);
+    return separation({centre, vehicle_.length_m, vehicle_.width_m}, other);
+  }
+
+  /// How likely the boxes touch at trajectory point `point`, if the other may be up to `off_m` further on or behind, any
+  /// less by that much likelier. \param half_diagonal_m  of the other \param apart_m  to be added to what they are apart
+  [[nodiscard]] float touch_likelihood(const Box& other, float half_diagonal_m, float off_m, float apart_m,
+                                       int point) {
     if ((known_ >> point & 1U) == 0) {
       known_ |= 1U << point;
       turned_[point] = sin_cos(trajectory_.points[point].rear_axle.heading_rad);
@@ -49,15 +54,33 @@ class OwnBoxes {
     // However it is turned, it reaches no further along our axes than its half diagonal.
     const float along_m = abs(dot(ahead, offset)) - 0.5F * vehicle_.length_m;
     const float across_m = abs(cross(ahead, offset)) - 0.5F * vehicle_.width_m;
-    float least_m = max(along_m, across_m) - half_diagonal_m - kRoundingM;
-    if (least_m > enough_m) return least_m;
-    least_m = separation_bound(along_m, across_m, other, trajectory_.points[point].rear_axle.heading_rad);
-    if (least_m > enough_m) return least_m;
-    const Box own = {{centre.x_m, centre.y_m, 0.0F}, vehicle_.length_m, vehicle_.width_m};
-    return separation(own, ahead, other, direction(other.centre.heading_rad));
+    const float far_m = off_m - apart_m + kRoundingM;
+    if (max(along_m, across_m) - half_diagonal_m > far_m) return 0.0F;
+    if (separation_bound(along_m, across_m, other, trajectory_.points[point].rear_axle.heading_rad) > far_m)
+      return 0.0F;
+    const Point there = direction(other.centre.heading_rad);
+    const float lengthwise = abs(dot(ahead, there));
+    const float crosswise = abs(cross(ahead, there));
+    const Point half = {0.5F * vehicle_.length_m, 0.5F * vehicle_.width_m};
+    const Point half_other = {0.5F * other.length_m, 0.5F * other.width_m};
+    const float ahead_gap_m = along_m - (half_other.x_m * lengthwise + half_other.y_m * crosswise);
+    const float beside_gap_m = across_m - (half_other.x_m * crosswise + half_other.y_m * lengthwise);
+    const float its_ahead_gap_m =
+        abs(dot(there, offset)) - half_other.x_m - (half.x_m * lengthwise + half.y_m * crosswise);
+    const float its_beside_gap_m =
+        abs(cross(there, offset)) - half_other.y_m - (half.x_m * crosswise + half.y_m * lengthwise);
+    return min(min(closed(ahead_gap_m + apart_m, lengthwise * off_m),
+                   closed(beside_gap_m + apart_m, crosswise * off_m)),
+               min(closed(its_ahead_gap_m + apart_m, off_m), closed(its_beside_gap_m + apart_m, 0.0F)));
   }
 
  private:
+  /// How likely what is off closes a gap: 1 where there is none, 0 where all of it does not.
+  static float closed(float gap_m, float off_m) {
+    if (gap_m <= 0.0F) return 1.0F;
+    return gap_m < off_m ? 1.0F - gap_m / off_m : 0.0F;
+  }
+
   /// What the boxes are apart at least along our axes, without a sine: sin x <= x is all but equal where the
   /// boxes are nearly parallel or at right angles, which boxes of cars mostly are.
   static float separation_bound(float along_m, float across_m, const Box& other, float heading_rad) {
@@ -69,7 +92,7 @@ class OwnBoxes {
     const float half_width_m = 0.5F * other.width_m;
     const float reach_along_m = half_length_m * cosine + half_width_m * sine;
     const float reach_across_m = half_length_m * sine + half_width_m * cosine;
-    return max(along_m - reach_along_m, across_m - reach_across_m) - kRoundingM;
+    return max(along_m - reach_along_m, across_m - reach_across_m);
   }
 
   const Trajectory& trajectory_;
@@ -82,42 +105,49 @@ class OwnBoxes {
 static_assert(kTrajectoryPoints <= 32);
 
 /// \param looks  out: steps that were looked at closely
-int first_collision(OwnBoxes& own, const satp::Mode& mode, const Track& track, int steps, float margin_m,
-                    int& looks) {
-  const float reach_m = own.reach_m(track, margin_m);
+float touch_likelihood(OwnBoxes& own, const satp::Mode& mode, const Track& track,
+                       const Parameters& parameters, int& looks) {
+  const float timing_error = parameters.scoring.timing_error;
   const float half_diagonal_m = 0.5F * norm({track.length_m, track.width_m});
-  const float closing_m = own.longest_step_m() + 0.01F * static_cast<float>(mode.longest_step_cm);
+  const float longest_m = 0.01F * static_cast<float>(mode.longest_step_cm);
+  const float closing_m = own.longest_step_m() + longest_m;
+  const float reach_m = own.reach_m(track) + timing_error * static_cast<float>(kHorizonSteps) * longest_m;
   constexpr int kFarSteps = 12;
   constexpr int kNearSteps = 3;
   const float far_m = reach_m + kRoundingM + static_cast<float>(kFarSteps) * closing_m;
   const float near_m = reach_m + kRoundingM + static_cast<float>(kNearSteps) * closing_m;
-  float least_m = margin_m;
-  for (int i = 0; i < steps && i < kHorizonSteps; ++i) {
-    const Point apart = own.rear_axle(i + 1) - position(mode.steps[i]);
-    const float apart_m2 = dot(apart, apart);
-    if (apart_m2 > square(reach_m)) {
+  float apart_m = 0.0F;
+  float likeliest = 0.0F;
+  for (int i = 0; i < kHorizonSteps && likeliest < 1.0F; ++i) {
+    const Point between = own.rear_axle(i + 1) - position(mode.steps[i]);
+    const float between_m2 = dot(between, between);
+    if (between_m2 > square(reach_m)) {
       // So far apart they stay out of reach for some steps to come.
-      i += apart_m2 > square(far_m) ? kFarSteps : (apart_m2 > square(near_m) ? kNearSteps : 0);
+      i += between_m2 > square(far_m) ? kFarSteps : (between_m2 > square(near_m) ? kNearSteps : 0);
       continue;
     }
     const Box box = {mode.steps[i], track.length_m, track.width_m};
     ++looks;
-    const float gap_m = own.separation_from(box, half_diagonal_m, least_m, i + 1);
-    if (gap_m >= least_m) continue;
-    if (i > 0) return i;
-    // So near already, and nothing can be done about the first step: it must not get much worse.
-    least_m = gap_m > 0.0F ? kShareKept * gap_m : gap_m - kDeeperM;
+    if (i == 0) {
+      // Nothing can be done about the first step: of whoever touches us there it must not get much worse.
+      const float gap_m = own.gap_m(box, 1);
+      apart_m = gap_m > 0.0F ? 0.0F : kDeeperM - gap_m;
+      continue;
+    }
+    const float step_m = distance(position(mode.steps[i]), position(mode.steps[i - 1]));
+    const float off_m = timing_error * static_cast<float>(i + 1) * step_m;
+    likeliest = max(likeliest, own.touch_likelihood(box, half_diagonal_m, off_m, apart_m, i + 1));
   }
-  return -1;
+  return likeliest;
 }
 
 }  // namespace
 
-int first_collision(const Trajectory& trajectory, const satp::Mode& mode, const Track& track, int steps,
-                    float margin_m, const Parameters& parameters) {
+float touch_likelihood(const Trajectory& trajectory, const satp::Mode& mode, const Track& track,
+                       const Parameters& parameters) {
   OwnBoxes own(trajectory, parameters);
   int looks = 0;
-  return first_collision(own, mode, track, steps, margin_m, looks);
+  return touch_likelihood(own, mode, track, parameters, looks);
 }
 
 float expected_collisions(const scene::Scene& scene, const satp::PredictionSet& prediction,
@@ -128,8 +158,7 @@ float expected_collisions(const scene::Scene& scene, const satp::PredictionSet& 
   for (const satp::AgentPrediction& predicted : prediction.agents) {
     const Track& track = scene.agents[predicted.agent].track;
     for (const satp::Mode& mode : predicted.modes) {
-      if (first_collision(own, mode, track, kHorizonSteps, 0.0F, looks) >= 0)
-        expected = expected + mode.probability;
+      expected = expected + mode.probability * touch_likelihood(own, mode, track, parameters, looks);
     }
   }
   work.spend(kLookWork * looks);

@@ -10,11 +10,12 @@
 
 namespace s4tp::sadrf {
 
-/// First step whose boxes are nearer than `margin_m`, or -1. A vehicle nearer than that from the first step
-/// on counts when the gap has halved, or, touching already, when it is 0.3 m deeper: standing close is not a
-/// collision.
-[[nodiscard]] int first_collision(const Trajectory& trajectory, const satp::Mode& mode, const Track& track,
-                                  int steps, float margin_m, const Parameters& parameters);
+/// How likely the trajectory touches a vehicle with this future within the horizon. A future knows better where a vehicle
+/// drives than when: after `t` it may be as far on as at any time within scoring.timing_error * t of `t`, the less likely
+/// the further off. One that stands, or stops before our way, is not off at all. A vehicle that touches us from the first
+/// step on counts when it is 0.3 m deeper. \return 0 .. 1, of the step where it is likeliest
+[[nodiscard]] float touch_likelihood(const Trajectory& trajectory, const satp::Mode& mode, const Track& track,
+                                     const Parameters& parameters);
 
 /// Expected number of vehicles the trajectory touches within the horizon, over all their futures.
 /// \param work  what it takes is charged; it ends in any case

@@ -13,7 +13,8 @@
 /// GUARD-007 Who cannot stay out of a zone any more leaves it no later than it was to. GUARD-008 Merging
 /// leaves room, in both orders. GUARD-009 A lane change leaves who is behind, who may gain speed until we are over
 /// the line, room to brake, and begins only when who is ahead is ahead of all of us by then, braking as hard as can
-/// be. Whoever stands there needs no such room: our box keeps off its.
+/// be. Whoever stands there needs no such room: our box keeps off its. Once our box is in there, one behind it that lacks
+/// room however we stop, driving on as we do, has broken the law or come out of nowhere: no plan leaves it less.
 /// GUARD-010 Whoever drives only what passes, and else the last fail-safe, touches nobody who keeps to the
 /// law. GUARD-011 Who entered a group by right may stand in it, short of one that comes after all and
 /// before we were to be gone, where nobody comes who cannot stop for it and nobody has let us go.
@@ -134,7 +135,8 @@ class Guard {
   /// Somebody in the lane of the path, ahead or behind.
   struct InLane {
     std::uint8_t agent = 255;
-    float bumper_s_m = 0.0F;  ///< its rear bumper ahead of us, its front bumper behind us, at plan start
+    std::int16_t lacks_cm = 0;  ///< behind us: of room to brake, however we stop
+    float bumper_s_m = 0.0F;    ///< its rear bumper ahead of us, its front bumper behind us, at plan start
     float speed_mps = 0.0F;
   };
   using InLaneList = BoundedVector<InLane, 4>;
@@ -240,6 +242,13 @@ class Guard {
                                         const Own& own) const;
   /// What is left of the fail-safe in force.
   [[nodiscard]] FailSafe in_force() const;
+  /// What is left between us and whoever is behind when it was least, or lacking if below 0.
+  [[nodiscard]] float room_behind_m(const PathContext& context, const InLane& behind, const Own& own,
+                                    const FailSafe& stop, const Between& between) const;
+  /// A fail-safe after a lane change. \pre 0 <= index < kStopCount; the last one is the one in force
+  [[nodiscard]] FailSafe stop_after_change(int index) const;
+  /// Sets what room whoever is behind lacks, whatever the fail-safe of a plan that drives on as we do. \param reaches_in_m  our box, into its lane
+  void find_lacking(float reaches_in_m, PathContext& context) const;
   [[nodiscard]] bool followers_can_brake(const PathContext& context, const Trajectory& trajectory,
                                          const Own& own, const FailSafe& stop, const Between& between,
                                          Verdict& verdict) const;

@@ -26,7 +26,8 @@ constexpr int kMostWork = 15'000;  // beyond, the next path is not looked at any
 constexpr int kLookWork = 10;
 constexpr int kPathWork = 20;
 constexpr int kGroupWork = 50;
-constexpr int kThreatWork = 5;  // whether a vehicle may be in a zone
+constexpr int kBehindWork = 30;  // what room somebody lacks
+constexpr int kThreatWork = 5;   // whether a vehicle may be in a zone
 
 }  // namespace
 
@@ -173,6 +174,8 @@ void Guard::look_at_path(int path_index) {
       keep_nearest(context.behind, behind, centre_s_m);
     }
   }
+  find_lacking(half_lane_m + 0.5F * parameters_->vehicle.width_m - abs(path.frenet.d_m), context);
+  work_ += kBehindWork * context.behind.size();
   find_groups(path, context);
   work_ += kGroupWork * context.groups.size();
 }

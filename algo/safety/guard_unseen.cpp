@@ -100,7 +100,7 @@ void Guard::expect_everywhere() {
 
 void Guard::expect_beside(PathContext& context) const {
   context.behind.clear();
-  (void)context.behind.push({kUnseen, context.start_s_m + front_m_, start_.speed_mps});
+  (void)context.behind.push({kUnseen, 0, context.start_s_m + front_m_, start_.speed_mps});
 }
 
 // Whoever is missing `x` beyond the edge is no faster than we by more than x / kListLeadS, or it would be in the list. In the
@@ -158,7 +158,7 @@ void Guard::expect(scene::Agent& somebody, ThreatKind kind, const LaneReach& any
     for (const InLane& other : context.behind) between = between || other.agent != kUnseen;
     if (between) continue;
     const float since_s = lead_s_ + 1e-3F * static_cast<float>(scene_->known.age_ms);
-    keep_nearest(context.behind, {kUnseen, -to_start_m + 0.5F * kLengthM + speed_mps * since_s, speed_mps},
+    keep_nearest(context.behind, {kUnseen, 0, -to_start_m + 0.5F * kLengthM + speed_mps * since_s, speed_mps},
                  context.start_s_m + centre_m_);
   }
 }

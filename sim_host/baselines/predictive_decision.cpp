@@ -117,8 +117,7 @@ PdCost pd_features(const scene::Scene& scene, int path_index, const trajectory::
     for (; first < futures.size() && futures[first].agent == agent; ++first) {
       const sadrf::Future& future = futures[first];
       const satp::Mode& mode = *future.mode;
-      if (sadrf::first_collision(trajectory, mode, track, kHorizonSteps, 0.0F, parameters) >= 0)
-        hit += future.probability;
+      hit += future.probability * sadrf::touch_likelihood(trajectory, mode, track, parameters);
       float least_s = kTtcS;
       for (int i = 0; i < kHorizonSteps; ++i) {
         const Box own = trajectory::ego_box(trajectory.points[i + 1].rear_axle, parameters);

@@ -125,6 +125,16 @@ TEST(Guard, WhoIsBehindMayGainSpeedUntilWeAreOver) {
   }
 }
 
+// GUARD-009 Our box 0.3 m over the line, at 15 m/s, when one is there 8 m behind at 25 m/s: it cannot brake for us however
+// we stop, so it has come in against the law or out of nowhere. A plan that drives on leaves it as much room as can be and passes, one that brakes less. 0.3 m short of the line the change is not made.
+TEST(Guard, BeforeOneThatCannotBrakeAnyMoreWeDriveOn) {
+  Change change;
+  change.in_left_lane(100.0F - 5.0F - 8.0F, 25.0F);
+  EXPECT_EQ(change.cause_across(15.0F, 1.0F, 1, 1.0F, kLaneWidthM), Cause::kNone);
+  EXPECT_EQ(change.cause_across(15.0F, -3.0F, 1, 1.0F, kLaneWidthM), Cause::kFollower);
+  EXPECT_EQ(change.cause_across(15.0F, 1.0F, 1, 0.4F, kLaneWidthM), Cause::kFollower);
+}
+
 // GUARD-009 One beside us, half a length back, leaves no room for a change at all.
 TEST(Guard, NobodyChangesIntoOneBeside) {
   Change change;

@@ -113,7 +113,8 @@ TEST(LeftOut, AFreeLaneBesideQueuesIsDriven) {
   EXPECT_GT(crowd.ego().rear_axle.x_m, 120.0F);
 }
 
-// CORE-037 Behind a queue in our own lane nothing changes: whoever leads us is nearer than whoever is left out.
+// CORE-037 Behind a queue in our own lane nothing changes, but for what an optimizer with a little less work left does (1 cm): whoever
+// leads us is nearer than whoever is left out.
 TEST(LeftOut, BehindAQueueWeStandBehindItsLast) {
   float stands_at_m[2] = {};
   for (const bool tells : {true, false}) {
@@ -126,7 +127,7 @@ TEST(LeftOut, BehindAQueueWeStandBehindItsLast) {
     EXPECT_LT(crowd.ego().speed_mps, 0.3F);
     stands_at_m[tells ? 1 : 0] = crowd.ego().rear_axle.x_m;
   }
-  EXPECT_EQ(stands_at_m[0], stands_at_m[1]);
+  EXPECT_NEAR(stands_at_m[0], stands_at_m[1], 0.01F);
 }
 
 }  // namespace
