@@ -126,7 +126,8 @@ TEST(Guard, WhoIsBehindMayGainSpeedUntilWeAreOver) {
 }
 
 // GUARD-009 Our box 0.3 m over the line, at 15 m/s, when one is there 8 m behind at 25 m/s: it cannot brake for us however
-// we stop, so it has come in against the law or out of nowhere. A plan that drives on leaves it as much room as can be and passes, one that brakes less. 0.3 m short of the line the change is not made.
+// we stop, so it has come in against the law or out of nowhere. A plan that drives on leaves it as much room as can be and
+// passes, one that brakes leaves it less. 0.3 m short of the line the change is not made.
 TEST(Guard, BeforeOneThatCannotBrakeAnyMoreWeDriveOn) {
   Change change;
   change.in_left_lane(100.0F - 5.0F - 8.0F, 25.0F);

@@ -18,8 +18,8 @@ class Perception {
   /// \param origin  of the odometry frame, network coordinates
   Perception(const scenario::PerceptionOptions& options, map::Vec2 origin, std::uint64_t seed);
 
-  /// WORLD-010 The 16 cars in range that can be near us soonest (WIRE-020), the others counted as left out; to be
-  /// called every 100 ms.
+  /// WORLD-010 The 16 cars in range that can be near us soonest, the others counted as left out; to be called every
+  /// 100 ms.
   void observe(const traffic::CarState& ego, const std::vector<traffic::CarState>& others,
                std::uint32_t vehicle_time_ms);
   /// WORLD-011 Appends a tick's share of the list: at most 12 frames, so that three ticks carry the longest.
