@@ -11,11 +11,13 @@
 #include <string>
 
 #include "algo/satp/decoder.hpp"
+#include "sim_host/train/random_number.hpp"
 
 namespace s4tp::train {
 namespace {
 
 constexpr int kWordsALine = 8;
+constexpr std::size_t kExportSamples = 512;
 constexpr double kUsual = 0.95;
 constexpr int kResidualStep = 4;                  // 0.5 s
 constexpr std::uintmax_t kMostBytes = 1U << 20U;  // several flash banks
@@ -26,7 +28,29 @@ std::ofstream opened(const std::filesystem::path& file) {
   return out;
 }
 
-// How far the likeliest future is off after 0.5 s, in all but the worst twentieth.
+// How far the likeliest future of each vehicle is off after 0.5 s; the network sees each with plan and without.
+std::vector<float> residuals_of(FloatNetwork& network, const SampleSet& set,
+                                const std::vector<std::size_t>& samples, float temperature) {
+  std::vector<float> residuals_m;
+  for (const std::size_t i : samples) {
+    const Sample& sample = set[i];
+    const FloatEncoded encoded = network.encode(sample.input);
+    for (int vehicle = 0; vehicle < sample.input.hdvs; ++vehicle) {
+      (void)network.decode(encoded, sample.input, vehicle, nullptr, temperature);
+      const FloatFutures futures = network.decode(encoded, sample.input, vehicle, &sample.plan, temperature);
+      if ((sample.target.valid[vehicle] >> static_cast<unsigned>(kResidualStep) & 1U) == 0) continue;
+      const auto likeliest =
+          std::max_element(std::begin(futures.probability), std::end(futures.probability)) -
+          futures.probability;
+      const float(&expected)[3] = futures.pose[likeliest][kResidualStep];
+      const float(&truth)[3] = sample.target.pose[vehicle][kResidualStep];
+      residuals_m.push_back(std::hypot(expected[0] - truth[0], expected[1] - truth[1]));
+    }
+  }
+  return residuals_m;
+}
+
+// What all but the worst twentieth stay below.
 float usual_residual_m(std::vector<float> residuals_m) {
   if (residuals_m.empty())
     throw std::runtime_error("no vehicle among the calibration samples was seen for 0.5 s");
@@ -37,27 +61,25 @@ float usual_residual_m(std::vector<float> residuals_m) {
 
 }  // namespace
 
+std::vector<std::size_t> export_samples(const SampleSet& set) {
+  std::vector<std::size_t> samples = samples_of(set, Part::kCalibration);
+  shuffle(samples, 0);
+  samples.resize(std::min(samples.size(), kExportSamples));
+  return samples;
+}
+
+Ranges calibrated_ranges(const Tensors& tensors, const SampleSet& set,
+                         const std::vector<std::size_t>& samples) {
+  FloatNetwork network(satp::kMcuShape, tensors);
+  (void)residuals_of(network, set, samples, 1.0F);
+  return network.ranges();
+}
+
 std::vector<std::uint32_t> export_image(const Trained& trained, const SampleSet& set,
                                         const std::vector<std::size_t>& samples) {
   FloatNetwork network(satp::kMcuShape, trained.tensors);
-  std::vector<float> residuals_m;
-  for (const std::size_t i : samples) {
-    const Sample& sample = set[i];
-    const FloatEncoded encoded = network.encode(sample.input);
-    for (int vehicle = 0; vehicle < sample.input.hdvs; ++vehicle) {
-      (void)network.decode(encoded, sample.input, vehicle, nullptr, trained.temperature);
-      const FloatFutures futures =
-          network.decode(encoded, sample.input, vehicle, &sample.plan, trained.temperature);
-      if ((sample.target.valid[vehicle] >> static_cast<unsigned>(kResidualStep) & 1U) == 0) continue;
-      const auto likeliest =
-          std::max_element(std::begin(futures.probability), std::end(futures.probability)) -
-          futures.probability;
-      const float(&expected)[3] = futures.pose[likeliest][kResidualStep];
-      const float(&truth)[3] = sample.target.pose[vehicle][kResidualStep];
-      residuals_m.push_back(std::hypot(expected[0] - truth[0], expected[1] - truth[1]));
-    }
-  }
-  return quantize(network, network.ranges(),
+  const std::vector<float> residuals_m = residuals_of(network, set, samples, trained.temperature);
+  return quantize(network, trained.ranges.value_or(network.ranges()),
                   {trained.temperature, usual_residual_m(residuals_m), trained.steps, trained.seed});
 }
 

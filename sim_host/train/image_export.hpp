@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 #include "sim_host/train/forecast.hpp"
@@ -13,10 +14,18 @@ namespace s4tp::train {
 /// What the training leaves to be exported.
 struct Trained {
   Tensors tensors;
+  std::optional<Ranges> ranges;  ///< it was trained with; else those of the samples
   float temperature = 1.0F;
   std::uint32_t steps = 0;
   std::uint32_t seed = 0;
 };
+
+/// Samples of the calibration part that an export takes its scales from.
+[[nodiscard]] std::vector<std::size_t> export_samples(const SampleSet& set);
+
+/// Of the outputs of all layers, plans shown and not.
+[[nodiscard]] Ranges calibrated_ranges(const Tensors& tensors, const SampleSet& set,
+                                       const std::vector<std::size_t>& samples);
 
 /// TRAIN-005 The weight image of the deployed size, with scales from these samples, with and without their
 /// plans: the same network and samples give the same words.

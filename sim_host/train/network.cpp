@@ -107,37 +107,56 @@ Network::Network(const satp::NetworkShape& shape)
   head_of_ = register_buffer("head_of", heads_of_features(shape.width, shape.heads));
 }
 
+void Network::round_as_integers(Ranges ranges) {
+  const double largest_null_plan = torch::relu(weight_[satp::kNullPlan]).max().item<double>();
+  rounding_.emplace(shape_, std::move(ranges), largest_null_plan);
+  register_parameter("integers/log_stretch", rounding_->log_stretch());
+}
+
 Tensor Network::linear(int layer, const Tensor& x) const {
-  return torch::linear(x, weight_[layer], bias_[layer]);
+  return torch::linear(x, rounding_ ? rounding_->weight(layer, weight_[layer]) : weight_[layer],
+                       bias_[layer]);
+}
+
+Tensor Network::kept(int layer, const Tensor& x) const {
+  return rounding_ ? rounding_->output(layer, x) : x;
+}
+
+Tensor Network::relu(int layer, const Tensor& x) const {
+  return kept(layer, torch::relu(linear(layer, x)));
 }
 
 Tensor Network::normalize(int layer, const Tensor& x) const {
-  return torch::layer_norm(x, {shape_.width}, weight_[layer], bias_[layer], 1e-5);
+  return kept(layer, torch::layer_norm(x, {shape_.width}, weight_[layer], bias_[layer], 1e-5));
 }
 
 Tensor Network::attend(int block, const Tensor& query, const Tensor& keys, const Tensor& mask,
                        Tensor* weights) const {
-  const Tensor q = linear(block + satp::kQuery, query).unsqueeze(2);
-  const Tensor k = linear(block + satp::kKey, keys).unsqueeze(1);
-  const Tensor v = linear(block + satp::kValue, keys).unsqueeze(1);
+  const auto asked = [&](int layer, const Tensor& x) {
+    return kept(block + layer, linear(block + layer, x));
+  };
+  const Tensor q = asked(satp::kQuery, query).unsqueeze(2);
+  const Tensor k = asked(satp::kKey, keys).unsqueeze(1);
+  const Tensor v = asked(satp::kValue, keys).unsqueeze(1);
   const float scale = 1.0F / std::sqrt(static_cast<float>(shape_.width / shape_.heads));
   const Tensor score = torch::matmul(q * k, head_of_) * scale;  // [R, Q, N, heads]
   const Tensor there = mask.unsqueeze(1).unsqueeze(3);
   const Tensor share = torch::softmax(score + (there - 1.0F) * 1e9F, 2) * there;
   if (weights != nullptr) *weights = share.mean(3);
-  const Tensor o = (torch::matmul(share, head_of_.t()) * v).sum(2);
+  const Tensor o = kept(block + satp::kValue, (torch::matmul(share, head_of_.t()) * v).sum(2));
   const Tensor y = normalize(block + satp::kNorm1, query + linear(block + satp::kOutput, o));
-  const Tensor inner = torch::relu(linear(block + satp::kExpand, y));
+  const Tensor inner = relu(block + satp::kExpand, y);
   return normalize(block + satp::kNorm2, y + linear(block + satp::kContract, inner));
 }
 
 Tensor Network::history(int embed, int block, const Tensor& samples, const Tensor& mask) const {
-  const Tensor features = linear(embed + 1, torch::relu(linear(embed, samples))) + position_;
+  const Tensor features = kept(embed + 1, linear(embed + 1, relu(embed, samples)) + position_);
   const Tensor present = features.slice(1, kHistorySamples - 1, kHistorySamples);
   return attend(block, present, features, mask).squeeze(1);
 }
 
 Encoded Network::encode(const Batch& batch) {
+  if (rounding_) rounding_->fold();
   const std::int64_t scenes = batch.place.size(0);
   const std::int64_t agents = batch.place.size(1);
   const std::int64_t width = shape_.width;
@@ -148,14 +167,13 @@ Encoded Network::encode(const Batch& batch) {
   const Tensor ego_slot = torch::arange(scenes, batch.slot.options()) * agents;
   const Tensor slots = torch::cat({ego_slot, batch.slot});
   const Tensor read = all.index_copy(0, slots, torch::cat({ego, hdv})).view({scenes, agents, width});
-  const Tensor token = read + linear(satp::kPlaceEmbed, batch.place);
+  const Tensor token = kept(satp::kTokenAdd, read + linear(satp::kPlaceEmbed, batch.place));
   const Tensor first = attend(satp::kAgent1, token, token, batch.present);
-  const Tensor both = token + first;
+  const Tensor both = kept(satp::kAgent2Input, token + first);
   const Tensor second = attend(satp::kAgent2, both, both, batch.present);
   const Tensor agent = second.reshape({scenes * agents, width}).index_select(0, batch.slot);
 
-  const Tensor point =
-      torch::relu(linear(satp::kMapPoint2, torch::relu(linear(satp::kMapPoint1, batch.lane))));
+  const Tensor point = relu(satp::kMapPoint2, relu(satp::kMapPoint1, batch.lane));
   const Tensor driver = agent.index_select(0, batch.lane_vehicle).unsqueeze(1);
   const Tensor path = attend(satp::kLane, driver, point, batch.lane_mask).squeeze(1);
   const std::int64_t vehicles = batch.vehicles();
@@ -167,10 +185,10 @@ Encoded Network::encode(const Batch& batch) {
       attend(satp::kRoute, agent.unsqueeze(1), paths_of, batch.route_mask, &encoded.route).squeeze(1);
   encoded.route = encoded.route.squeeze(1);
 
-  const Tensor pair = torch::relu(linear(satp::kPair2, torch::relu(linear(satp::kPair1, batch.pair))));
+  const Tensor pair = relu(satp::kPair2, relu(satp::kPair1, batch.pair));
   const Tensor gate_input = torch::cat({ego.index_select(0, batch.scene), hdv, pair}, 1);
-  encoded.gate = torch::sigmoid(linear(satp::kGate2, torch::relu(linear(satp::kGate1, gate_input)))) *
-                 batch.paths_meet.unsqueeze(1);
+  encoded.gate =
+      torch::sigmoid(linear(satp::kGate2, relu(satp::kGate1, gate_input))) * batch.paths_meet.unsqueeze(1);
   const Tensor state = linear(satp::kStart, torch::cat({agent, map, pair}, 1));
   encoded.start = torch::tanh(state.unsqueeze(1) + mode_);
   return encoded;
@@ -196,14 +214,13 @@ Decoded Network::decode(const Batch& batch, const Encoded& encoded, const Tensor
   Tensor hidden = start;
   std::vector<Tensor> poses;
   for (int step = 0; step < shape_.decoder_steps; ++step) {
-    const Tensor own =
-        torch::relu(linear(satp::kOwnEmbed, own_features(front, speed, step, shape_.steps_per_decode)));
-    const Tensor ego =
-        torch::relu(linear(satp::kPlanEmbed, plan_features(front, plan.select(1, step), rule)));
-    const Tensor x = own + gate * (planned * ego + (1.0F - planned) * null_plan);
-    const auto gates = torch::sigmoid(linear(satp::kGruGates, torch::cat({x, hidden}, 1))).chunk(2, 1);
+    const Tensor own = relu(satp::kOwnEmbed, own_features(front, speed, step, shape_.steps_per_decode));
+    const Tensor ego = relu(satp::kPlanEmbed, plan_features(front, plan.select(1, step), rule));
+    const Tensor x = kept(satp::kGruMix, own + gate * (planned * ego + (1.0F - planned) * null_plan));
+    const Tensor read = rounding_ ? IntegerRounding::state(hidden) : hidden;
+    const auto gates = torch::sigmoid(linear(satp::kGruGates, torch::cat({x, read}, 1))).chunk(2, 1);
     const Tensor news =
-        torch::tanh(linear(satp::kGruFromInput, x) + gates[0] * linear(satp::kGruState, hidden));
+        torch::tanh(linear(satp::kGruFromInput, x) + gates[0] * linear(satp::kGruState, read));
     hidden = (1.0F - gates[1]) * news + gates[1] * hidden;
     const Tensor moved = linear(satp::kIncrements, hidden).view({-1, increments, 3}) * unit;
     const Tensor steady = torch::stack({speed * kStepS, zero, zero}, 1).unsqueeze(1);

@@ -6,11 +6,13 @@
 #include <torch/types.h>
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "algo/satp/network_shape.hpp"
 #include "sim_host/train/batch.hpp"
+#include "sim_host/train/integer_rounding.hpp"
 
 namespace s4tp::train {
 
@@ -38,6 +40,12 @@ class Network : public torch::nn::Module {
   /// \param has_plan  [V], 1 where batch.plan is our plan, 0 where nothing is known of it
   [[nodiscard]] Decoded decode(const Batch& batch, const Encoded& encoded, const torch::Tensor& has_plan);
 
+  /// From now on with the ECU's integers in it. \param ranges  of its layers' outputs, where learning them begins
+  /// \throws std::runtime_error naming a range that is missing
+  void round_as_integers(Ranges ranges);
+  /// What it rounds with; null: it does not.
+  [[nodiscard]] const IntegerRounding* rounding() const { return rounding_ ? &*rounding_ : nullptr; }
+
   /// Log-odds of yielding become `scale` times what they were plus `shift`.
   void rescale_yields(double scale, double shift);
 
@@ -49,6 +57,9 @@ class Network : public torch::nn::Module {
 
  private:
   [[nodiscard]] torch::Tensor linear(int layer, const torch::Tensor& x) const;
+  [[nodiscard]] torch::Tensor relu(int layer, const torch::Tensor& x) const;
+  /// What a layer hands on: `x`, rounded where the network rounds.
+  [[nodiscard]] torch::Tensor kept(int layer, const torch::Tensor& x) const;
   [[nodiscard]] torch::Tensor normalize(int layer, const torch::Tensor& x) const;
   /// \param query [R, Q, d] \param keys [R, N, d] \param mask [R, N] \param weights  of the softmax, mean
   /// over heads [R, Q, N], when asked for \return [R, Q, d]
@@ -60,6 +71,7 @@ class Network : public torch::nn::Module {
   satp::NetworkShape shape_;
   std::vector<torch::Tensor> weight_;  ///< by satp::Layer; for a vector the vector itself
   std::vector<torch::Tensor> bias_;
+  std::optional<IntegerRounding> rounding_;
   torch::Tensor mode_;      ///< [K, hidden]
   torch::Tensor position_;  ///< [samples, d], constant
   torch::Tensor head_of_;   ///< [d, heads], 1 where a feature belongs to a head

@@ -15,7 +15,6 @@
 #include "sim_host/train/image_export.hpp"
 #include "sim_host/train/learning_curve.hpp"
 #include "sim_host/train/predict.hpp"
-#include "sim_host/train/random_number.hpp"
 #include "sim_host/train/trainer.hpp"
 #include "sim_host/train/yields_row.hpp"
 
@@ -114,6 +113,11 @@ void add_run(CLI::App& tool, RunOptions& options) {
       "!--no-forks", training.forks,
       "learn only from what the ego did by itself, not from the branches of forks: what such a model "
       "promises beside one that saw both");
+  command
+      .add_option("--integers", training.integers,
+                  "checkpoint of a trained mcu network: go on from it with the ECU's rounding in it, so that "
+                  "its image loses less")
+      ->check(CLI::ExistingFile);
   command.add_option("--passes", training.passes, "times a scene is seen at most")->capture_default_str();
   command.add_option("--validate-every", training.validate_every, "steps between points of the curve")
       ->check(CLI::Range(1, 1000000))
@@ -161,20 +165,18 @@ struct ExportOptions {
   std::filesystem::path source;
 };
 
-constexpr std::size_t kExportSamples = 512;
-
 int export_network(const ExportOptions& options) {
   use_threads(1);
   const SampleSet set(options.data);
-  std::vector<std::size_t> samples = samples_of(set, Part::kCalibration);
+  const std::vector<std::size_t> calibration = samples_of(set, Part::kCalibration);
+  const std::vector<std::size_t> samples = export_samples(set);
   const auto network = load_network(satp::kMcuShape, options.checkpoint);
-  const double temperature = calibrated_temperature(*network, set, samples);
-  calibrate_yields(*network, set, samples, temperature);
-  shuffle(samples, 0);
-  samples.resize(std::min(samples.size(), kExportSamples));
+  const double temperature = calibrated_temperature(*network, set, calibration);
+  calibrate_yields(*network, set, calibration, temperature);
   const TrainedFor trained_for = read_trained_for(options.checkpoint);
-  const Trained trained{network->arrays(), static_cast<float>(temperature),
-                        static_cast<std::uint32_t>(trained_for.steps),
+  const IntegerRounding* const rounding = network->rounding();
+  const Trained trained{network->arrays(), rounding ? std::optional(rounding->ranges()) : std::nullopt,
+                        static_cast<float>(temperature), static_cast<std::uint32_t>(trained_for.steps),
                         static_cast<std::uint32_t>(trained_for.seed)};
   const std::vector<std::uint32_t> image = export_image(trained, set, samples);
   (void)image_forecasts(image, set, {}, false);  // what an ECU would refuse is not written

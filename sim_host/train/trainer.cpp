@@ -13,6 +13,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "sim_host/train/image_export.hpp"
 #include "sim_host/train/random_number.hpp"
 #include "sim_host/train/rough_tracks.hpp"
 
@@ -35,10 +36,34 @@ double share_of_rate(std::int64_t step, std::int64_t steps) {
   return std::min(1.0, passed / kWarmUpShare) * 0.5 * (1.0 + std::cos(std::numbers::pi * passed));
 }
 
-std::shared_ptr<Network> new_network(const satp::NetworkShape& shape, std::uint64_t seed,
-                                     torch::Device device) {
-  torch::manual_seed(seed);
+// Goes on from a trained network, with the ECU's rounding in it.
+void take_integers(Network& network, const std::filesystem::path& checkpoint, const SampleSet& set) {
+  const auto trained = load_network(network.shape(), checkpoint);
+  const torch::NoGradGuard no_gradient;
+  const auto from = trained->named_parameters();
+  for (auto& parameter : network.named_parameters()) parameter.value().copy_(from[parameter.key()]);
+  network.round_as_integers(calibrated_ranges(trained->arrays(), set, export_samples(set)));
+}
+
+void write_ranges(torch::serialize::OutputArchive& archive, const Ranges& ranges) {
+  for (const auto& [layer, range] : ranges) archive.write(layer, torch::tensor({range.low, range.high}));
+}
+
+Ranges read_ranges(torch::serialize::InputArchive& archive) {
+  Ranges ranges;
+  for (const std::string& layer : archive.keys()) {
+    Tensor range;
+    archive.read(layer, range);
+    ranges[layer] = {range[0].item<float>(), range[1].item<float>()};
+  }
+  return ranges;
+}
+
+std::shared_ptr<Network> new_network(const satp::NetworkShape& shape, const TrainingOptions& options,
+                                     const SampleSet& set, torch::Device device) {
+  torch::manual_seed(options.seed);
   auto network = std::make_shared<Network>(shape);
+  if (!options.integers.empty()) take_integers(*network, options.integers, set);
   network->to(device);
   return network;
 }
@@ -81,7 +106,7 @@ Trainer::Trainer(const satp::NetworkShape& shape, const TrainingOptions& options
       training_(samples_of(set, Part::kTraining)),
       validation_(samples_of(set, Part::kValidation)),
       device_(best_device()),
-      network_(new_network(shape, options.seed, device_)),
+      network_(new_network(shape, options, set, device_)),
       adam_(network_->parameters(), torch::optim::AdamOptions(options.rate)),
       steps_(steps_of(options, training_.size())) {
   const auto alone = [&](std::size_t i) { return set_[i].input.hdvs == 0; };
@@ -198,12 +223,21 @@ Tensor Trainer::fingerprint() const {
   for (std::size_t i = 0; i < training_.size(); i += 1 + training_.size() / 1000) {
     data += set_[training_[i]].input.speed_mps[0] + static_cast<double>(set_[training_[i]].road % 1000);
   }
-  return torch::tensor(
-      {static_cast<double>(network_->shape().id), static_cast<double>(options_.seed),
-       static_cast<double>(steps_), static_cast<double>(options_.batch), options_.rate, options_.clip,
-       options_.no_plan, options_.rough, static_cast<double>(options_.validate_every),
-       static_cast<double>(training_.size()), data},
-      torch::kFloat64);
+  std::vector<double> print{static_cast<double>(network_->shape().id),
+                            static_cast<double>(options_.seed),
+                            static_cast<double>(steps_),
+                            static_cast<double>(options_.batch),
+                            options_.rate,
+                            options_.clip,
+                            options_.no_plan,
+                            options_.rough,
+                            static_cast<double>(options_.validate_every),
+                            static_cast<double>(training_.size()),
+                            data};
+  if (const IntegerRounding* const rounding = network_->rounding()) {
+    for (const auto& [layer, range] : rounding->calibrated()) print.push_back(range.magnitude());
+  }
+  return torch::tensor(print, torch::kFloat64);
 }
 
 void Trainer::save(const std::filesystem::path& file) const {
@@ -212,6 +246,11 @@ void Trainer::save(const std::filesystem::path& file) const {
   adam_.save(adam);
   archive.write("network", network);
   archive.write("adam", adam);
+  if (const IntegerRounding* const rounding = network_->rounding()) {
+    torch::serialize::OutputArchive ranges;
+    write_ranges(ranges, rounding->calibrated());
+    archive.write("calibrated", ranges);
+  }
   archive.write("fingerprint", fingerprint());
   archive.write("step", torch::tensor(step_, torch::kInt64));
   archive.write("sums", row_of(sums_));
@@ -281,6 +320,8 @@ std::shared_ptr<Network> load_network(const satp::NetworkShape& shape,
   auto network = std::make_shared<Network>(shape);
   torch::serialize::InputArchive archive, stored;
   archive.load_from(checkpoint.string());
+  torch::serialize::InputArchive calibrated;
+  if (archive.try_read("calibrated", calibrated)) network->round_as_integers(read_ranges(calibrated));
   archive.read("network", stored);
   network->load(stored);
   return network;

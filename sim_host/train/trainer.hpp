@@ -27,6 +27,7 @@ struct TrainingOptions {
   double no_plan = 0.2;               ///< share of scenes whose plan the network is not shown
   double rough = 0.6;                 ///< share of scenes whose tracks are roughened (rough_tracks.hpp)
   bool forks = true;                  ///< false: only what the ego did by itself is learned from
+  std::filesystem::path integers;     ///< a trained network to go on from with the ECU's rounding in it
   std::int64_t passes = 15;           ///< no scene is seen more often
   std::int64_t validate_every = 500;  ///< steps
 };

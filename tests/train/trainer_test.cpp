@@ -95,6 +95,30 @@ TEST_F(Training, GoesOnAsIfNothingHadBeen) {
   EXPECT_EQ(load_network(satp::kMcuShape, folder / "checkpoint.pt")->size(), whole.network().size());
 }
 
+// TRAIN-014 A training with the integers' rounding begins where the float one ended, keeps its ranges for the export, and
+// is not gone on with by one without.
+TEST_F(Training, GoesOnWithTheIntegersRounding) {
+  const SampleSet set = traffic(1, 40, 2);
+  Trainer floats(satp::kMcuShape, short_training(), set);
+  floats.run(kGoOn, [](const CurvePoint&) {});
+  floats.save(folder / "floats.pt");
+  TrainingOptions options = short_training();
+  options.integers = folder / "floats.pt";
+  Trainer integers(satp::kMcuShape, options, set);
+  EXPECT_EQ(integers.network().arrays(), floats.network().arrays());
+  integers.run(kGoOn, [](const CurvePoint&) {});
+  EXPECT_NE(integers.network().arrays(), floats.network().arrays());
+  integers.save(folder / "integers.pt");
+  const auto kept = load_network(satp::kMcuShape, folder / "integers.pt");
+  ASSERT_NE(kept->rounding(), nullptr);
+  const auto learned = [](const Network& network) { return network.rounding()->ranges().at("gru.mix").high; };
+  EXPECT_EQ(learned(*kept), learned(integers.network()));
+  EXPECT_NE(learned(*kept), kept->rounding()->calibrated().at("gru.mix").high);
+  EXPECT_EQ(load_network(satp::kMcuShape, folder / "floats.pt")->rounding(), nullptr);
+  EXPECT_THROW(Trainer(satp::kMcuShape, short_training(), set).load(folder / "integers.pt"),
+               std::runtime_error);
+}
+
 // A checkpoint of another seed, of other data or of another size is not gone on with.
 TEST_F(Training, RefusesTheCheckpointOfAnotherTraining) {
   const auto file = folder / "checkpoint.pt";
