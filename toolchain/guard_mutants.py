@@ -91,7 +91,7 @@ MUTANTS = {
               "through by the fail-safe in force"),
     "soft_leader": Mutant("whoever is ahead brakes with 4 m/s^2 at most", looking_at(
         "parameters.law.braking_max_mps2 = 4.0F;")),
-    "no_follower": Mutant("a lane change leaves nobody behind room to brake", {"guard.cpp": [
+    "no_follower": Mutant("a lane change leaves nobody behind room to brake", {"guard_followers.cpp": [
         ("for (const InLane& behind : context.behind) {", "for (const InLane& behind : InLaneList{}) {")]}),
     "only_strip": Mutant("a leader beside the path's strip is not looked at while our box comes over", {
         "guard_context.cpp": [("if (left_m - right_m < kInStripM) return false;", "return false;")]}),

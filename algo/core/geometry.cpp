@@ -35,6 +35,11 @@ float separation(const Box& a, const Box& b) {
 }
 
 float separation(const Box& a, Point axis_a, const Box& b, Point axis_b) {
+  const AxisGaps gaps = axis_gaps(a, axis_a, b, axis_b);
+  return max(max(gaps.a_length_m, gaps.a_width_m), max(gaps.b_length_m, gaps.b_width_m));
+}
+
+AxisGaps axis_gaps(const Box& a, Point axis_a, const Box& b, Point axis_b) {
   const Point offset = position(b.centre) - position(a.centre);
   // |cos| and |sin| of the angle between the boxes turn the extents of one into the frame of the other.
   const float along = abs(dot(axis_a, axis_b));
@@ -43,11 +48,10 @@ float separation(const Box& a, Point axis_a, const Box& b, Point axis_b) {
   const float wa = 0.5F * a.width_m;
   const float lb = 0.5F * b.length_m;
   const float wb = 0.5F * b.width_m;
-  const float gap_a_length = abs(dot(axis_a, offset)) - (la + (lb * along + wb * across));
-  const float gap_a_width = abs(cross(axis_a, offset)) - (wa + (lb * across + wb * along));
-  const float gap_b_length = abs(dot(axis_b, offset)) - (lb + (la * along + wa * across));
-  const float gap_b_width = abs(cross(axis_b, offset)) - (wb + (la * across + wa * along));
-  return max(max(gap_a_length, gap_a_width), max(gap_b_length, gap_b_width));
+  return {abs(dot(axis_a, offset)) - (la + (lb * along + wb * across)),
+          abs(cross(axis_a, offset)) - (wa + (lb * across + wb * along)),
+          abs(dot(axis_b, offset)) - (lb + (la * along + wa * across)),
+          abs(cross(axis_b, offset)) - (wb + (la * across + wa * along))};
 }
 
 }  // namespace s4tp

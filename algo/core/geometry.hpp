@@ -40,6 +40,15 @@ struct Box {
 /// Separating-axis test of two oriented boxes. \return true when no axis shows a gap larger than `margin_m`,
 /// as if one of them were grown by it on every side
 [[nodiscard]] bool overlap(const Box& a, const Box& b, float margin_m);
+/// What two boxes are apart along each axis that may separate them [m]: <= 0 on all four where they overlap.
+struct AxisGaps {
+  float a_length_m;
+  float a_width_m;
+  float b_length_m;
+  float b_width_m;
+};
+/// \param axis_a, axis_b  unit vectors of the boxes' headings
+[[nodiscard]] AxisGaps axis_gaps(const Box& a, Point axis_a, const Box& b, Point axis_b);
 /// Lower bound of the distance between two boxes, by their separating axes [m]; <= 0 when they overlap.
 [[nodiscard]] float separation(const Box& a, const Box& b);
 /// The same, for who knows the unit vectors of their headings already.

@@ -59,19 +59,14 @@ class OwnBoxes {
     if (separation_bound(along_m, across_m, other, trajectory_.points[point].rear_axle.heading_rad) > far_m)
       return 0.0F;
     const Point there = direction(other.centre.heading_rad);
+    const Pose own = {centre.x_m, centre.y_m, trajectory_.points[point].rear_axle.heading_rad};
+    const AxisGaps gaps = axis_gaps({own, vehicle_.length_m, vehicle_.width_m}, ahead, other, there);
+    // It is off along its own axis: that much of it along ours.
     const float lengthwise = abs(dot(ahead, there));
     const float crosswise = abs(cross(ahead, there));
-    const Point half = {0.5F * vehicle_.length_m, 0.5F * vehicle_.width_m};
-    const Point half_other = {0.5F * other.length_m, 0.5F * other.width_m};
-    const float ahead_gap_m = along_m - (half_other.x_m * lengthwise + half_other.y_m * crosswise);
-    const float beside_gap_m = across_m - (half_other.x_m * crosswise + half_other.y_m * lengthwise);
-    const float its_ahead_gap_m =
-        abs(dot(there, offset)) - half_other.x_m - (half.x_m * lengthwise + half.y_m * crosswise);
-    const float its_beside_gap_m =
-        abs(cross(there, offset)) - half_other.y_m - (half.x_m * crosswise + half.y_m * lengthwise);
-    return min(min(closed(ahead_gap_m + apart_m, lengthwise * off_m),
-                   closed(beside_gap_m + apart_m, crosswise * off_m)),
-               min(closed(its_ahead_gap_m + apart_m, off_m), closed(its_beside_gap_m + apart_m, 0.0F)));
+    return min(min(closed(gaps.a_length_m + apart_m, lengthwise * off_m),
+                   closed(gaps.a_width_m + apart_m, crosswise * off_m)),
+               min(closed(gaps.b_length_m + apart_m, off_m), closed(gaps.b_width_m + apart_m, 0.0F)));
   }
 
  private:

@@ -245,6 +245,7 @@ class Guard {
   /// What is left between us and whoever is behind when it was least, or lacking if below 0.
   [[nodiscard]] float room_behind_m(const PathContext& context, const InLane& behind, const Own& own,
                                     const FailSafe& stop, const Between& between) const;
+  static constexpr int kStopCount = 5;
   /// A fail-safe after a lane change. \pre 0 <= index < kStopCount; the last one is the one in force
   [[nodiscard]] FailSafe stop_after_change(int index) const;
   /// Sets what room whoever is behind lacks, whatever the fail-safe of a plan that drives on as we do. \param reaches_in_m  our box, into its lane

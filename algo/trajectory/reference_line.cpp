@@ -158,10 +158,7 @@ void cap_speeds(const Parameters& parameters, float next_mps, ReferenceLine& lin
   const float gain_m2ps2 = 2.0F * kGentle * parameters.comfort.braking_mps2 * line.spacing_m;
   for (int i = kReferenceSamples - 1; i >= 0; --i) {
     float& cap_mps = line.samples[i].speed_cap_mps;
-    const float bend_1pm = abs(line.samples[i].curvature_1pm);
-    if (bend_1pm * square(cap_mps) > parameters.comfort.lateral_mps2) {
-      cap_mps = sqrt(parameters.comfort.lateral_mps2 / bend_1pm);
-    }
+    cap_mps = min(cap_mps, bend_speed_mps(line.samples[i].curvature_1pm, parameters));
     if (i + 1 < kReferenceSamples) cap_mps = min(cap_mps, steerable_mps(line, i, parameters));
     cap_mps = max(cap_mps, kSlowestMps);
     if (cap_mps > next_mps) cap_mps = min(cap_mps, sqrt(square(next_mps) + gain_m2ps2));
