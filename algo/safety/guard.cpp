@@ -196,7 +196,11 @@ Verdict Guard::judge(int path_index, const Trajectory& trajectory) const {
     // comes no nearer: a start that is broken off needs the room.
     const float used_m = trajectory.points[branch].acceleration_mps2 < kStoppingMps2 ? kStopTubeM : 0.0F;
     const float crawled_m = kStepS * min(own.speed_mps[0], kCrawlMps);
-    const float wait_s_m = max(group.stop_s_m + used_m, min(own.s_m[0] + crawled_m, group.entry_s_m));
+    // Who set off and has not used its licence yet may use up all the room before the group.
+    const bool set_off = goes_through_ && context.stop_s_m <= group.entry_s_m;
+    const float wait_s_m = set_off
+                               ? group.entry_s_m
+                               : max(group.stop_s_m + used_m, min(own.s_m[0] + crawled_m, group.entry_s_m));
     if (stop_s_m <= wait_s_m) {
       // It can still be given up, but no longer at ease: that is worth knowing.
       if (own.stop_s_m(parameters_->comfort.braking_mps2) > wait_s_m) {

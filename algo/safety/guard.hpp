@@ -2,7 +2,8 @@
 /// The guard (method.md 4.9): a plan passes only when a fail-safe from its first part meets nobody who keeps
 /// to the law. Knows tracks, map and plan; never predictions, beliefs or manoeuvres.
 /// GUARD-001 A plan passes that can still be stopped before a group of zones and before the road ends;
-/// without map or path nothing does. Who stands nearer to the group goes on standing, and comes no nearer.
+/// without map or path nothing does. Who stands nearer to the group goes on standing, and comes no nearer;
+/// who set off and has not used its licence yet may use up the room before it.
 /// GUARD-002 Else it goes through when all others are gone, come later, or
 /// leave it to us. GUARD-003 Nobody stops in a group where it gives way, nor enters one without room beyond it, behind
 /// whoever leads or merges ahead.

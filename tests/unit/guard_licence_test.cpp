@@ -76,8 +76,24 @@ TEST(Guard, ALicenceIsNotUsedBeforeWeAreBound) {
     road.other(96.0F - 8.0F, 3.0F);
     const Verdict now = road.judge(95.4F, speed_mps, 2.0F);
     EXPECT_TRUE(now.safe()) << speed_mps;
-    EXPECT_EQ(now.stops_short, speed_mps < 1.0F) << speed_mps;
+    EXPECT_EQ(now.clears, speed_mps > 1.0F) << speed_mps;
   }
+}
+
+// GUARD-001 The same, and it sets off 14 m before the zone, to be there in 3.3 s, when we were to be gone after 2.6: no
+// reason to stop in the zone. Before it, at 95.9, where we can still stand, we may, short of the 0.7 m we keep else.
+TEST(Guard, WhoSetOffMayUseUpTheRoomBeforeTheZone) {
+  SharedGround road(Priority::kFirstYields);
+  road.other(96.0F - 14.0F, 0.0F).stood_ms = 1000;
+  road.scene.waited_s = 1.0F;
+  const Verdict begun = road.judge(95.3F, 0.0F, 2.0F);
+  ASSERT_TRUE(begun.safe() && begun.clears);
+  road.guard.commit(0, begun);
+  road.scene.agents.clear();
+  road.other(96.0F - 14.0F, 0.6F);
+  const Verdict now = road.judge(95.65F, 1.2F, -6.0F);
+  EXPECT_TRUE(now.safe());
+  EXPECT_FALSE(now.clears);
 }
 
 // GUARD-006 It lets us go (L1: 40 m away, 6 m/s), we do, and it gains speed. At 95.5 and 5 m/s 8 m/s^2 end at
