@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+
+#include "sim_host/train/running_sum.hpp"
 
 namespace s4tp::train {
 namespace {
@@ -35,10 +38,14 @@ Tensor heads_of_features(int width, int heads) {
   return table;
 }
 
-Tensor in_units(const std::vector<Tensor>& columns, const float* unit) {
-  const Tensor values = torch::stack(columns, 1);
-  const Tensor units = torch::from_blob(const_cast<float*>(unit), {values.size(1)}, torch::kFloat32);
-  return (values / units.to(values.device())).clamp(-satp::kInputRange, satp::kInputRange);
+// Units as a row on the device of `like`: made once for all steps, as a GPU is waited for each time.
+template <int kColumns>
+Tensor units_on(const float (&unit)[kColumns], const Tensor& like) {
+  return torch::tensor(std::vector<float>(std::begin(unit), std::end(unit))).to(like.device());
+}
+
+Tensor in_units(const std::vector<Tensor>& columns, const Tensor& units) {
+  return (torch::stack(columns, 1) / units).clamp(-satp::kInputRange, satp::kInputRange);
 }
 
 // Where the decoding of each future stands: [R] each.
@@ -46,15 +53,15 @@ struct Front {
   Tensor x, y, heading, velocity_x, velocity_y;
 };
 
-Tensor own_features(const Front& front, const Tensor& speed_mps, int step, int steps_per_decode) {
-  const Tensor time = torch::full_like(speed_mps, kStepS * static_cast<float>(step * steps_per_decode));
+Tensor own_features(const Front& front, const Tensor& speed_mps, float time_s, const Tensor& units) {
+  const Tensor time = torch::full_like(speed_mps, time_s);
   return in_units({front.x, front.y, front.heading.sin(), front.heading.cos(), front.velocity_x,
                    front.velocity_y, speed_mps, time},
-                  satp::kOwnUnit);
+                  units);
 }
 
 // \param plan [R, values] \param rule [R, 3]
-Tensor plan_features(const Front& front, const Tensor& plan, const Tensor& rule) {
+Tensor plan_features(const Front& front, const Tensor& plan, const Tensor& rule, const Tensor& units) {
   const Tensor cos = front.heading.cos();
   const Tensor sin = front.heading.sin();
   const auto value = plan.unbind(1);
@@ -67,7 +74,7 @@ Tensor plan_features(const Front& front, const Tensor& plan, const Tensor& rule)
   const Tensor turn = value[5] - front.heading;
   return in_units({ahead(0), left(0), ahead(3), left(3), turn.sin(), turn.cos(), value[6], value[7], value[8],
                    rule.select(1, 0), rule.select(1, 1), rule.select(1, 2)},
-                  satp::kPlanUnit);
+                  units);
 }
 
 }  // namespace
@@ -205,8 +212,10 @@ Decoded Network::decode(const Batch& batch, const Encoded& encoded, const Tensor
   const Tensor rule = per_mode(batch.rule);
   const Tensor speed = per_mode(batch.speed_mps);
   const Tensor null_plan = torch::relu(weight_[satp::kNullPlan]);
-  const Tensor unit = torch::tensor(
-      {satp::kIncrementUnit[0], satp::kIncrementUnit[1], satp::kIncrementUnit[2]}, speed.options());
+  const Tensor unit = units_on(satp::kIncrementUnit, speed);
+  const Tensor own_unit = units_on(satp::kOwnUnit, speed);
+  const Tensor plan_unit = units_on(satp::kPlanUnit, speed);
+  const float duration_s = kStepS * static_cast<float>(increments);
   const Tensor start = encoded.start.reshape({vehicles * modes, shape_.hidden});
   const Tensor zero = torch::zeros_like(speed);
   Front front{zero, zero, zero, speed, zero};
@@ -214,8 +223,9 @@ Decoded Network::decode(const Batch& batch, const Encoded& encoded, const Tensor
   Tensor hidden = start;
   std::vector<Tensor> poses;
   for (int step = 0; step < shape_.decoder_steps; ++step) {
-    const Tensor own = relu(satp::kOwnEmbed, own_features(front, speed, step, shape_.steps_per_decode));
-    const Tensor ego = relu(satp::kPlanEmbed, plan_features(front, plan.select(1, step), rule));
+    const float time_s = kStepS * static_cast<float>(step * shape_.steps_per_decode);
+    const Tensor own = relu(satp::kOwnEmbed, own_features(front, speed, time_s, own_unit));
+    const Tensor ego = relu(satp::kPlanEmbed, plan_features(front, plan.select(1, step), rule, plan_unit));
     const Tensor x = kept(satp::kGruMix, own + gate * (planned * ego + (1.0F - planned) * null_plan));
     const Tensor read = rounding_ ? IntegerRounding::state(hidden) : hidden;
     const auto gates = torch::sigmoid(linear(satp::kGruGates, torch::cat({x, read}, 1))).chunk(2, 1);
@@ -224,9 +234,8 @@ Decoded Network::decode(const Batch& batch, const Encoded& encoded, const Tensor
     hidden = (1.0F - gates[1]) * news + gates[1] * hidden;
     const Tensor moved = linear(satp::kIncrements, hidden).view({-1, increments, 3}) * unit;
     const Tensor steady = torch::stack({speed * kStepS, zero, zero}, 1).unsqueeze(1);
-    const Tensor pose = last + (moved + steady).cumsum(1);
+    const Tensor pose = last + running_sum(moved + steady);
     last = pose.slice(1, increments - 1, increments);
-    const float duration_s = kStepS * static_cast<float>(increments);
     // What is predicted adds up, but what the next step sees of it is taken as given: with gradients through the
     // features of six steps in a row the training was unsteady (docs/training.md).
     const auto end = last.detach().squeeze(1).unbind(1);
