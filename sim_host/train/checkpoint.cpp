@@ -13,7 +13,7 @@ namespace {
 
 using torch::Tensor;
 
-constexpr int kCurveColumns = 10;
+constexpr int kCurveColumns = 11;
 
 void write_ranges(torch::serialize::OutputArchive& archive, const Ranges& ranges) {
   for (const auto& [layer, range] : ranges) archive.write(layer, torch::tensor({range.low, range.high}));
@@ -31,8 +31,8 @@ Ranges read_ranges(torch::serialize::InputArchive& archive) {
 
 Tensor row_of(const CurvePoint& point) {
   return torch::tensor(
-      {static_cast<double>(point.step), point.position, point.mode, point.route, point.yields, point.gradient,
-       point.rate, point.validation, point.top_1_m, point.best_of_modes_m},
+      {static_cast<double>(point.step), point.position, point.mode, point.route, point.yields, point.ego,
+       point.gradient, point.rate, point.validation, point.top_1_m, point.best_of_modes_m},
       torch::kFloat64);
 }
 
@@ -47,7 +47,8 @@ CurvePoint point_of(const Tensor& row) {
           value[6],
           value[7],
           value[8],
-          value[9]};
+          value[9],
+          value[10]};
 }
 
 // Where a checkpoint was written does not matter: what was on a GPU there may be on the CPU here.
@@ -119,7 +120,8 @@ void Trainer::load(const std::filesystem::path& file) {
   adam_.load(adam);
   step_ = read_small(archive, "step").item<std::int64_t>();
   const CurvePoint sums = point_of(read_small(archive, "sums"));
-  losses_.copy_(torch::tensor({sums.position, sums.mode, sums.route, sums.yields}, torch::kFloat64));
+  losses_.copy_(
+      torch::tensor({sums.position, sums.mode, sums.route, sums.yields, sums.ego}, torch::kFloat64));
   gradient_ = sums.gradient;
   rate_ = sums.rate;
   curve_.clear();

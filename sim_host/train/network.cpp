@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "sim_host/train/full_size.hpp"
 #include "sim_host/train/running_sum.hpp"
 
 namespace s4tp::train {
@@ -79,39 +80,44 @@ Tensor plan_features(const Front& front, const Tensor& plan, const Tensor& rule,
 
 }  // namespace
 
-Network::Network(const satp::NetworkShape& shape)
-    : shape_(shape), weight_(satp::kLayerCount), bias_(satp::kLayerCount) {
+Network::Network(const satp::NetworkShape& shape) : shape_(shape) {
   for (int layer = 0; layer < satp::kLayerCount; ++layer) {
     const LayerInfo info = satp::layer_info(shape, layer);
-    const auto even = [&](std::vector<std::int64_t> sizes, float bound) {
-      return torch::rand(sizes).mul(2.0F * bound).sub(bound);
-    };
-    switch (info.kind) {
-      case LayerKind::kLinear: {
-        const float bound = 1.0F / std::sqrt(static_cast<float>(info.columns));
-        // The network begins near constant velocity.
-        const float share = layer == satp::kIncrements ? 0.1F : 1.0F;
-        weight_[layer] = register_parameter(parameter_name(info.name, "weight"),
-                                            even({info.rows, info.columns}, share * bound));
-        bias_[layer] =
-            register_parameter(parameter_name(info.name, "bias"), even({info.rows}, share * bound));
-        break;
-      }
-      case LayerKind::kLayerNorm:
-        weight_[layer] = register_parameter(parameter_name(info.name, "gain"), torch::ones({info.rows}));
-        bias_[layer] = register_parameter(parameter_name(info.name, "bias"), torch::zeros({info.rows}));
-        break;
-      case LayerKind::kVector:
-        weight_[layer] = register_parameter(parameter_name(info.name, "vector"), torch::rand({info.rows}));
-        break;
-      case LayerKind::kAdd:
-      case LayerKind::kScores:
-        break;
-    }
+    // The network begins near constant velocity.
+    add_layer(info.name, info.kind, info.rows, info.columns, layer == satp::kIncrements ? 0.1F : 1.0F);
   }
   mode_ = register_parameter("start/mode", torch::randn({shape.modes, shape.hidden}).mul(0.3F));
   position_ = register_buffer("position", sinusoids(kHistorySamples, shape.width));
   head_of_ = register_buffer("head_of", heads_of_features(shape.width, shape.heads));
+  for (const FullLayerInfo& info : full_layers(shape))
+    add_layer(info.name, info.kind, info.rows, info.columns, 1.0F);
+}
+
+// \param share  of the range a linear layer's numbers are drawn from
+void Network::add_layer(const std::string& name, LayerKind kind, int rows, int columns, float share) {
+  const auto even = [&](std::vector<std::int64_t> sizes) {
+    const float bound = share * (1.0F / std::sqrt(static_cast<float>(columns)));
+    return torch::rand(sizes).mul(2.0F * bound).sub(bound);
+  };
+  Tensor weight, bias;
+  switch (kind) {
+    case LayerKind::kLinear:
+      weight = register_parameter(parameter_name(name, "weight"), even({rows, columns}));
+      bias = register_parameter(parameter_name(name, "bias"), even({rows}));
+      break;
+    case LayerKind::kLayerNorm:
+      weight = register_parameter(parameter_name(name, "gain"), torch::ones({rows}));
+      bias = register_parameter(parameter_name(name, "bias"), torch::zeros({rows}));
+      break;
+    case LayerKind::kVector:
+      weight = register_parameter(parameter_name(name, "vector"), torch::rand({rows}));
+      break;
+    case LayerKind::kAdd:
+    case LayerKind::kScores:
+      break;
+  }
+  weight_.push_back(weight);
+  bias_.push_back(bias);
 }
 
 void Network::round_as_integers(Ranges ranges) {
@@ -162,6 +168,18 @@ Tensor Network::history(int embed, int block, const Tensor& samples, const Tenso
   return attend(block, present, features, mask).squeeze(1);
 }
 
+Tensor Network::map_channel(int begin, const Tensor& agent, const MapChannel& map, Tensor* weights) const {
+  const auto layer = [begin](int of_lanes) { return begin + of_lanes - satp::kMapPoint1; };
+  const Tensor point = relu(layer(satp::kMapPoint2), relu(layer(satp::kMapPoint1), map.point));
+  const Tensor driver = agent.index_select(0, map.vehicle).unsqueeze(1);
+  const Tensor path = attend(layer(satp::kLane), driver, point, map.point_mask).squeeze(1);
+  const std::int64_t vehicles = map.path_mask.size(0);
+  const std::int64_t paths = map.path_mask.size(1);
+  const Tensor no_path = torch::zeros({vehicles * paths, shape_.width}, agent.options());
+  const Tensor paths_of = no_path.index_copy(0, map.slot, path).view({vehicles, paths, shape_.width});
+  return attend(layer(satp::kRoute), agent.unsqueeze(1), paths_of, map.path_mask, weights).squeeze(1);
+}
+
 Encoded Network::encode(const Batch& batch) {
   if (rounding_) rounding_->fold();
   const std::int64_t scenes = batch.place.size(0);
@@ -180,23 +198,23 @@ Encoded Network::encode(const Batch& batch) {
   const Tensor second = attend(satp::kAgent2, both, both, batch.present);
   const Tensor agent = second.reshape({scenes * agents, width}).index_select(0, batch.slot);
 
-  const Tensor point = relu(satp::kMapPoint2, relu(satp::kMapPoint1, batch.lane));
-  const Tensor driver = agent.index_select(0, batch.lane_vehicle).unsqueeze(1);
-  const Tensor path = attend(satp::kLane, driver, point, batch.lane_mask).squeeze(1);
-  const std::int64_t vehicles = batch.vehicles();
-  const std::int64_t paths = batch.route_mask.size(1);
-  const Tensor no_path = torch::zeros({vehicles * paths, width}, ego.options());
-  const Tensor paths_of = no_path.index_copy(0, batch.lane_slot, path).view({vehicles, paths, width});
   Encoded encoded;
-  const Tensor map =
-      attend(satp::kRoute, agent.unsqueeze(1), paths_of, batch.route_mask, &encoded.route).squeeze(1);
+  const Tensor map = map_channel(satp::kMapPoint1, agent, batch.lanes, &encoded.route);
   encoded.route = encoded.route.squeeze(1);
 
   const Tensor pair = relu(satp::kPair2, relu(satp::kPair1, batch.pair));
   const Tensor gate_input = torch::cat({ego.index_select(0, batch.scene), hdv, pair}, 1);
   encoded.gate =
       torch::sigmoid(linear(satp::kGate2, relu(satp::kGate1, gate_input))) * batch.paths_meet.unsqueeze(1);
-  const Tensor state = linear(satp::kStart, torch::cat({agent, map, pair}, 1));
+  Tensor state = linear(satp::kStart, torch::cat({agent, map, pair}, 1));
+  if (full() && batch.crosswalks.point.defined()) {
+    const Tensor seen = map_channel(kCrosswalkChannel, agent, batch.crosswalks);
+    state = state + linear(kCrosswalkState, seen) * batch.crosswalks.path_mask.amax(1, true);
+  }
+  if (full()) {
+    const Tensor speed_mps = batch.place.select(1, 0).select(1, 4) * satp::kPlaceUnit[4];
+    encoded.ego = ego_poses(linear(kEgoHead2, relu(kEgoHead1, second.select(1, 0))), speed_mps);
+  }
   encoded.start = torch::tanh(state.unsqueeze(1) + mode_);
   return encoded;
 }

@@ -55,7 +55,9 @@ std::shared_ptr<Network> new_network(const satp::NetworkShape& shape, const Trai
 
 // The parts of the loss that the curve tells, in its order.
 Tensor parts_of(const Loss& loss) {
-  return torch::stack({loss.position, loss.mode, loss.route, loss.yields}).detach().to(torch::kFloat64);
+  return torch::stack({loss.position, loss.mode, loss.route, loss.yields, loss.ego})
+      .detach()
+      .to(torch::kFloat64);
 }
 
 // Later versions of torch would fill each new tensor, so that nobody reads what was there before: nobody does.
@@ -85,7 +87,7 @@ Trainer::Trainer(const satp::NetworkShape& shape, const TrainingOptions& options
       network_(new_network(shape, options, set, device_)),
       adam_(network_->parameters(), torch::optim::AdamOptions(options.rate)),
       steps_(steps_of(options, training_.size())),
-      losses_(torch::zeros({4}, torch::TensorOptions(device_).dtype(torch::kFloat64))) {
+      losses_(torch::zeros({5}, torch::TensorOptions(device_).dtype(torch::kFloat64))) {
   const auto alone = [&](std::size_t i) { return set_[i].input.hdvs == 0; };
   std::erase_if(training_, alone);
   std::erase_if(validation_, alone);
@@ -122,7 +124,7 @@ Trainer::StepInput Trainer::input_of(std::int64_t step) {
         (sample.flags & kNoPlan) != 0 || random_share(options_.seed + kHidePlan, draw) < options_.no_plan;
     has_plan.insert(has_plan.end(), static_cast<std::size_t>(sample.input.hdvs), hidden ? 0.0F : 1.0F);
   }
-  return {make_batch(samples).to(device_), torch::tensor(has_plan).to(device_)};
+  return {make_batch(samples, network_->shape()).to(device_), torch::tensor(has_plan).to(device_)};
 }
 
 void Trainer::train_step() {
@@ -155,6 +157,7 @@ CurvePoint Trainer::sums() const {
   sums.mode = loss[1];
   sums.route = loss[2];
   sums.yields = loss[3];
+  sums.ego = loss[4];
   sums.gradient = gradient_;
   sums.rate = rate_;
   return sums;
@@ -168,7 +171,7 @@ void Trainer::validate(CurvePoint& point) {
     for (std::size_t i = from; i < std::min(from + 256, validation_.size()); ++i) {
       samples.push_back(&set_[validation_[i]]);
     }
-    const Batch batch = make_batch(samples).to(device_);
+    const Batch batch = make_batch(samples, network_->shape()).to(device_);
     const Encoded encoded = network_->encode(batch);
     const Decoded decoded = network_->decode(batch, encoded, plan_known(samples).to(device_));
     const Tensor distance = mean_distance_m(batch, decoded);
@@ -198,6 +201,7 @@ void Trainer::run(const std::atomic<bool>& stop, const std::function<void(const 
     point.mode /= count;
     point.route /= count;
     point.yields /= count;
+    point.ego /= count;
     point.gradient /= count;
     validate(point);
     curve_.push_back(point);
