@@ -12,6 +12,7 @@ struct CurvePoint {
   double mode = 0.0;
   double route = 0.0;
   double yields = 0.0;
+  double ego = 0.0;
   double gradient = 0.0;         ///< norm before clipping
   double rate = 0.0;             ///< of Adam
   double validation = 0.0;       ///< the whole loss on the validation part, with plans

@@ -54,6 +54,7 @@ void evaluate(const satp::NetworkShape& shape, const EvaluationOptions& options)
   double temperature = 1.0;
   if (!options.checkpoint.empty()) {
     network = load_network(shape, options.checkpoint);
+    network->to(best_device());
     temperature = calibrated_temperature(*network, set, calibration);
     calibrate_yields(*network, set, calibration, temperature);
     std::printf("temperature %.3f, ", temperature);

@@ -25,7 +25,9 @@ struct Line {
 };
 constexpr std::array<Line, 4> kLines{{
     {"loss, training", "#1f77b4",
-     [](const CurvePoint& point) { return point.position + point.mode + point.route + point.yields; }},
+     [](const CurvePoint& point) {
+       return point.position + point.mode + point.route + point.yields + point.ego;
+     }},
     {"loss, validation", "#d62728", [](const CurvePoint& point) { return point.validation; }},
     {"likeliest mode [m]", "#2ca02c", [](const CurvePoint& point) { return point.top_1_m; }},
     {"nearest mode [m]", "#9467bd", [](const CurvePoint& point) { return point.best_of_modes_m; }},
@@ -47,6 +49,7 @@ void write_curve(const std::vector<CurvePoint>& curve, const std::filesystem::pa
                       {"mode", point.mode},
                       {"route", point.route},
                       {"yields", point.yields},
+                      {"ego", point.ego},
                       {"gradient", point.gradient},
                       {"rate", point.rate},
                       {"validation", point.validation},

@@ -16,9 +16,18 @@ constexpr float kLeastShare = 1e-4F;
 constexpr float kAlikeM = 0.1F;
 constexpr float kExpectedWeight = 0.5F;
 constexpr float kChoiceWeight = 0.5F;
+constexpr float kEgoWeight = 0.5F;
 
 Tensor weighted_mean(const Tensor& values, const Tensor& weights) {
   return (values * weights).sum() / weights.sum().clamp_min(1.0F);
+}
+
+// Smooth L1 of poses: x, y, heading in the last dimension, which it sums. The heading is off by the shorter arc.
+Tensor smooth_off(const Tensor& off) {
+  const Tensor turned =
+      torch::remainder(off.slice(-1, 2) + std::numbers::pi, 2.0 * std::numbers::pi) - std::numbers::pi;
+  const Tensor both = torch::cat({off.slice(-1, 0, 2), turned}, -1);
+  return torch::smooth_l1_loss(both, torch::zeros_like(both), torch::Reduction::None).sum(-1);
 }
 
 }  // namespace
@@ -31,15 +40,10 @@ Tensor mean_distance_m(const Batch& batch, const Decoded& decoded) {
 }
 
 Loss loss_of(const Batch& batch, const Encoded& encoded, const Decoded& decoded) {
-  const Tensor off = decoded.pose - batch.target.unsqueeze(1);
-  const Tensor turned =
-      torch::remainder(off.slice(3, 2) + std::numbers::pi, 2.0 * std::numbers::pi) - std::numbers::pi;
-  const Tensor both = torch::cat({off.slice(3, 0, 2), turned}, 3);
   const Tensor steps = batch.target_mask.sum(1);
-  const Tensor smooth = (torch::smooth_l1_loss(both, torch::zeros_like(both), torch::Reduction::None).sum(3) *
-                         batch.target_mask.unsqueeze(1))
-                            .sum(2) /
-                        steps.clamp_min(1.0F).unsqueeze(1);  // [V, K]
+  const Tensor smooth =
+      (smooth_off(decoded.pose - batch.target.unsqueeze(1)) * batch.target_mask.unsqueeze(1)).sum(2) /
+      steps.clamp_min(1.0F).unsqueeze(1);  // [V, K]
   const auto [best, share] = [&] {
     const torch::NoGradGuard no_gradient;
     const Tensor distance = mean_distance_m(batch, decoded);
@@ -61,6 +65,14 @@ Loss loss_of(const Batch& batch, const Encoded& encoded, const Decoded& decoded)
   loss.yields = weighted_mean((share * wrong).sum(1), settled);
   loss.total = loss.position + kExpectedWeight * loss.expected +
                kChoiceWeight * (loss.mode + loss.route + loss.yields);
+  if (encoded.ego.defined()) {
+    // At the instants a sample tells, the ends of its plan steps.
+    const Tensor told = encoded.ego.slice(1, satp::kStepsPerDecode - 1, kHorizonSteps, satp::kStepsPerDecode);
+    loss.ego = weighted_mean(smooth_off(told - batch.ego_target).mean(1), batch.ego_known);
+    loss.total = loss.total + kEgoWeight * loss.ego;
+  } else {
+    loss.ego = torch::zeros_like(loss.total);
+  }
   return loss;
 }
 

@@ -15,6 +15,8 @@ struct Loss {
   torch::Tensor mode;      ///< cross-entropy of the modes' probabilities to which of them were nearest
   torch::Tensor route;     ///< cross-entropy of the attention over lane paths, where the one taken is known
   torch::Tensor yields;  ///< of each mode's odds of letting us pass, weighted as in `mode`, where it is known
+  torch::Tensor
+      ego;  ///< smooth L1 of the ego head where a sample tells our motion; of other sizes than full 0
 };
 
 [[nodiscard]] Loss loss_of(const Batch& batch, const Encoded& encoded, const Decoded& decoded);

@@ -2,6 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+
+#include "sim_host/train/full_size.hpp"
+#include "sim_host/train/running_sum.hpp"
 
 namespace s4tp::train {
 namespace {
@@ -35,10 +39,14 @@ Tensor heads_of_features(int width, int heads) {
   return table;
 }
 
-Tensor in_units(const std::vector<Tensor>& columns, const float* unit) {
-  const Tensor values = torch::stack(columns, 1);
-  const Tensor units = torch::from_blob(const_cast<float*>(unit), {values.size(1)}, torch::kFloat32);
-  return (values / units.to(values.device())).clamp(-satp::kInputRange, satp::kInputRange);
+// Units as a row on the device of `like`: made once for all steps, as a GPU is waited for each time.
+template <int kColumns>
+Tensor units_on(const float (&unit)[kColumns], const Tensor& like) {
+  return torch::tensor(std::vector<float>(std::begin(unit), std::end(unit))).to(like.device());
+}
+
+Tensor in_units(const std::vector<Tensor>& columns, const Tensor& units) {
+  return (torch::stack(columns, 1) / units).clamp(-satp::kInputRange, satp::kInputRange);
 }
 
 // Where the decoding of each future stands: [R] each.
@@ -46,15 +54,15 @@ struct Front {
   Tensor x, y, heading, velocity_x, velocity_y;
 };
 
-Tensor own_features(const Front& front, const Tensor& speed_mps, int step, int steps_per_decode) {
-  const Tensor time = torch::full_like(speed_mps, kStepS * static_cast<float>(step * steps_per_decode));
+Tensor own_features(const Front& front, const Tensor& speed_mps, float time_s, const Tensor& units) {
+  const Tensor time = torch::full_like(speed_mps, time_s);
   return in_units({front.x, front.y, front.heading.sin(), front.heading.cos(), front.velocity_x,
                    front.velocity_y, speed_mps, time},
-                  satp::kOwnUnit);
+                  units);
 }
 
 // \param plan [R, values] \param rule [R, 3]
-Tensor plan_features(const Front& front, const Tensor& plan, const Tensor& rule) {
+Tensor plan_features(const Front& front, const Tensor& plan, const Tensor& rule, const Tensor& units) {
   const Tensor cos = front.heading.cos();
   const Tensor sin = front.heading.sin();
   const auto value = plan.unbind(1);
@@ -67,44 +75,49 @@ Tensor plan_features(const Front& front, const Tensor& plan, const Tensor& rule)
   const Tensor turn = value[5] - front.heading;
   return in_units({ahead(0), left(0), ahead(3), left(3), turn.sin(), turn.cos(), value[6], value[7], value[8],
                    rule.select(1, 0), rule.select(1, 1), rule.select(1, 2)},
-                  satp::kPlanUnit);
+                  units);
 }
 
 }  // namespace
 
-Network::Network(const satp::NetworkShape& shape)
-    : shape_(shape), weight_(satp::kLayerCount), bias_(satp::kLayerCount) {
+Network::Network(const satp::NetworkShape& shape) : shape_(shape) {
   for (int layer = 0; layer < satp::kLayerCount; ++layer) {
     const LayerInfo info = satp::layer_info(shape, layer);
-    const auto even = [&](std::vector<std::int64_t> sizes, float bound) {
-      return torch::rand(sizes).mul(2.0F * bound).sub(bound);
-    };
-    switch (info.kind) {
-      case LayerKind::kLinear: {
-        const float bound = 1.0F / std::sqrt(static_cast<float>(info.columns));
-        // The network begins near constant velocity.
-        const float share = layer == satp::kIncrements ? 0.1F : 1.0F;
-        weight_[layer] = register_parameter(parameter_name(info.name, "weight"),
-                                            even({info.rows, info.columns}, share * bound));
-        bias_[layer] =
-            register_parameter(parameter_name(info.name, "bias"), even({info.rows}, share * bound));
-        break;
-      }
-      case LayerKind::kLayerNorm:
-        weight_[layer] = register_parameter(parameter_name(info.name, "gain"), torch::ones({info.rows}));
-        bias_[layer] = register_parameter(parameter_name(info.name, "bias"), torch::zeros({info.rows}));
-        break;
-      case LayerKind::kVector:
-        weight_[layer] = register_parameter(parameter_name(info.name, "vector"), torch::rand({info.rows}));
-        break;
-      case LayerKind::kAdd:
-      case LayerKind::kScores:
-        break;
-    }
+    // The network begins near constant velocity.
+    add_layer(info.name, info.kind, info.rows, info.columns, layer == satp::kIncrements ? 0.1F : 1.0F);
   }
   mode_ = register_parameter("start/mode", torch::randn({shape.modes, shape.hidden}).mul(0.3F));
   position_ = register_buffer("position", sinusoids(kHistorySamples, shape.width));
   head_of_ = register_buffer("head_of", heads_of_features(shape.width, shape.heads));
+  for (const FullLayerInfo& info : full_layers(shape))
+    add_layer(info.name, info.kind, info.rows, info.columns, 1.0F);
+}
+
+// \param share  of the range a linear layer's numbers are drawn from
+void Network::add_layer(const std::string& name, LayerKind kind, int rows, int columns, float share) {
+  const auto even = [&](std::vector<std::int64_t> sizes) {
+    const float bound = share * (1.0F / std::sqrt(static_cast<float>(columns)));
+    return torch::rand(sizes).mul(2.0F * bound).sub(bound);
+  };
+  Tensor weight, bias;
+  switch (kind) {
+    case LayerKind::kLinear:
+      weight = register_parameter(parameter_name(name, "weight"), even({rows, columns}));
+      bias = register_parameter(parameter_name(name, "bias"), even({rows}));
+      break;
+    case LayerKind::kLayerNorm:
+      weight = register_parameter(parameter_name(name, "gain"), torch::ones({rows}));
+      bias = register_parameter(parameter_name(name, "bias"), torch::zeros({rows}));
+      break;
+    case LayerKind::kVector:
+      weight = register_parameter(parameter_name(name, "vector"), torch::rand({rows}));
+      break;
+    case LayerKind::kAdd:
+    case LayerKind::kScores:
+      break;
+  }
+  weight_.push_back(weight);
+  bias_.push_back(bias);
 }
 
 void Network::round_as_integers(Ranges ranges) {
@@ -155,6 +168,18 @@ Tensor Network::history(int embed, int block, const Tensor& samples, const Tenso
   return attend(block, present, features, mask).squeeze(1);
 }
 
+Tensor Network::map_channel(int begin, const Tensor& agent, const MapChannel& map, Tensor* weights) const {
+  const auto layer = [begin](int of_lanes) { return begin + of_lanes - satp::kMapPoint1; };
+  const Tensor point = relu(layer(satp::kMapPoint2), relu(layer(satp::kMapPoint1), map.point));
+  const Tensor driver = agent.index_select(0, map.vehicle).unsqueeze(1);
+  const Tensor path = attend(layer(satp::kLane), driver, point, map.point_mask).squeeze(1);
+  const std::int64_t vehicles = map.path_mask.size(0);
+  const std::int64_t paths = map.path_mask.size(1);
+  const Tensor no_path = torch::zeros({vehicles * paths, shape_.width}, agent.options());
+  const Tensor paths_of = no_path.index_copy(0, map.slot, path).view({vehicles, paths, shape_.width});
+  return attend(layer(satp::kRoute), agent.unsqueeze(1), paths_of, map.path_mask, weights).squeeze(1);
+}
+
 Encoded Network::encode(const Batch& batch) {
   if (rounding_) rounding_->fold();
   const std::int64_t scenes = batch.place.size(0);
@@ -173,23 +198,23 @@ Encoded Network::encode(const Batch& batch) {
   const Tensor second = attend(satp::kAgent2, both, both, batch.present);
   const Tensor agent = second.reshape({scenes * agents, width}).index_select(0, batch.slot);
 
-  const Tensor point = relu(satp::kMapPoint2, relu(satp::kMapPoint1, batch.lane));
-  const Tensor driver = agent.index_select(0, batch.lane_vehicle).unsqueeze(1);
-  const Tensor path = attend(satp::kLane, driver, point, batch.lane_mask).squeeze(1);
-  const std::int64_t vehicles = batch.vehicles();
-  const std::int64_t paths = batch.route_mask.size(1);
-  const Tensor no_path = torch::zeros({vehicles * paths, width}, ego.options());
-  const Tensor paths_of = no_path.index_copy(0, batch.lane_slot, path).view({vehicles, paths, width});
   Encoded encoded;
-  const Tensor map =
-      attend(satp::kRoute, agent.unsqueeze(1), paths_of, batch.route_mask, &encoded.route).squeeze(1);
+  const Tensor map = map_channel(satp::kMapPoint1, agent, batch.lanes, &encoded.route);
   encoded.route = encoded.route.squeeze(1);
 
   const Tensor pair = relu(satp::kPair2, relu(satp::kPair1, batch.pair));
   const Tensor gate_input = torch::cat({ego.index_select(0, batch.scene), hdv, pair}, 1);
   encoded.gate =
       torch::sigmoid(linear(satp::kGate2, relu(satp::kGate1, gate_input))) * batch.paths_meet.unsqueeze(1);
-  const Tensor state = linear(satp::kStart, torch::cat({agent, map, pair}, 1));
+  Tensor state = linear(satp::kStart, torch::cat({agent, map, pair}, 1));
+  if (full() && batch.crosswalks.point.defined()) {
+    const Tensor seen = map_channel(kCrosswalkChannel, agent, batch.crosswalks);
+    state = state + linear(kCrosswalkState, seen) * batch.crosswalks.path_mask.amax(1, true);
+  }
+  if (full()) {
+    const Tensor speed_mps = batch.place.select(1, 0).select(1, 4) * satp::kPlaceUnit[4];
+    encoded.ego = ego_poses(linear(kEgoHead2, relu(kEgoHead1, second.select(1, 0))), speed_mps);
+  }
   encoded.start = torch::tanh(state.unsqueeze(1) + mode_);
   return encoded;
 }
@@ -205,8 +230,10 @@ Decoded Network::decode(const Batch& batch, const Encoded& encoded, const Tensor
   const Tensor rule = per_mode(batch.rule);
   const Tensor speed = per_mode(batch.speed_mps);
   const Tensor null_plan = torch::relu(weight_[satp::kNullPlan]);
-  const Tensor unit = torch::tensor(
-      {satp::kIncrementUnit[0], satp::kIncrementUnit[1], satp::kIncrementUnit[2]}, speed.options());
+  const Tensor unit = units_on(satp::kIncrementUnit, speed);
+  const Tensor own_unit = units_on(satp::kOwnUnit, speed);
+  const Tensor plan_unit = units_on(satp::kPlanUnit, speed);
+  const float duration_s = kStepS * static_cast<float>(increments);
   const Tensor start = encoded.start.reshape({vehicles * modes, shape_.hidden});
   const Tensor zero = torch::zeros_like(speed);
   Front front{zero, zero, zero, speed, zero};
@@ -214,8 +241,9 @@ Decoded Network::decode(const Batch& batch, const Encoded& encoded, const Tensor
   Tensor hidden = start;
   std::vector<Tensor> poses;
   for (int step = 0; step < shape_.decoder_steps; ++step) {
-    const Tensor own = relu(satp::kOwnEmbed, own_features(front, speed, step, shape_.steps_per_decode));
-    const Tensor ego = relu(satp::kPlanEmbed, plan_features(front, plan.select(1, step), rule));
+    const float time_s = kStepS * static_cast<float>(step * shape_.steps_per_decode);
+    const Tensor own = relu(satp::kOwnEmbed, own_features(front, speed, time_s, own_unit));
+    const Tensor ego = relu(satp::kPlanEmbed, plan_features(front, plan.select(1, step), rule, plan_unit));
     const Tensor x = kept(satp::kGruMix, own + gate * (planned * ego + (1.0F - planned) * null_plan));
     const Tensor read = rounding_ ? IntegerRounding::state(hidden) : hidden;
     const auto gates = torch::sigmoid(linear(satp::kGruGates, torch::cat({x, read}, 1))).chunk(2, 1);
@@ -224,9 +252,8 @@ Decoded Network::decode(const Batch& batch, const Encoded& encoded, const Tensor
     hidden = (1.0F - gates[1]) * news + gates[1] * hidden;
     const Tensor moved = linear(satp::kIncrements, hidden).view({-1, increments, 3}) * unit;
     const Tensor steady = torch::stack({speed * kStepS, zero, zero}, 1).unsqueeze(1);
-    const Tensor pose = last + (moved + steady).cumsum(1);
+    const Tensor pose = last + running_sum(moved + steady);
     last = pose.slice(1, increments - 1, increments);
-    const float duration_s = kStepS * static_cast<float>(increments);
     // What is predicted adds up, but what the next step sees of it is taken as given: with gradients through the
     // features of six steps in a row the training was unsteady (docs/training.md).
     const auto end = last.detach().squeeze(1).unbind(1);

@@ -21,6 +21,7 @@ struct Encoded {
   torch::Tensor start;  ///< [V, K, hidden] hidden state of each mode
   torch::Tensor gate;   ///< [V, 1] how much our plan matters to it, 0 .. 1
   torch::Tensor route;  ///< [V, paths] attention over its lane paths
+  torch::Tensor ego;    ///< of full alone: [B, horizon, 3] x, y, heading in our own frame (full_size.hpp)
 };
 
 /// What they will do.
@@ -56,6 +57,8 @@ class Network : public torch::nn::Module {
   [[nodiscard]] std::map<std::string, std::vector<float>> arrays() const;
 
  private:
+  [[nodiscard]] bool full() const { return shape_.id == satp::kFullShape.id; }
+  void add_layer(const std::string& name, satp::LayerKind kind, int rows, int columns, float share);
   [[nodiscard]] torch::Tensor linear(int layer, const torch::Tensor& x) const;
   [[nodiscard]] torch::Tensor relu(int layer, const torch::Tensor& x) const;
   /// What a layer hands on: `x`, rounded where the network rounds.
@@ -68,8 +71,13 @@ class Network : public torch::nn::Module {
   [[nodiscard]] torch::Tensor history(int embed, int block, const torch::Tensor& samples,
                                       const torch::Tensor& mask) const;
 
+  /// What a channel of the map tells each vehicle. \param begin  its first layer \param agent [V, d]
+  /// \param weights  over its paths [V, 1, paths], when asked for \return [V, d]
+  [[nodiscard]] torch::Tensor map_channel(int begin, const torch::Tensor& agent, const MapChannel& map,
+                                          torch::Tensor* weights = nullptr) const;
+
   satp::NetworkShape shape_;
-  std::vector<torch::Tensor> weight_;  ///< by satp::Layer; for a vector the vector itself
+  std::vector<torch::Tensor> weight_;  ///< by satp::Layer, then FullLayer; for a vector the vector itself
   std::vector<torch::Tensor> bias_;
   std::optional<IntegerRounding> rounding_;
   torch::Tensor mode_;      ///< [K, hidden]

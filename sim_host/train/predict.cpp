@@ -40,7 +40,7 @@ void decode_all(Network& network, const SampleSet& set, const std::vector<std::s
       vehicles += scenes.back()->input.hdvs;
     }
     if (vehicles == 0) continue;
-    const Batch batch = make_batch(scenes).to(device);
+    const Batch batch = make_batch(scenes, network.shape()).to(device);
     const Tensor has_plan = with_plan ? plan_known(scenes).to(device) : torch::zeros_like(batch.speed_mps);
     const Encoded encoded = network.encode(batch);
     use(batch, encoded, network.decode(batch, encoded, has_plan), from);

@@ -10,6 +10,8 @@
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
+#include <map>
+#include <string>
 
 #include "sim_host/train/evaluation.hpp"
 #include "sim_host/train/image_export.hpp"
@@ -32,8 +34,16 @@ double now_s() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
+// The sizes there are, by name.
+const std::map<std::string, satp::NetworkShape> kSizes{
+    {"mcu", satp::kMcuShape}, {"teacher", satp::kTeacherShape}, {"full", satp::kFullShape}};
+
 const satp::NetworkShape& shape_named(const std::string& size) {
-  return size == "teacher" ? satp::kTeacherShape : satp::kMcuShape;
+  return kSizes.at(size);
+}
+
+void add_size(CLI::App& command, std::string& size) {
+  command.add_option("--size", size, "mcu, teacher or full")->check(CLI::IsMember(kSizes));
 }
 
 struct RunOptions {
@@ -90,7 +100,7 @@ void add_run(CLI::App& tool, RunOptions& options) {
   CLI::App& command = *tool.add_subcommand("run", "train a network, or go on with an interrupted training");
   command.add_option("--data", options.data, "folder of samples (./s4tp train data)")->required();
   command.add_option("--out", options.out, "folder of checkpoint and learning curve")->required();
-  command.add_option("--size", options.size, "mcu or teacher")->check(CLI::IsMember({"mcu", "teacher"}));
+  add_size(command, options.size);
   TrainingOptions& training = options.training;
   command.add_option("--seed", training.seed, "of everything random")
       ->capture_default_str()
@@ -227,7 +237,7 @@ void add_figures(CLI::App& tool, FiguresOptions& options) {
   command.add_option("--image", evaluation.image, "of ./s4tp train export: judged as well");
   command.add_option("--json", evaluation.json, "file for all figures");
   command.add_option("--plot", evaluation.plot, "file for the reliability plot (SVG)");
-  command.add_option("--size", options.size, "mcu or teacher")->check(CLI::IsMember({"mcu", "teacher"}));
+  add_size(command, options.size);
   command.add_option("--threads", options.threads)->check(CLI::Range(1, 64))->capture_default_str();
 }
 

@@ -4,11 +4,11 @@
 #include <malloc.h>
 #include <torch/cuda.h>
 #include <torch/nn/utils/clip_grad.h>
-#include <torch/serialize.h>
 #include <torch/utils.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <numbers>
 #include <stdexcept>
 #include <string>
@@ -25,7 +25,6 @@ using torch::Tensor;
 // What a random number is for, on top of the seed.
 enum Purpose : std::uint64_t { kOrder = 1000, kHidePlan = 2000, kRough = 3000, kHowRough = 4000 };
 
-constexpr int kCurveColumns = 10;
 constexpr double kWarmUpShare = 0.02;                 // of the steps
 constexpr std::size_t kMostValidationSamples = 2048;  // enough for a curve; the figures take all
 
@@ -45,20 +44,6 @@ void take_integers(Network& network, const std::filesystem::path& checkpoint, co
   network.round_as_integers(calibrated_ranges(trained->arrays(), set, export_samples(set)));
 }
 
-void write_ranges(torch::serialize::OutputArchive& archive, const Ranges& ranges) {
-  for (const auto& [layer, range] : ranges) archive.write(layer, torch::tensor({range.low, range.high}));
-}
-
-Ranges read_ranges(torch::serialize::InputArchive& archive) {
-  Ranges ranges;
-  for (const std::string& layer : archive.keys()) {
-    Tensor range;
-    archive.read(layer, range);
-    ranges[layer] = {range[0].item<float>(), range[1].item<float>()};
-  }
-  return ranges;
-}
-
 std::shared_ptr<Network> new_network(const satp::NetworkShape& shape, const TrainingOptions& options,
                                      const SampleSet& set, torch::Device device) {
   torch::manual_seed(options.seed);
@@ -68,32 +53,25 @@ std::shared_ptr<Network> new_network(const satp::NetworkShape& shape, const Trai
   return network;
 }
 
-torch::Device best_device() {
-  return torch::cuda::is_available() ? torch::kCUDA : torch::kCPU;
+// The parts of the loss that the curve tells, in its order.
+Tensor parts_of(const Loss& loss) {
+  return torch::stack({loss.position, loss.mode, loss.route, loss.yields, loss.ego})
+      .detach()
+      .to(torch::kFloat64);
 }
 
-Tensor row_of(const CurvePoint& point) {
-  return torch::tensor(
-      {static_cast<double>(point.step), point.position, point.mode, point.route, point.yields, point.gradient,
-       point.rate, point.validation, point.top_1_m, point.best_of_modes_m},
-      torch::kFloat64);
-}
-
-CurvePoint point_of(const Tensor& row) {
-  const double* value = row.data_ptr<double>();
-  return {static_cast<std::int64_t>(value[0]),
-          value[1],
-          value[2],
-          value[3],
-          value[4],
-          value[5],
-          value[6],
-          value[7],
-          value[8],
-          value[9]};
+// Later versions of torch would fill each new tensor, so that nobody reads what was there before: nobody does.
+template <class Context>
+void leave_unfilled(Context& context) {
+  if constexpr (requires { context.setDeterministicFillUninitializedMemory(false); })
+    context.setDeterministicFillUninitializedMemory(false);
 }
 
 }  // namespace
+
+torch::Device best_device() {
+  return torch::cuda::is_available() ? torch::kCUDA : torch::kCPU;
+}
 
 std::int64_t steps_of(const TrainingOptions& options, std::size_t samples) {
   const auto pass = static_cast<std::int64_t>(samples) / options.batch;
@@ -108,7 +86,8 @@ Trainer::Trainer(const satp::NetworkShape& shape, const TrainingOptions& options
       device_(best_device()),
       network_(new_network(shape, options, set, device_)),
       adam_(network_->parameters(), torch::optim::AdamOptions(options.rate)),
-      steps_(steps_of(options, training_.size())) {
+      steps_(steps_of(options, training_.size())),
+      losses_(torch::zeros({5}, torch::TensorOptions(device_).dtype(torch::kFloat64))) {
   const auto alone = [&](std::size_t i) { return set_[i].input.hdvs == 0; };
   std::erase_if(training_, alone);
   std::erase_if(validation_, alone);
@@ -121,9 +100,9 @@ Trainer::Trainer(const satp::NetworkShape& shape, const TrainingOptions& options
   validation_.resize(std::min(validation_.size(), kMostValidationSamples));
 }
 
-Batch Trainer::next_batch(std::vector<float>& has_plan) {
+Trainer::StepInput Trainer::input_of(std::int64_t step) {
   const std::int64_t batches = static_cast<std::int64_t>(training_.size()) / options_.batch;
-  const std::int64_t pass = step_ / batches;
+  const std::int64_t pass = step / batches;
   if (pass != pass_) {
     order_ = training_;
     shuffle(order_, options_.seed + kOrder + static_cast<std::uint64_t>(pass));
@@ -131,11 +110,12 @@ Batch Trainer::next_batch(std::vector<float>& has_plan) {
   }
   std::vector<Sample> scenes(static_cast<std::size_t>(options_.batch));
   std::vector<const Sample*> samples;
+  std::vector<float> has_plan;
   for (std::int64_t i = 0; i < options_.batch; ++i) {
     Sample& sample = scenes[static_cast<std::size_t>(i)];
-    sample = set_[order_[static_cast<std::size_t>(step_ % batches * options_.batch + i)]];
+    sample = set_[order_[static_cast<std::size_t>(step % batches * options_.batch + i)]];
     samples.push_back(&sample);
-    const auto draw = static_cast<std::uint64_t>(step_ * options_.batch + i);
+    const auto draw = static_cast<std::uint64_t>(step * options_.batch + i);
     if (random_share(options_.seed + kRough, draw) < options_.rough) {
       roughen_tracks(random_share(options_.seed + kHowRough, draw),
                      random_number(options_.seed + kHowRough, draw), sample.input);
@@ -144,17 +124,18 @@ Batch Trainer::next_batch(std::vector<float>& has_plan) {
         (sample.flags & kNoPlan) != 0 || random_share(options_.seed + kHidePlan, draw) < options_.no_plan;
     has_plan.insert(has_plan.end(), static_cast<std::size_t>(sample.input.hdvs), hidden ? 0.0F : 1.0F);
   }
-  return make_batch(samples).to(device_);
+  return {make_batch(samples, network_->shape()).to(device_), torch::tensor(has_plan).to(device_)};
 }
 
 void Trainer::train_step() {
-  std::vector<float> has_plan;
-  const Batch batch = next_batch(has_plan);
-  const double rate = options_.rate * share_of_rate(step_, steps_);
-  static_cast<torch::optim::AdamOptions&>(adam_.param_groups()[0].options()).lr(rate);
+  const auto [batch, has_plan] = ahead_.valid() ? ahead_.get() : input_of(step_);
+  if (step_ + 1 < steps_)
+    ahead_ = std::async(std::launch::async, [this, next = step_ + 1] { return input_of(next); });
+  rate_ = options_.rate * share_of_rate(step_, steps_);
+  static_cast<torch::optim::AdamOptions&>(adam_.param_groups()[0].options()).lr(rate_);
   adam_.zero_grad();
   const Encoded encoded = network_->encode(batch);
-  const Decoded decoded = network_->decode(batch, encoded, torch::tensor(has_plan).to(device_));
+  const Decoded decoded = network_->decode(batch, encoded, has_plan);
   const Loss loss = loss_of(batch, encoded, decoded);
   loss.total.backward();
   const double gradient = torch::nn::utils::clip_grad_norm_(network_->parameters(), options_.clip);
@@ -163,12 +144,23 @@ void Trainer::train_step() {
   }
   adam_.step();
   ++step_;
-  sums_.position += loss.position.item<double>();
-  sums_.mode += loss.mode.item<double>();
-  sums_.route += loss.route.item<double>();
-  sums_.yields += loss.yields.item<double>();
-  sums_.gradient += gradient;
-  sums_.rate = rate;
+  losses_ += parts_of(loss);
+  gradient_ += gradient;
+}
+
+// Since the last point; not divided yet.
+CurvePoint Trainer::sums() const {
+  const Tensor losses = losses_.to(torch::kCPU);
+  const double* loss = losses.data_ptr<double>();
+  CurvePoint sums;
+  sums.position = loss[0];
+  sums.mode = loss[1];
+  sums.route = loss[2];
+  sums.yields = loss[3];
+  sums.ego = loss[4];
+  sums.gradient = gradient_;
+  sums.rate = rate_;
+  return sums;
 }
 
 void Trainer::validate(CurvePoint& point) {
@@ -179,7 +171,7 @@ void Trainer::validate(CurvePoint& point) {
     for (std::size_t i = from; i < std::min(from + 256, validation_.size()); ++i) {
       samples.push_back(&set_[validation_[i]]);
     }
-    const Batch batch = make_batch(samples).to(device_);
+    const Batch batch = make_batch(samples, network_->shape()).to(device_);
     const Encoded encoded = network_->encode(batch);
     const Decoded decoded = network_->decode(batch, encoded, plan_known(samples).to(device_));
     const Tensor distance = mean_distance_m(batch, decoded);
@@ -202,129 +194,36 @@ void Trainer::run(const std::atomic<bool>& stop, const std::function<void(const 
     train_step();
     const std::int64_t since = step_ - (curve_.empty() ? 0 : curve_.back().step);
     if (since < options_.validate_every && !finished()) continue;
-    CurvePoint point = sums_;
+    CurvePoint point = sums();
     const auto count = static_cast<double>(since);
     point.step = step_;
     point.position /= count;
     point.mode /= count;
     point.route /= count;
     point.yields /= count;
+    point.ego /= count;
     point.gradient /= count;
     validate(point);
     curve_.push_back(point);
-    sums_ = {};
+    losses_.zero_();
+    gradient_ = 0.0;
     told(point);
   }
-}
-
-// What a checkpoint must agree with: sizes, options that change the result, and the data.
-Tensor Trainer::fingerprint() const {
-  double data = 0.0;
-  for (std::size_t i = 0; i < training_.size(); i += 1 + training_.size() / 1000) {
-    data += set_[training_[i]].input.speed_mps[0] + static_cast<double>(set_[training_[i]].road % 1000);
-  }
-  std::vector<double> print{static_cast<double>(network_->shape().id),
-                            static_cast<double>(options_.seed),
-                            static_cast<double>(steps_),
-                            static_cast<double>(options_.batch),
-                            options_.rate,
-                            options_.clip,
-                            options_.no_plan,
-                            options_.rough,
-                            static_cast<double>(options_.validate_every),
-                            static_cast<double>(training_.size()),
-                            data};
-  if (const IntegerRounding* const rounding = network_->rounding()) {
-    for (const auto& [layer, range] : rounding->calibrated()) print.push_back(range.magnitude());
-  }
-  return torch::tensor(print, torch::kFloat64);
-}
-
-void Trainer::save(const std::filesystem::path& file) const {
-  torch::serialize::OutputArchive archive, network, adam;
-  network_->save(network);
-  adam_.save(adam);
-  archive.write("network", network);
-  archive.write("adam", adam);
-  if (const IntegerRounding* const rounding = network_->rounding()) {
-    torch::serialize::OutputArchive ranges;
-    write_ranges(ranges, rounding->calibrated());
-    archive.write("calibrated", ranges);
-  }
-  archive.write("fingerprint", fingerprint());
-  archive.write("step", torch::tensor(step_, torch::kInt64));
-  archive.write("sums", row_of(sums_));
-  std::vector<Tensor> rows;
-  for (const CurvePoint& point : curve_) rows.push_back(row_of(point));
-  archive.write("curve",
-                rows.empty() ? torch::empty({0, kCurveColumns}, torch::kFloat64) : torch::stack(rows));
-  const std::filesystem::path unfinished = file.string() + ".part";
-  archive.save_to(unfinished.string());
-  std::filesystem::rename(unfinished, file);
-}
-
-void Trainer::load(const std::filesystem::path& file) {
-  torch::serialize::InputArchive archive, network, adam;
-  archive.load_from(file.string());
-  Tensor print, step, sums, curve;
-  archive.read("fingerprint", print);
-  if (!torch::equal(print, fingerprint())) {
-    throw std::runtime_error(file.string() + " is of another training: other options, size or data");
-  }
-  archive.read("network", network);
-  archive.read("adam", adam);
-  archive.read("step", step);
-  archive.read("sums", sums);
-  archive.read("curve", curve);
-  network_->load(network);
-  adam_.load(adam);
-  step_ = step.item<std::int64_t>();
-  sums_ = point_of(sums);
-  curve_.clear();
-  for (std::int64_t i = 0; i < curve.size(0); ++i) curve_.push_back(point_of(curve[i].contiguous()));
-  pass_ = -1;
 }
 
 void use_threads(int count) {
   // Tensors come and go by the thousand: pages given back each time cost a fifth of the run.
   mallopt(M_MMAP_THRESHOLD, 1 << 30);
   mallopt(M_TRIM_THRESHOLD, 1 << 30);
+  setenv("CUBLAS_WORKSPACE_CONFIG", ":4096:8", 0);  // without it a GPU's sums are not the same each time
   torch::set_num_threads(count);
-  at::globalContext().setDeterministicAlgorithms(true, false);
+  // A GPU may lack a kernel that always gives the same bits: torch then says so and takes what there is.
+  at::globalContext().setDeterministicAlgorithms(true, torch::cuda::is_available());
+  leave_unfilled(at::globalContext());
   using SetThreads = void (*)(int);
   // OpenBLAS has its own threads, and torch does not know of them.
   if (const auto set = reinterpret_cast<SetThreads>(dlsym(RTLD_DEFAULT, "openblas_set_num_threads")))
     set(count);
-}
-
-TrainedFor read_trained_for(const std::filesystem::path& checkpoint) {
-  torch::serialize::InputArchive archive;
-  Tensor print, step;
-  try {
-    archive.load_from(checkpoint.string());
-    archive.read("fingerprint", print);
-    archive.read("step", step);
-  } catch (const c10::Error&) {
-    throw std::runtime_error(checkpoint.string() + ": no checkpoint of a training");
-  }
-  return {print[0].item().toInt(), step.item<std::int64_t>(),
-          static_cast<std::uint64_t>(print[1].item<double>())};
-}
-
-std::shared_ptr<Network> load_network(const satp::NetworkShape& shape,
-                                      const std::filesystem::path& checkpoint) {
-  // Torch would take tensors of any size.
-  if (read_trained_for(checkpoint).shape != shape.id) {
-    throw std::runtime_error(checkpoint.string() + ": a network of another size");
-  }
-  auto network = std::make_shared<Network>(shape);
-  torch::serialize::InputArchive archive, stored;
-  archive.load_from(checkpoint.string());
-  torch::serialize::InputArchive calibrated;
-  if (archive.try_read("calibrated", calibrated)) network->round_as_integers(read_ranges(calibrated));
-  archive.read("network", stored);
-  network->load(stored);
-  return network;
 }
 
 }  // namespace s4tp::train

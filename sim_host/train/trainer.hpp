@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <future>
 #include <vector>
 
 #include "sim_host/train/curve_point.hpp"
@@ -57,8 +58,14 @@ class Trainer {
   void load(const std::filesystem::path& file);
 
  private:
+  /// What a step is given: scenes, and which vehicles are told our plan.
+  struct StepInput {
+    Batch batch;
+    torch::Tensor has_plan;
+  };
+  [[nodiscard]] StepInput input_of(std::int64_t step);
   void train_step();
-  [[nodiscard]] Batch next_batch(std::vector<float>& has_plan);
+  [[nodiscard]] CurvePoint sums() const;
   void validate(CurvePoint& point);
   [[nodiscard]] torch::Tensor fingerprint() const;
 
@@ -73,9 +80,16 @@ class Trainer {
   std::int64_t step_ = 0;
   std::int64_t pass_ = -1;          ///< whose order `order_` is
   std::vector<std::size_t> order_;  ///< of the training samples
-  CurvePoint sums_;                 ///< since the last point
+  double gradient_ = 0.0;           ///< sum of its norms since the last point
+  double rate_ = 0.0;
+  torch::Tensor
+      losses_;  ///< sums of the loss's parts since then; on the device, so that no step waits for them
   std::vector<CurvePoint> curve_;
+  std::future<StepInput> ahead_;  ///< the next step's, made while this one runs; last, as it reads the others
 };
+
+/// A GPU where torch finds one.
+[[nodiscard]] torch::Device best_device();
 
 /// Threads of torch and of the linear algebra below it; before any other call of torch.
 void use_threads(int count);
@@ -89,7 +103,7 @@ struct TrainedFor {
 /// \throws std::runtime_error when it is none
 [[nodiscard]] TrainedFor read_trained_for(const std::filesystem::path& checkpoint);
 
-/// A trained network out of a checkpoint. \throws std::runtime_error when there is none of this shape
+/// A trained network out of a checkpoint, on the CPU. \throws std::runtime_error when there is none of this shape
 [[nodiscard]] std::shared_ptr<Network> load_network(const satp::NetworkShape& shape,
                                                     const std::filesystem::path& checkpoint);
 

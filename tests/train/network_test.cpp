@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <numeric>
 
+#include "sim_host/train/full_size.hpp"
 #include "sim_host/train/loss.hpp"
 #include "sim_host/train/predict.hpp"
 #include "sim_host/train/sample_file.hpp"
@@ -44,6 +45,11 @@ TEST_P(Sizes, HandOverEveryTensorOfTheTable) {
     } else if (info.kind == satp::LayerKind::kVector) {
       check(name, rows);
     }
+  }
+  for (const FullLayerInfo& info : full_layers(GetParam())) {  // of the training alone
+    const auto rows = static_cast<std::size_t>(info.rows);
+    if (info.kind == satp::LayerKind::kLinear) expected += rows * static_cast<std::size_t>(info.columns + 1);
+    if (info.kind == satp::LayerKind::kLayerNorm) expected += 2 * rows;
   }
   EXPECT_EQ(static_cast<std::size_t>(network.size()), expected) << "a parameter that nobody is given";
 }
@@ -86,7 +92,7 @@ class Forward : public testing::Test {
   // Poses of all vehicles of these samples, side by side.
   Tensor poses(const std::vector<const Sample*>& samples, float has_plan) {
     const torch::NoGradGuard no_gradient;
-    const Batch batch = make_batch(samples);
+    const Batch batch = make_batch(samples, satp::kMcuShape);
     return network->decode(batch, network->encode(batch), torch::full({batch.vehicles()}, has_plan)).pose;
   }
 

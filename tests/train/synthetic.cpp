@@ -87,12 +87,14 @@ void fill_branch(Sample& sample, float speed_mps, bool goes) {
     };
     const float begin_m = way_m(step);
     const float end_m = way_m(step + 1);
-    for (int vehicle = 0; vehicle < 2; ++vehicle) {
-      const float speed_now = goes || end_m < 6.0F ? kOurSpeedMps : 0.0F;
-      const float row[] = {20.0F,  20.0F - begin_m, -1.57F,        20.0F,        20.0F - end_m,
-                           -1.57F, speed_now,       16.0F - end_m, 24.0F - end_m};
-      std::copy(std::begin(row), std::end(row), sample.plan.step[vehicle][step]);
-    }
+    const float speed_now = goes || end_m < 6.0F ? kOurSpeedMps : 0.0F;
+    // Vehicle 0 drives as we do, 20 m ahead and 10 m to the left; vehicle 1 comes from our right.
+    const float seen_by_0[] = {begin_m - 20.0F, -10.0F, 0.0F, end_m - 20.0F, -10.0F, 0.0F,
+                               speed_now,       0.0F,   0.0F};
+    const float seen_by_1[] = {20.0F,  20.0F - begin_m, -1.57F,        20.0F,        20.0F - end_m,
+                               -1.57F, speed_now,       16.0F - end_m, 24.0F - end_m};
+    std::copy(std::begin(seen_by_0), std::end(seen_by_0), sample.plan.step[0][step]);
+    std::copy(std::begin(seen_by_1), std::end(seen_by_1), sample.plan.step[1][step]);
   }
   for (int i = 0; i < kHorizonSteps; ++i) {
     const float time_s = kStepS * static_cast<float>(i + 1);
@@ -130,6 +132,8 @@ void write_rule_traffic(const std::filesystem::path& file, std::uint64_t seed, i
       pair[static_cast<int>(PairFeature::kZone)] = 1.0F;
       pair[static_cast<int>(PairFeature::kEntryM)] = 18.0F;
       pair[static_cast<int>(PairFeature::kExitM)] = 22.0F;
+      pair[static_cast<int>(PairFeature::kOurEntryM)] = 16.0F;
+      pair[static_cast<int>(PairFeature::kOurExitM)] = 24.0F;
       pair[static_cast<int>(PairFeature::kYields)] = 1.0F;
       sample->rule[1] = SampleRule::kYields;
       sample->interacts[1] = 1;

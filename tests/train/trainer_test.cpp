@@ -207,7 +207,7 @@ TEST_F(Training, LearnsARuleAndWhatThePlanDoesToIt) {
       }
     }
     if (sample.branch != 0) continue;
-    const Batch batch = make_batch({&sample, &set[i + 1]});
+    const Batch batch = make_batch({&sample, &set[i + 1]}, satp::kMcuShape);
     const Decoded decoded =
         trainer.network().decode(batch, trainer.network().encode(batch), torch::ones({batch.vehicles()}));
     const torch::Tensor share = torch::softmax(decoded.score, 1);
