@@ -80,8 +80,9 @@ TEST(Guard, ALicenceIsNotUsedBeforeWeAreBound) {
   }
 }
 
-// GUARD-001 The same, and it sets off 14 m before the zone, to be there in 3.3 s, when we were to be gone after 2.6: no
-// reason to stop in the zone. Before it, at 95.9, where we can still stand, we may, short of the 0.7 m we keep else.
+// GUARD-001 The same, and it sets off, 14 m before the zone: it comes only after we were to be gone, no reason to stop in
+// the zone. We can still stand at 95.7, before it (0.35 s at 0.9 m/s less 1.5 m/s^2, then the way of a stop), and may, though 0.7 m are
+// kept else.
 TEST(Guard, WhoSetOffMayUseUpTheRoomBeforeTheZone) {
   SharedGround road(Priority::kFirstYields);
   road.other(96.0F - 14.0F, 0.0F).stood_ms = 1000;
@@ -91,7 +92,7 @@ TEST(Guard, WhoSetOffMayUseUpTheRoomBeforeTheZone) {
   road.guard.commit(0, begun);
   road.scene.agents.clear();
   road.other(96.0F - 14.0F, 0.6F);
-  const Verdict now = road.judge(95.65F, 1.2F, -6.0F);
+  const Verdict now = road.judge(95.5F, 0.9F, -1.5F);
   EXPECT_TRUE(now.safe());
   EXPECT_FALSE(now.clears);
 }
