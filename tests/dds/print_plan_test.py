@@ -15,7 +15,7 @@ SECONDS = 12
 
 
 def main(tool, telemetry, print_plan):
-    memory, domain = f"/s4tp_print_{os.getpid()}", str(20 + os.getpid() % 200)
+    memory, domain = f"/s4tp_print_{os.getpid()}", str(220 + os.getpid() % 12)
     with tempfile.TemporaryDirectory() as folder:
         running = [subprocess.Popen(command, stdout=subprocess.DEVNULL) for command in (
             [telemetry, "--ecu", memory, "--domain", domain],

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <ros.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <functional>
@@ -34,6 +35,15 @@ using tests::wait_for;
 template <class Stamp>
 double seconds(const Stamp& stamp) {
   return stamp.sec() + 1e-9 * stamp.nanosec();
+}
+
+// Tests that run at once do not hear each other: who begins to look where another did finds the next domain.
+TEST(Domains, AreClaimedOnce) {
+  const std::uint32_t one = tests::claim_domain(7);
+  const std::uint32_t other = tests::claim_domain(7);
+  EXPECT_NE(one, other);
+  EXPECT_GE(std::min(one, other), 20U);
+  EXPECT_LT(std::max(one, other), 220U);
 }
 
 // TELE-001 TELE-003 TELE-004 TELE-010..012 TELE-020..030 TELE-032 Another vendor's subscriber gets every topic,
