@@ -33,7 +33,7 @@ inline constexpr std::int32_t kCandidates = 60;
 inline constexpr std::int32_t kVisit = 60;          ///< to see which decision a candidate is
 inline constexpr std::int32_t kMostScore = 1'500;   ///< to judge and score it
 inline constexpr std::int32_t kTouches = 900;       ///< to count them with one exact risk, at most
-inline constexpr std::int32_t kRefinement = 6'500;  ///< to state the optimizer's problem
+inline constexpr std::int32_t kRefinement = 6'700;  ///< to state the optimizer's problem
 
 /// What a decode takes beyond kDecode. \param steps  of agents' modes, the network's among them
 [[nodiscard]] constexpr std::int32_t of_decode(int agents, int steps) {
