@@ -37,6 +37,8 @@ double share_of_rate(std::int64_t step, std::int64_t steps) {
 
 // Goes on from a trained network, with the ECU's rounding in it.
 void take_integers(Network& network, const std::filesystem::path& checkpoint, const SampleSet& set) {
+  if (network.shape().id != satp::kMcuShape.id)
+    throw std::runtime_error("only the size mcu has integers to learn with");
   const auto trained = load_network(network.shape(), checkpoint);
   const torch::NoGradGuard no_gradient;
   const auto from = trained->named_parameters();

@@ -15,6 +15,7 @@ SECONDS = 12
 
 
 def main(tool, telemetry, print_plan):
+    # The C++ tests claim domains 20 to 219 (wait_for.hpp).
     memory, domain = f"/s4tp_print_{os.getpid()}", str(220 + os.getpid() % 12)
     with tempfile.TemporaryDirectory() as folder:
         running = [subprocess.Popen(command, stdout=subprocess.DEVNULL) for command in (

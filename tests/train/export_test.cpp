@@ -33,6 +33,24 @@ class Export : public testing::Test {
   }
   void TearDown() override { std::filesystem::remove(file); }
 
+  // How far torch's forecasts are from these after 3 s, root mean square.
+  double torch_from_m(const Forecasts& integers) {
+    const Forecasts floats = network_forecasts(*network, set, samples, true, 1.0);
+    double squares = 0.0;
+    int count = 0;
+    for (const std::size_t i : samples) {
+      for (std::size_t vehicle = 0; vehicle < 2; ++vehicle) {
+        for (int mode = 0; mode < kMaxModes; ++mode) {
+          const float(&a)[2] = floats[i][vehicle].position_m[mode][kHorizonSteps - 1];
+          const float(&b)[2] = integers[i][vehicle].position_m[mode][kHorizonSteps - 1];
+          squares += std::pow(a[0] - b[0], 2) + std::pow(a[1] - b[1], 2);
+          ++count;
+        }
+      }
+    }
+    return std::sqrt(squares / count);
+  }
+
   std::unique_ptr<Network> network;
   std::filesystem::path file;
   SampleSet set;
@@ -72,21 +90,7 @@ TEST_F(Export, TheImageForecastsLikeTorch) {
   std::filesystem::remove(file);  // the set has it open still
   write_image(image, file);
   EXPECT_EQ(read_image(file), image);
-  const Forecasts floats = network_forecasts(*network, set, samples, true, 1.0);
-  const Forecasts integers = image_forecasts(image, set, samples, true);
-  double squares = 0.0;
-  int count = 0;
-  for (const std::size_t i : samples) {
-    for (std::size_t vehicle = 0; vehicle < 2; ++vehicle) {
-      for (int mode = 0; mode < kMaxModes; ++mode) {
-        const float(&a)[2] = floats[i][vehicle].position_m[mode][kHorizonSteps - 1];
-        const float(&b)[2] = integers[i][vehicle].position_m[mode][kHorizonSteps - 1];
-        squares += std::pow(a[0] - b[0], 2) + std::pow(a[1] - b[1], 2);
-        ++count;
-      }
-    }
-  }
-  EXPECT_LT(std::sqrt(squares / count), 0.1);
+  EXPECT_LT(torch_from_m(image_forecasts(image, set, samples, true)), 0.1);
 }
 
 // TRAIN-014 The rounding a training can learn with is the image's: with it torch is 0.55 times as far from what the
@@ -98,23 +102,9 @@ TEST_F(Export, TorchRoundsAsTheImageDoes) {
   }
   const std::vector<std::uint32_t> image = export_image({network->arrays(), {}, 1.0F, 10, 11}, set, samples);
   const Forecasts integers = image_forecasts(image, set, samples, true);
-  const auto distance_m = [&] {
-    const Forecasts floats = network_forecasts(*network, set, samples, true, 1.0);
-    double squares = 0.0;
-    for (const std::size_t i : samples) {
-      for (std::size_t vehicle = 0; vehicle < 2; ++vehicle) {
-        for (int mode = 0; mode < kMaxModes; ++mode) {
-          const float(&a)[2] = floats[i][vehicle].position_m[mode][kHorizonSteps - 1];
-          const float(&b)[2] = integers[i][vehicle].position_m[mode][kHorizonSteps - 1];
-          squares += std::pow(a[0] - b[0], 2) + std::pow(a[1] - b[1], 2);
-        }
-      }
-    }
-    return std::sqrt(squares);
-  };
-  const double without_m = distance_m();
+  const double without_m = torch_from_m(integers);
   network->round_as_integers(calibrated_ranges(network->arrays(), set, samples));
-  EXPECT_LT(distance_m(), 0.75 * without_m);
+  EXPECT_LT(torch_from_m(integers), 0.75 * without_m);
 }
 
 // TRAIN-013 The row of yielding is fitted to an image: what it forecasts stays as it is to the bit, and where the

@@ -96,7 +96,7 @@ TEST_F(Training, GoesOnAsIfNothingHadBeen) {
 }
 
 // TRAIN-014 A training with the integers' rounding begins where the float one ended, keeps its ranges for the export, and
-// is not gone on with by one without.
+// is not gone on with by one without; other sizes have no integers.
 TEST_F(Training, GoesOnWithTheIntegersRounding) {
   const SampleSet set = traffic(1, 40, 2);
   Trainer floats(satp::kMcuShape, short_training(), set);
@@ -117,6 +117,7 @@ TEST_F(Training, GoesOnWithTheIntegersRounding) {
   EXPECT_EQ(load_network(satp::kMcuShape, folder / "floats.pt")->rounding(), nullptr);
   EXPECT_THROW(Trainer(satp::kMcuShape, short_training(), set).load(folder / "integers.pt"),
                std::runtime_error);
+  EXPECT_THROW(Trainer(satp::kTeacherShape, options, set), std::runtime_error);
 }
 
 // A checkpoint of another seed, of other data or of another size is not gone on with.

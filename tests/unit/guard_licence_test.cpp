@@ -61,18 +61,24 @@ TEST(Guard, WhoHasComeToAStandAsksAnew) {
   }
 }
 
+// We stand 0.7 m before the zone at 96, another so far before it, in sight of us (L2): we set off, and the scene is empty for what
+// comes then.
+void set_off_across(SharedGround& road, float its_way_m) {
+  road.other(96.0F - its_way_m, 0.0F).stood_ms = 1000;
+  road.scene.waited_s = 1.0F;
+  const Verdict begun = road.judge(95.3F, 0.0F, 2.0F);
+  ASSERT_TRUE(begun.safe() && begun.clears);
+  road.guard.commit(0, begun);
+  road.scene.agents.clear();
+}
+
 // GUARD-006 Both stand, it in sight of us (L2), and we set off. Then it does too, at 1 m/s 8 m before the zone
 // (0.35 s at our speed, then the way of a stop with 6 m/s^2). At 95.4 and 0.4 m/s we can still stand at 95.91,
 // before the zone at 96, speeding up until then: the licence is not used, and we do. At 95.4 and 1.6 m/s that would be 96.17: it holds.
 TEST(Guard, ALicenceIsNotUsedBeforeWeAreBound) {
   for (const float speed_mps : {0.4F, 1.6F}) {
     SharedGround road(Priority::kFirstYields);
-    road.other(96.0F - 8.0F, 0.0F).stood_ms = 1000;
-    road.scene.waited_s = 1.0F;
-    const Verdict begun = road.judge(95.3F, 0.0F, 2.0F);
-    ASSERT_TRUE(begun.safe() && begun.clears);
-    road.guard.commit(0, begun);
-    road.scene.agents.clear();
+    set_off_across(road, 8.0F);
     road.other(96.0F - 8.0F, 3.0F);
     const Verdict now = road.judge(95.4F, speed_mps, 2.0F);
     EXPECT_TRUE(now.safe()) << speed_mps;
@@ -85,12 +91,7 @@ TEST(Guard, ALicenceIsNotUsedBeforeWeAreBound) {
 // kept else.
 TEST(Guard, WhoSetOffMayUseUpTheRoomBeforeTheZone) {
   SharedGround road(Priority::kFirstYields);
-  road.other(96.0F - 14.0F, 0.0F).stood_ms = 1000;
-  road.scene.waited_s = 1.0F;
-  const Verdict begun = road.judge(95.3F, 0.0F, 2.0F);
-  ASSERT_TRUE(begun.safe() && begun.clears);
-  road.guard.commit(0, begun);
-  road.scene.agents.clear();
+  set_off_across(road, 14.0F);
   road.other(96.0F - 14.0F, 0.6F);
   const Verdict now = road.judge(95.5F, 0.9F, -1.5F);
   EXPECT_TRUE(now.safe());
