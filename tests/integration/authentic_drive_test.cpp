@@ -157,7 +157,8 @@ class Impostor {
 // AUTH-041 The ECU is silenced (its commands are lost on the way) and a stranger commands full throttle in
 // its place. Without authentication the car obeys; with it the car brakes by itself and stands.
 TEST(AuthenticDrive, AForgedCommandDoesNotMoveTheCar) {
-  const scenario::Scenario road = scenario("cruise");
+  scenario::Scenario road = scenario("cruise");
+  road.flows.clear();  // nobody to run into at full throttle: the drive would end there
   double speeds_mps[2] = {};
   for (const bool keyed : {false, true}) {
     const auto drive = std::make_unique<Drive>(road, keyed);
