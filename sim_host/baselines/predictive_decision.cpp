@@ -31,7 +31,6 @@ const RegisterPlanner kKinematic{
     entry<false>("predictive_decision_kinematic", "the same, predicting with the kinematic model")};
 
 constexpr float kHorizonS = kHorizonSteps * kStepS;
-constexpr float kLaneChangeM = 20.0F;
 constexpr float kMissedM = 100.0F;
 constexpr float kJerkMps3 = 10.0F;
 constexpr float kGapM = 1.0F;
@@ -67,9 +66,10 @@ float goal_share(const scene::Scene& scene, const scene::EgoPath& path, const Tr
   const float longest_m = std::max(limit_mps, 1.0F) * kHorizonS;
   float lacking_m = std::max(0.0F, longest_m - (end_s_m - start_s_m));
   if (path.changes_needed != 0) {
-    lacking_m += kLaneChangeM * static_cast<float>(std::abs(path.changes_needed));
+    const float change_m = parameters.comfort.lane_change_s * limit_mps;
+    lacking_m += change_m * static_cast<float>(std::abs(path.changes_needed));
     const float front_s_m = end_s_m + trajectory::rear_axle_to_front_m(parameters);
-    if (front_s_m > path.route_end_s_m - kLaneChangeM) lacking_m += kMissedM;
+    if (front_s_m > path.route_end_s_m - change_m) lacking_m += kMissedM;
   }
   return lacking_m / longest_m;
 }

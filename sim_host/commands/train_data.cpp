@@ -22,7 +22,8 @@ namespace {
 constexpr std::size_t kSamplesPerFile = 5'000;
 constexpr std::uint64_t kMostBytes = 4'000'000'000;  // a disk's share, whatever was asked for
 constexpr double kPlainLineEvery_s = 10.0;           // where nobody watches, but a log is kept
-constexpr std::uint64_t kBlocksBegin = 10'000;       // seeds and roads from here on are for reporting only
+constexpr std::uint64_t kShippedFrom = 1'000'000;    // below it samples are told apart by the road's number
+constexpr std::uint64_t kFlavourStep = 50'000;       // between a scenario's seeds in its two flavours
 
 const std::vector<std::string> kShipped{"left_turn", "left_turn_t", "merge", "cruise", "overtake", "cut_in"};
 const std::vector<std::string> kFlavours{"smarts", "social"};
@@ -34,6 +35,7 @@ struct DataOptions {
   int rounds = 100;
   double minutes = 0.0;
   double noisy_share = 0.3;
+  bool reporting = false;
   std::filesystem::path clips;
   std::filesystem::path json;
 };
@@ -70,6 +72,7 @@ class DataSet {
     drive.seed = seed;
     drive.road = road;
     drive.scenario = kind;
+    drive.reporting = options_.reporting;
     drive.noisy = random.uniform() < options_.noisy_share;
     double left = random.uniform();
     for (const Share& who : kWhoDrives) {
@@ -164,8 +167,16 @@ class DataSet {
 
 int run(DataOptions& options) {
   const std::uint64_t last = options.common.seed + static_cast<std::uint64_t>(options.rounds);
-  if (last > kBlocksBegin || options.first_road + static_cast<std::uint64_t>(options.roads) > kBlocksBegin) {
-    throw std::invalid_argument("seeds and roads from 10000 on are for reporting, never for training");
+  const std::uint64_t last_road = options.first_road + static_cast<std::uint64_t>(options.roads);
+  using train::kBlocksBegin;
+  if (!options.reporting && (last > kBlocksBegin || last_road > kBlocksBegin)) {
+    throw std::invalid_argument(
+        "seeds and roads from 10000 on are for reporting, never for training: with --reporting");
+  }
+  if (options.reporting && (options.common.seed < kBlocksBegin || last > kFlavourStep ||
+                            options.first_road < kBlocksBegin || last_road > kShippedFrom)) {
+    throw std::invalid_argument(
+        "--reporting takes --seed from 10000 up to 50000 and --first-road from 10000 up to 1000000");
   }
   DataSet set(options);
   std::vector<scenario::Scenario> shipped;
@@ -180,7 +191,7 @@ int run(DataOptions& options) {
     for (std::size_t i = 0; i < shipped.size() && !set.done(); ++i) {
       const std::size_t kind = i % kShipped.size();
       const std::uint64_t flavour = i / kShipped.size();
-      set.drive(shipped[i], 1'000'000 + 100'000 * kind + 50'000 * flavour + seed,
+      set.drive(shipped[i], kShippedFrom + (2 * kind + flavour) * kFlavourStep + seed,
                 static_cast<train::SampleScenario>(kind), seed);
     }
     const int roads_until =
@@ -224,6 +235,9 @@ Command add_train(CLI::App& tool) {
   data->add_option("--minutes", options->minutes, "stop after so long; the set is then not reproducible");
   data->add_option("--noisy-share", options->noisy_share, "drives with perception as it is (default 0.3)")
       ->check(CLI::Range(0.0, 1.0));
+  data->add_flag(
+      "--reporting", options->reporting,
+      "of seeds and roads from 10000 on: samples that figures are judged on, and nothing learns from");
   data->add_option("--clips", options->clips,
                    "folder of recorded clips: the windows of four of five vehicles join the samples");
   data->add_option("--json", options->json, "write what was made here");

@@ -171,7 +171,7 @@ void DataDrive::label(Instant& instant, bool forked) {
   sample.road = options_.road;
   sample.episode = static_cast<std::uint16_t>(options_.seed);
   sample.scenario = options_.scenario;
-  sample.flags = forked ? static_cast<std::uint8_t>(kForked) : std::uint8_t{0};
+  sample.flags = static_cast<std::uint8_t>((forked ? kForked : 0) | (options_.reporting ? kReporting : 0));
 }
 
 void DataDrive::emit(const Sample& sample, bool forked) {

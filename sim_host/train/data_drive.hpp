@@ -27,9 +27,10 @@ struct DriveOptions {
   SampleScenario scenario = SampleScenario::kOther;
   std::string planner = "s4tp";
   bool guarded = true;
-  bool noisy = false;  ///< perception as it is, in the branches too
-  int branches = 3;    ///< of a fork
-  int forks = 12;      ///< at most
+  bool noisy = false;      ///< perception as it is, in the branches too
+  bool reporting = false;  ///< its samples are never learned from
+  int branches = 3;        ///< of a fork
+  int forks = 12;          ///< at most
   Parameters parameters;
 };
 

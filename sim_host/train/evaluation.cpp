@@ -38,7 +38,7 @@ void evaluate(const satp::NetworkShape& shape, const EvaluationOptions& options)
   if (options.checkpoint.empty() && options.image.empty()) {
     throw std::runtime_error("nothing to judge: neither a checkpoint nor an image");
   }
-  const SampleSet set(options.data);
+  const SampleSet set = samples_to_learn_from(options.data);
   const std::vector<std::size_t> calibration = samples_of(set, Part::kCalibration);
   SampleSet fresh_set;
   if (!options.fresh.empty()) fresh_set = SampleSet(options.fresh);

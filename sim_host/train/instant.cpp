@@ -129,9 +129,9 @@ void complete(Instant& instant, const scenario::Scenario& scenario, const map::R
     unsettled = unsettled || (meeting.rule != SampleRule::kNoZone && sample.yields[i] < 0);
     entry_s = std::min(entry_s, meeting.entry_s);
   }
-  sample.flags =
-      static_cast<std::uint8_t>((sample.flags & kForked) | (touched != traffic::kNoCar ? kCollided : 0) |
-                                (unsettled ? kUnsettled : 0) | (went(drive, entry_s) ? kEgoGoes : 0));
+  sample.flags = static_cast<std::uint8_t>(
+      (sample.flags & (kForked | kReporting)) | (touched != traffic::kNoCar ? kCollided : 0) |
+      (unsettled ? kUnsettled : 0) | (went(drive, entry_s) ? kEgoGoes : 0));
 }
 
 }  // namespace s4tp::train

@@ -11,6 +11,9 @@
 
 namespace s4tp::train {
 
+/// Seeds and road numbers from here on are for reporting.
+inline constexpr std::uint64_t kBlocksBegin = 10'000;
+
 /// Scenarios of a sample, in the order of the tables.
 enum class SampleScenario : std::uint8_t {
   kLeftTurn,
@@ -25,11 +28,12 @@ enum class SampleScenario : std::uint8_t {
 
 /// Bits of Sample::flags.
 enum SampleFlag : std::uint8_t {
-  kForked = 1,     ///< one of several branches of the same instant
-  kCollided = 2,   ///< the ego collided in this branch
-  kUnsettled = 4,  ///< who went first was not settled when the branch ended
-  kEgoGoes = 8,    ///< the plan passes the first shared zone without waiting
-  kNoPlan = 16,    ///< nobody knows what the ego planned: never shown to the network
+  kForked = 1,      ///< one of several branches of the same instant
+  kCollided = 2,    ///< the ego collided in this branch
+  kUnsettled = 4,   ///< who went first was not settled when the branch ended
+  kEgoGoes = 8,     ///< the plan passes the first shared zone without waiting
+  kNoPlan = 16,     ///< nobody knows what the ego planned: never shown to the network
+  kReporting = 32,  ///< of a seed or road for reporting: never learned from
 };
 
 /// Right of way, seen from the other vehicle.

@@ -154,6 +154,16 @@ void SampleSet::map(const std::filesystem::path& file) {
   }
 }
 
+SampleSet samples_to_learn_from(const std::filesystem::path& path) {
+  SampleSet set(path);
+  for (std::size_t i = 0; i < set.size(); ++i) {
+    if ((set[i].flags & kReporting) != 0)
+      refuse(path, "for reporting (train data --reporting): learned from are seeds and roads below " +
+                       std::to_string(kBlocksBegin));
+  }
+  return set;
+}
+
 Part part_of(std::uint64_t road) {
   switch (random_number(0x5A3D, road) % 20) {
     case 0:

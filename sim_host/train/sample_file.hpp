@@ -58,6 +58,10 @@ class SampleSet {
   std::vector<const Sample*> rows_;
 };
 
+/// A set that may be learned from and calibrated on. TRAIN-015 One that holds samples for reporting is refused.
+/// \throws std::runtime_error as SampleSet, and so
+[[nodiscard]] SampleSet samples_to_learn_from(const std::filesystem::path& path);
+
 /// TRAIN-002 All samples of a road are in one part, whatever else is in the set: of twenty roads one
 /// calibrates and one validates.
 enum class Part : std::uint8_t { kTraining, kCalibration, kValidation };

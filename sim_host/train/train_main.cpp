@@ -56,7 +56,7 @@ struct RunOptions {
 
 int run(const RunOptions& options) {
   use_threads(options.threads);
-  const SampleSet set(options.data);
+  const SampleSet set = samples_to_learn_from(options.data);
   std::filesystem::create_directories(options.out);
   const std::filesystem::path checkpoint = options.out / "checkpoint.pt";
   Trainer trainer(shape_named(options.size), options.training, set);
@@ -158,7 +158,7 @@ struct YieldsOptions {
 
 int fit_yields(const YieldsOptions& options) {
   use_threads(1);
-  const SampleSet set(options.data);
+  const SampleSet set = samples_to_learn_from(options.data);
   const std::vector<std::uint32_t> image = fit_yields_row(
       read_image(options.from), set, samples_of(set, Part::kTraining), samples_of(set, Part::kCalibration));
   write_image(image, options.image);
@@ -177,7 +177,7 @@ struct ExportOptions {
 
 int export_network(const ExportOptions& options) {
   use_threads(1);
-  const SampleSet set(options.data);
+  const SampleSet set = samples_to_learn_from(options.data);
   const std::vector<std::size_t> calibration = samples_of(set, Part::kCalibration);
   const std::vector<std::size_t> samples = export_samples(set);
   const auto network = load_network(satp::kMcuShape, options.checkpoint);

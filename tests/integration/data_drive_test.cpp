@@ -41,6 +41,17 @@ TEST(DataDrive, IsReproducible) {
               std::memcmp(&other[0].input, &one[0].input, sizeof one[0].input) != 0);
 }
 
+// TRAIN-015 Every sample of a drive for reporting says so, those of branches too; of another drive none does.
+TEST(DataDrive, SamplesForReportingSaySo) {
+  for (const bool reporting : {true, false}) {
+    DriveOptions options;
+    options.forks = 2;
+    options.reporting = reporting;
+    for (const Sample& sample : samples_of_drive("merge", options))
+      EXPECT_EQ((sample.flags & kReporting) != 0, reporting) << sample.fork;
+  }
+}
+
 // TRAIN-012 Branches of a fork share the input to the bit, and differ in plan and, somewhere in ten drives,
 // in what the others do: by 2 m and more at 3 s.
 TEST(DataDrive, BranchesDifferByTheirPlansAlone) {

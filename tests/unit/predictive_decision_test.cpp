@@ -84,14 +84,14 @@ TEST(PredictiveDecision, KeepsItsDistance) {
   EXPECT_FLOAT_EQ(cost.collision, 0.0F);
 }
 
-// A lane change still due counts as 20 m of 30 m; 100 m more where less than 20 m are left for it: the front
-// comes to 20 + 30 + 4 = 54 m, the lane can be left until 70 m.
+// A lane change still due counts as the 3 s at the limit that it takes, 30 m of 30 m; 100 m more where less than those are
+// left for it: the front comes to 20 + 30 + 4 = 54 m, the lane can be left until 80 m.
 TEST(PredictiveDecision, ALaneChangeStillDueCostsWay) {
   Road road({}, 2);
   road.scene.ego_paths[0].changes_needed = 1;
-  EXPECT_NEAR(road.cost_of(test::plan_of(road.ego)).goal, 20.0F / 30.0F, 1e-3F);
-  road.scene.ego_paths[0].route_end_s_m = 70.0F;
-  EXPECT_NEAR(road.cost_of(test::plan_of(road.ego)).goal, 120.0F / 30.0F, 1e-3F);
+  EXPECT_NEAR(road.cost_of(test::plan_of(road.ego)).goal, 30.0F / 30.0F, 1e-3F);
+  road.scene.ego_paths[0].route_end_s_m = 80.0F;
+  EXPECT_NEAR(road.cost_of(test::plan_of(road.ego)).goal, 130.0F / 30.0F, 1e-3F);
 }
 
 // Behind a standing car the planner itself brakes, bare as well: the cost says so, no rule.

@@ -135,6 +135,19 @@ TEST_F(SampleFile, PartsAreOfWholeRoads) {
   EXPECT_EQ(seen[0].size() + seen[1].size() + seen[2].size(), 100U);
 }
 
+// TRAIN-015 One sample for reporting among others: figures read the set, nothing learns from it; without it both do.
+TEST_F(SampleFile, NothingLearnsFromWhatIsForReporting) {
+  write("a.samples", 0, 3);
+  EXPECT_EQ(samples_to_learn_from(folder).size(), 3U);
+  const auto sample = std::make_unique<Sample>();
+  sample->flags = kForked | kReporting;
+  SampleWriter writer(folder / "b.samples");
+  writer.add(*sample);
+  writer.close();
+  EXPECT_EQ(SampleSet(folder).size(), 4U);
+  EXPECT_THROW((void)samples_to_learn_from(folder), std::runtime_error);
+}
+
 // A shuffle loses nothing, differs by seed and is the same for the same seed.
 TEST(RandomNumber, ShufflesBySeed) {
   std::vector<int> first(100);
