@@ -12,7 +12,7 @@ struct Ratio {
   double high = 0.0;
 };
 
-/// Of the distances at 3 s. CLIP-005 The same sums give the same numbers. \pre both of the same windows, at least one
+/// Of the distances at 3 s. CLIP-006 The same sums give the same numbers. \pre both of the same windows, at least one
 [[nodiscard]] Ratio fde_ratio(const WindowSums& of, const WindowSums& over);
 
 }  // namespace s4tp::clips

@@ -18,7 +18,7 @@ namespace {
 
 // One predictor's lines of the table, and its figures for the file.
 nlohmann::ordered_json judge(const char* name, const Judged& judged, const Judged& reference) {
-  nlohmann::ordered_json figures = figures_by_scenario(judged, reference);
+  nlohmann::ordered_json figures = figures_by_group(judged, reference);
   for (const auto& [scenario, of] : figures.items()) {
     const auto mean = [&](const char* figure) { return of[figure]["mean"].get<double>(); };
     const auto half = [&](const char* figure) { return of[figure]["half_width"].get<double>(); };

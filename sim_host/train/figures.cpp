@@ -20,6 +20,7 @@ nlohmann::ordered_json json_of(const RoadMean& mean) {
 void judge(const Sample& sample, int vehicle, const Forecast& forecast, VehicleErrors& errors) {
   errors.road = sample.road;
   errors.scenario = sample.scenario;
+  errors.rule = sample.rule[vehicle];
   errors.min_ade_m = 1e9;
   errors.min_fde_m = 1e9;
   for (int mode = 0; mode < kMaxModes; ++mode) {
@@ -183,24 +184,42 @@ nlohmann::ordered_json figures_of(const std::vector<VehicleErrors>& errors, doub
           {"reliability", reliability_of(errors)}};
 }
 
-nlohmann::ordered_json figures_by_scenario(const Judged& of, const Judged& reference) {
+namespace {
+
+nlohmann::ordered_json figures_of_group(const Judged& of, const Judged& reference,
+                                        const std::function<bool(const VehicleErrors&)>& belongs) {
+  std::vector<VehicleErrors> part;
+  RoadMean distance, likelihood;
+  for (std::size_t i = 0; i < of.errors.size(); ++i) {
+    const VehicleErrors& one = of.errors[i];
+    const VehicleErrors& other = reference.errors[i];
+    if (!belongs(one)) continue;
+    part.push_back(one);
+    distance.add(one.road, one.top_1_ade_m - other.top_1_ade_m);
+    likelihood.add(one.road, negative_log_likelihood(one, of.sigma_m) -
+                                 negative_log_likelihood(other, reference.sigma_m));
+  }
+  if (part.empty()) return {};
+  nlohmann::ordered_json result = figures_of(part, of.sigma_m);
+  result["top_1_ade_less_reference"] = json_of(distance);
+  result["nll_less_reference"] = json_of(likelihood);
+  return result;
+}
+
+}  // namespace
+
+nlohmann::ordered_json figures_by_group(const Judged& of, const Judged& reference) {
   nlohmann::ordered_json result;
   const auto add = [&](const char* name, const std::function<bool(const VehicleErrors&)>& belongs) {
-    std::vector<VehicleErrors> part;
-    RoadMean distance, likelihood;
-    for (std::size_t i = 0; i < of.errors.size(); ++i) {
-      const VehicleErrors& one = of.errors[i];
-      const VehicleErrors& other = reference.errors[i];
-      if (!belongs(one)) continue;
-      part.push_back(one);
-      distance.add(one.road, one.top_1_ade_m - other.top_1_ade_m);
-      likelihood.add(one.road, negative_log_likelihood(one, of.sigma_m) -
-                                   negative_log_likelihood(other, reference.sigma_m));
+    nlohmann::ordered_json figures = figures_of_group(of, reference, belongs);
+    if (figures.empty()) return;
+    for (int i = 0; i <= static_cast<int>(SampleRule::kFirstCome); ++i) {
+      const auto rule = static_cast<SampleRule>(i);
+      nlohmann::ordered_json part = figures_of_group(
+          of, reference, [&](const VehicleErrors& one) { return one.rule == rule && belongs(one); });
+      if (!part.empty()) figures["right_of_way"][name_of(rule)] = std::move(part);
     }
-    if (part.empty()) return;
-    result[name] = figures_of(part, of.sigma_m);
-    result[name]["top_1_ade_less_reference"] = json_of(distance);
-    result[name]["nll_less_reference"] = json_of(likelihood);
+    result[name] = std::move(figures);
   };
   add("all", [](const VehicleErrors&) { return true; });
   for (int i = 0; i <= static_cast<int>(SampleScenario::kGenerated); ++i) {
@@ -208,6 +227,20 @@ nlohmann::ordered_json figures_by_scenario(const Judged& of, const Judged& refer
     add(name_of(scenario), [&](const VehicleErrors& one) { return one.scenario == scenario; });
   }
   return result;
+}
+
+const char* name_of(SampleRule rule) {
+  switch (rule) {
+    case SampleRule::kNoZone:
+      return "no_zone";
+    case SampleRule::kYields:
+      return "yields";
+    case SampleRule::kHasPriority:
+      return "has_priority";
+    case SampleRule::kFirstCome:
+      break;
+  }
+  return "first_come";
 }
 
 const char* name_of(SampleScenario scenario) {

@@ -36,6 +36,7 @@ class RoadMean {
 struct VehicleErrors {
   std::uint64_t road = 0;
   SampleScenario scenario = SampleScenario::kOther;
+  SampleRule rule = SampleRule::kNoZone;
   double top_1_ade_m = 0.0;     ///< mean distance of the likeliest mode
   double weighted_ade_m = 0.0;  ///< of all modes, by probability
   double min_ade_m = 0.0;       ///< of the nearest mode
@@ -66,10 +67,11 @@ struct Judged {
   double sigma_m = 1.0;
 };
 
-/// The same per scenario and over all, and the paired differences of top-1 ADE and of negative log-likelihood to
+/// The same over all and per scenario, in each by right of way ("right_of_way": {"has_priority", ...}), and the paired differences of top-1 ADE and of negative log-likelihood to
 /// `reference`, each likelihood with its own width. \pre both of the same vehicles
-[[nodiscard]] nlohmann::ordered_json figures_by_scenario(const Judged& of, const Judged& reference);
+[[nodiscard]] nlohmann::ordered_json figures_by_group(const Judged& of, const Judged& reference);
 
 [[nodiscard]] const char* name_of(SampleScenario scenario);
+[[nodiscard]] const char* name_of(SampleRule rule);
 
 }  // namespace s4tp::train

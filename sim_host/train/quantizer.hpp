@@ -16,7 +16,7 @@ struct ImageFacts {
 };
 
 /// Throws std::runtime_error that names the layer that cannot be quantized: a range that was never seen, a
-/// multiplier that does not fit. TRAIN-010 The result passes satp::Weights::check, and the same network and
+/// multiplier that does not fit. TRAIN-016 The result passes satp::Weights::check, and the same network and
 /// ranges give the same bytes. \param ranges  of calibration scenes \return words: header and payload
 [[nodiscard]] std::vector<std::uint32_t> quantize(const FloatNetwork& network, const Ranges& ranges,
                                                   const ImageFacts& facts);

@@ -205,7 +205,7 @@ TEST_F(Clips, WindowsBecomeSamplesWithoutAPlan) {
   EXPECT_LE(vehicles, 15);
 }
 
-// CLIP-005 Forty vehicles, each a tenth nearer than with the other predictor: 0.9, and no doubt about it. Where that
+// CLIP-006 Forty vehicles, each a tenth nearer than with the other predictor: 0.9, and no doubt about it. Where that
 // is so on average only, the interval holds it and is as wide as vehicles differ: each ratio's deviation is 0.4,
 // their mean's 0.06.
 TEST(ClipRatio, ErrorsOverTheFloorsHaveAnIntervalByVehicle) {

@@ -113,11 +113,27 @@ TEST(Figures, DifferencesArePaired) {
   const std::vector<std::size_t> both{0, 1};
   const auto kinematic = errors_of(set, both, kinematic_forecasts(set, both));
   const auto steady = errors_of(set, both, steady_forecasts(set, both));
-  const auto json = figures_by_scenario({steady, 1.0}, {kinematic, 10.0});
+  const auto json = figures_by_group({steady, 1.0}, {kinematic, 10.0});
   EXPECT_NEAR(json["merge"]["top_1_ade_less_reference"]["mean"].get<double>(), -15.5, 1e-4);
   EXPECT_NEAR(json["merge"]["nll_less_reference"]["mean"].get<double>(), -4.5 - std::log(100.0), 1e-4);
   EXPECT_NEAR(json["all"]["top_1_ade"]["mean"].get<double>(), 0.0, 1e-5);
   EXPECT_FALSE(json.contains("cruise"));
+}
+
+// Of two vehicles one has priority and one shares no zone with us: each stands alone beneath its scenario, 15.5 m and 0 off.
+TEST(Figures, RightOfWayIsToldApart) {
+  std::vector<Sample> samples{straight(1, 10.0F), straight(2, 10.0F)};
+  samples[0].rule[0] = SampleRule::kHasPriority;
+  const SampleSet set = set_of(samples);
+  const std::vector<std::size_t> both{0, 1};
+  auto forecasts = steady_forecasts(set, both);
+  forecasts[0] = kinematic_forecasts(set, both)[0];
+  const Judged judged{errors_of(set, both, forecasts), 1.0};
+  const auto json = figures_by_group(judged, judged)["merge"]["right_of_way"];
+  EXPECT_NEAR(json["has_priority"]["top_1_ade"]["mean"].get<double>(), 15.5, 1e-4);
+  EXPECT_EQ(json["has_priority"]["vehicles"].get<int>(), 1);
+  EXPECT_NEAR(json["no_zone"]["top_1_ade"]["mean"].get<double>(), 0.0, 1e-4);
+  EXPECT_FALSE(json.contains("yields"));
 }
 
 // Three paces of one future: at 0.8 of 10 m/s the first second is 8 m.

@@ -167,7 +167,7 @@ train::Tensors random_tensors(const NetworkShape& shape, std::uint64_t seed) {
   return tensors;
 }
 
-// TRAIN-010 Post-training quantization of a random network, calibrated on 40 scenes and tried on 40
+// TRAIN-016 Post-training quantization of a random network, calibrated on 40 scenes and tried on 40
 // others: poses at 3 s stay within 0.04 m (root mean square) of the float network's, whose own futures differ
 // by metres; probabilities of futures within 0.01, of letting us pass within 0.02.
 TEST(SatpNetwork, IntegersFollowTheFloatNetwork) {
@@ -236,7 +236,7 @@ TEST(SatpNetwork, IntegersFollowTheFloatNetwork) {
   EXPECT_LT(worst_yields, 0.02);
 }
 
-// TRAIN-010 What was never seen cannot be quantized, and the message names it.
+// TRAIN-016 What was never seen cannot be quantized, and the message names it.
 TEST(SatpNetwork, QuantizerNamesWhatIsMissing) {
   const train::FloatNetwork network(kMcuShape, random_tensors(kMcuShape, 1));
   try {
