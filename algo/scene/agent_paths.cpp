@@ -28,6 +28,7 @@ constexpr int kSteps = 3 * kMaxPathLanes;  // each step closes a chain or makes 
 
 // Work (WorkMeter's units).
 constexpr int kPathsWork = 40;
+constexpr int kNearWork = 5;    // how near it will be to a lane
 constexpr int kStepWork = 3;    // of a step, and ...
 constexpr int kBranchWork = 8;  // ... of each branch there
 
@@ -116,15 +117,32 @@ void start_chain(const LaneTable& table, LaneIndex lane, float start_s_m, float 
   if (table.append(chain.path, lane)) (void)chains.push(chain);
 }
 
-// The neighbour lane a change under way leads to, or kNoLaneIndex.
-LaneIndex change_target(const LaneTable& table, LaneIndex lane, const Situation& situation) {
+// The lane a change under way leads to, or kNoLaneIndex. A junction's lanes have no neighbours: there it is the one that
+// the vehicle will soon be nearer to than to its own.
+LaneIndex change_target(const LaneTable& table, const LaneTable::Fits& fits, const Situation& situation) {
+  const Lane& lane = table.lane(fits[0].lane);
   const float lateral_mps = situation.track.speed_mps * sin(situation.heading_rad);
-  if (abs(lateral_mps) < kChangeLateralMps || table.lane(lane).in_junction) return kNoLaneIndex;
   const float soon_m = situation.offset_m + lateral_mps;
   const bool leaves = lateral_mps > 0.0F ? soon_m > kChangeOffsetM : soon_m < -kChangeOffsetM;
-  if (!leaves) return kNoLaneIndex;
-  const LaneIndex target = lateral_mps > 0.0F ? table.lane(lane).left : table.lane(lane).right;
-  return table.valid(target) && target != lane ? target : kNoLaneIndex;
+  if (abs(lateral_mps) < kChangeLateralMps || !leaves) return kNoLaneIndex;
+  if (!lane.in_junction) {
+    const LaneIndex beside = lateral_mps > 0.0F ? lane.left : lane.right;
+    return table.valid(beside) && beside != fits[0].lane ? beside : kNoLaneIndex;
+  }
+  const Pose& here = situation.track.centre;
+  const Pose along{here.x_m, here.y_m, here.heading_rad - situation.heading_rad};
+  const Point soon = offset_point(along, 0.0F, lateral_mps);
+  LaneIndex target = kNoLaneIndex;
+  float nearest_m = abs(soon_m);
+  for (const LaneFit& fit : fits) {
+    if (abs(fit.turn_rad) > kAmbiguousRad || same_path(table, fits[0].lane, fit.lane)) continue;
+    table.spend(kNearWork);
+    const float away_m = nearest_on_lane(table.lane(fit.lane), soon).distance_m;
+    if (away_m >= nearest_m) continue;
+    nearest_m = away_m;
+    target = fit.lane;
+  }
+  return target;
 }
 
 // Makes the shortest open chain longer, in as many chains as there is room for.
@@ -192,7 +210,7 @@ void build_agent_paths(const LaneTable& table, bool hindered, Agent& agent) {
   const float candour = hindered ? 0.0F : (table.lane(agent.lane).stop_line_m >= 0.0F ? 0.5F : 1.0F);
   const Situation situation{track, wrap_angle(track.centre.heading_rad - here.heading_rad), here.d_m,
                             candour};
-  const LaneIndex target = change_target(table, agent.lane, situation);
+  const LaneIndex target = change_target(table, fits, situation);
   if (target != kNoLaneIndex) {
     const LaneFix fix = nearest_on_lane(table.lane(target), position(track.centre));
     start_chain(table, target, fix.s_m, 2.0F, chains);

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "algo/core/math.hpp"
+#include "algo/occupancy/lane_reach.hpp"
 #include "tests/support/lane_maps.hpp"
 #include "tests/support/scene_support.hpp"
 
@@ -303,6 +304,31 @@ TEST(SceneBuilder, SeesALaneChangeUnderWay) {
   ASSERT_EQ(changing->paths.size(), 2);
   EXPECT_EQ(changing->paths[0].lanes[0].lane, 1);
   EXPECT_EQ(test::find_agent(scene, 2)->paths.size(), 1);
+}
+
+// OCC-003 Two lanes of a junction side by side are no neighbours in the map, yet vehicles change there: at 8.6 sin(0.11) =
+// 0.94 m/s one 0.8 m left of its centre is 1.46 m from the other's in a second and 1.74 m from its own, so that it may go on in
+// there; 0.4 m left (1.86 and 1.34), or along its lane, it may not; nor where both lanes end in one.
+TEST(SceneBuilder, SeesALaneChangeInsideAJunction) {
+  const auto ways = [](float left_m, float heading_rad, bool merging) {
+    LaneMap map = test::straight_road(2, 100.0F);
+    const LaneIndex after = test::add_lane(map, {{100.0F, 0.0F}, {150.0F, 0.0F}});
+    for (int lane = 0; lane < 2; ++lane) {
+      map.lanes[lane].in_junction = true;
+      map.lanes[lane].left = map.lanes[lane].right = kNoLaneIndex;
+      if (merging || lane == 0) test::link(map, static_cast<LaneIndex>(lane), after);
+    }
+    const scene::Scene scene = test::scene_of(map, test::ego_at(20.0F, 3.2F, 0.0F, 10.0F),
+                                              {test::car(1, 50.0F, left_m, heading_rad, 8.6F)});
+    occupancy::LaneReach reach;
+    reach.measure(map, scene.agents[0]);
+    EXPECT_EQ(reach.to_start_m(1) < occupancy::kNoWayM, scene.agents[0].paths.size() > 1);
+    return scene.agents[0].paths.size();
+  };
+  EXPECT_EQ(ways(0.8F, 0.11F, false), 2);
+  EXPECT_EQ(ways(0.4F, 0.11F, false), 1);
+  EXPECT_EQ(ways(0.8F, 0.0F, false), 1);
+  EXPECT_EQ(ways(0.8F, 0.11F, true), 1);
 }
 
 // A ring of lanes has no end; the path does.
