@@ -7,7 +7,8 @@
 namespace s4tp::scene {
 
 /// Fills paths, probabilities and Frenet coordinates of `agent` from its track; without a lane there are
-/// none. A lane change under way is one of them, inside a junction as well, where lanes have no neighbours. `agent.lane` is the hint on entry and the lane found on return.
+/// none. A lane change under way is one of them, inside a junction as well, where lanes have no neighbours.
+/// `agent.lane` is the hint on entry and the lane found on return.
 /// \param hindered  another vehicle ahead gives it a reason to be slow
 void build_agent_paths(const LaneTable& table, bool hindered, Agent& agent);
 

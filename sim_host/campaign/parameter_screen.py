@@ -5,8 +5,8 @@
     parameter_screen.py table OUT... [--json FILE]
 
 In each setting every parameter is 30 % lower with probability 1/4, 30 % higher with 1/4, else at its default (algo/core/parameters.def),
-independently of the others and of what is driven; setting i drives seed S + i of what the options name, and M of the roads N .. N + K - 1 in turn. So every episode tells of every
-parameter, and a difference is an average over what the others may be: 67 parameters changed one by one would take 45 times the drives.
+independently of the others and of what is driven; setting i drives seed S + i of what the options name, and M of the roads N .. N + K - 1
+in turn. So every episode tells of every parameter, and a difference is an average over what the others may be.
 What stands in OUT/settings.jsonl is not driven again. Differences are of a setting's share of goals, with 95 % intervals over settings.
 """
 

@@ -171,7 +171,8 @@ int run(DataOptions& options) {
   using train::kBlocksBegin;
   if (!options.reporting && (last > kBlocksBegin || last_road > kBlocksBegin)) {
     throw std::invalid_argument(
-        "seeds and roads from 10000 on are for reporting, never for training: with --reporting");
+        "seeds and roads from 10000 on are for reporting: ask for them with --reporting, and nothing learns "
+        "from them");
   }
   if (options.reporting && (options.common.seed < kBlocksBegin || last > kFlavourStep ||
                             options.first_road < kBlocksBegin || last_road > kShippedFrom)) {
