@@ -16,7 +16,16 @@ constexpr float kLeastShare = 1e-4F;
 constexpr float kAlikeM = 0.1F;
 constexpr float kExpectedWeight = 0.5F;
 constexpr float kChoiceWeight = 0.5F;
+constexpr float kLikelihoodWeight = 0.5F;
 constexpr float kEgoWeight = 0.5F;
+
+// A vehicle that shares a zone with us counts as so many.
+constexpr float kSharesZoneCount = 3.0F;
+
+// The likelihood at the horizon's end: a round Gaussian a mode, and off it further than so many metres a
+// straight line, so that one who turned off where nobody thought of does not outweigh all others.
+constexpr float kWidthM = 1.0F;
+constexpr float kFarM = 5.0F;
 
 Tensor weighted_mean(const Tensor& values, const Tensor& weights) {
   return (values * weights).sum() / weights.sum().clamp_min(1.0F);
@@ -28,6 +37,18 @@ Tensor smooth_off(const Tensor& off) {
       torch::remainder(off.slice(-1, 2) + std::numbers::pi, 2.0 * std::numbers::pi) - std::numbers::pi;
   const Tensor both = torch::cat({off.slice(-1, 0, 2), turned}, -1);
   return torch::smooth_l1_loss(both, torch::zeros_like(both), torch::Reduction::None).sum(-1);
+}
+
+// -log of the mixture of modes at the horizon's end, its constant left out [V]. A mean over the steps says little of
+// the few that are far off there, and a choice of the nearest nothing of how sure the others may be.
+Tensor unlikeliness(const Batch& batch, const Decoded& decoded, const Tensor& log_probability) {
+  const Tensor off = decoded.pose.select(2, kHorizonSteps - 1).slice(2, 0, 2) -
+                     batch.target.select(1, kHorizonSteps - 1).slice(1, 0, 2).unsqueeze(1);
+  const Tensor cost =
+      2.0F * torch::huber_loss(off.square().sum(2).clamp_min(1e-6F).sqrt(),
+                               torch::zeros({1}, off.options()).expand({off.size(0), off.size(1)}),
+                               torch::Reduction::None, kFarM);
+  return -torch::logsumexp(log_probability - cost / (2.0F * kWidthM * kWidthM), 1);
 }
 
 }  // namespace
@@ -52,9 +73,13 @@ Loss loss_of(const Batch& batch, const Encoded& encoded, const Decoded& decoded)
   const Tensor seen = (steps > 0).to(torch::kFloat32);
   const Tensor log_probability = torch::log_softmax(decoded.score, 1);
   Loss loss;
-  loss.position = weighted_mean(smooth.gather(1, best).squeeze(1), seen);
-  loss.expected = weighted_mean((log_probability.exp() * smooth).sum(1), seen);
-  loss.mode = weighted_mean(-(share * log_probability).sum(1), seen);
+  const Tensor counts = 1.0F + (kSharesZoneCount - 1.0F) * batch.rule.select(1, 0);
+  const Tensor weight = seen * counts;
+  loss.position = weighted_mean(smooth.gather(1, best).squeeze(1), weight);
+  loss.expected = weighted_mean((log_probability.exp() * smooth).sum(1), weight);
+  loss.mode = weighted_mean(-(share * log_probability).sum(1), weight);
+  loss.likelihood = weighted_mean(unlikeliness(batch, decoded, log_probability),
+                                  batch.target_mask.select(1, kHorizonSteps - 1) * counts);
   const Tensor known = (batch.route >= 0).to(torch::kFloat32);
   const Tensor taken = encoded.route.gather(1, batch.route.clamp_min(0).unsqueeze(1)).squeeze(1);
   loss.route = weighted_mean(-torch::log(taken.clamp_min(kLeastShare)), known);
@@ -64,7 +89,7 @@ Loss loss_of(const Batch& batch, const Encoded& encoded, const Decoded& decoded)
       torch::binary_cross_entropy_with_logits(decoded.yields, yielded, {}, {}, torch::Reduction::None);
   loss.yields = weighted_mean((share * wrong).sum(1), settled);
   loss.total = loss.position + kExpectedWeight * loss.expected +
-               kChoiceWeight * (loss.mode + loss.route + loss.yields);
+               kChoiceWeight * (loss.mode + loss.route + loss.yields) + kLikelihoodWeight * loss.likelihood;
   if (encoded.ego.defined()) {
     // At the instants a sample tells, the ends of its plan steps.
     const Tensor told = encoded.ego.slice(1, satp::kStepsPerDecode - 1, kHorizonSteps, satp::kStepsPerDecode);

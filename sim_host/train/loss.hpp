@@ -1,5 +1,8 @@
 #pragma once
 /// What the training makes small (method.md 2).
+/// TRAIN-017 Who shares a zone with us counts as three: few do, and what they do is what we plan by.
+/// TRAIN-018 Beside the distances the likelihood at the horizon's end, of the mixture of all modes; who is not seen any
+/// more then has none.
 
 #include <torch/types.h>
 
@@ -10,10 +13,11 @@ namespace s4tp::train {
 /// Means over vehicles that were seen for at least one step.
 struct Loss {
   torch::Tensor total;
-  torch::Tensor position;  ///< smooth L1 of the mode nearest to what happened: x, y [m], heading [rad]
-  torch::Tensor expected;  ///< the same of all modes, by their probabilities
-  torch::Tensor mode;      ///< cross-entropy of the modes' probabilities to which of them were nearest
-  torch::Tensor route;     ///< cross-entropy of the attention over lane paths, where the one taken is known
+  torch::Tensor position;    ///< smooth L1 of the mode nearest to what happened: x, y [m], heading [rad]
+  torch::Tensor expected;    ///< the same of all modes, by their probabilities
+  torch::Tensor mode;        ///< cross-entropy of the modes' probabilities to which of them were nearest
+  torch::Tensor likelihood;  ///< -log of the mixture of modes at the horizon's end, up to a constant
+  torch::Tensor route;       ///< cross-entropy of the attention over lane paths, where the one taken is known
   torch::Tensor yields;  ///< of each mode's odds of letting us pass, weighted as in `mode`, where it is known
   torch::Tensor
       ego;  ///< smooth L1 of the ego head where a sample tells our motion; of other sizes than full 0
