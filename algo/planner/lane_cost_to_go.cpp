@@ -13,7 +13,6 @@ constexpr float kFarM = 150.0F;  // the map's horizon
 constexpr float kHorizonS = static_cast<float>(kHorizonSteps) * kStepS;
 constexpr float kFastestMps = 100.0F;  // wanted where nobody is ahead
 constexpr float kCrawlMps = 3.0F;      // who stands or crawls will not do so all the way
-constexpr float kRoomM = 60.0F;        // for each lane change left to do; with no more, nothing else counts
 constexpr float kInsideM = 1.0F;       // aimed at within a gap that has room for it
 
 // Work (WorkMeter's units).
@@ -39,13 +38,7 @@ int LaneCostToGo::look(const scene::Scene& scene, const satp::KinematicSet& cons
   if (scene.ego_paths.empty()) return 0;
   int work = 0;
   const scene::EgoPath& own = scene.ego_paths[0];
-  weight_ = 1.0F;
-  float way_m = 0.0F;
-  for (const float by_s_m : own.change_by_s_m) {
-    way_m = way_m + kRoomM;
-    weight_ = min(weight_, max(0.0F, (by_s_m - own.frenet.s_m - way_m) / kRoomM));
-  }
-  way_m_ = clamp(scene.ego_paths[0].goal_s_m - scene.ego_paths[0].frenet.s_m, 0.0F, kFarM);
+  way_m_ = clamp(own.goal_s_m - own.frenet.s_m, 0.0F, kFarM);
   const int count = constant_velocity.agents.size() < scene.agents.size() ? constant_velocity.agents.size()
                                                                           : scene.agents.size();
   for (const scene::EgoPath& path : scene.ego_paths) {
@@ -64,14 +57,13 @@ int LaneCostToGo::look(const scene::Scene& scene, const satp::KinematicSet& cons
       const float along = cos(wrap_angle(then.heading_rad - frenet.heading_rad));
       if (along < 0.7F) continue;  // crossing and oncoming traffic is no matter of lanes
       const bool in_lane = abs(frenet.d_m) <= half_lane_m;
-      const bool to_return = to_route_m > 0.0F ? frenet.d_m > 0.0F && frenet.d_m < to_route_m + half_lane_m
-                                               : frenet.d_m < 0.0F && frenet.d_m > to_route_m - half_lane_m;
-      if (!in_lane && (path.changes_needed == 0 || !to_return)) continue;
+      const bool to_return = path.changes_needed != 0 && abs(frenet.d_m - to_route_m) <= half_lane_m;
+      if (!in_lane && !to_return) continue;
       (void)lane.seen.push({frenet.s_m, track.length_m, along * track.speed_mps, in_lane});
       lane.returns = lane.returns || !in_lane;
     }
     work += kLaneWork + kOtherWork * count + kGapWork * lane.seen.size();
-    put_in_order(lane.seen, parameters);
+    put_in_order(lane.seen);
     (void)lanes_.push(lane);
   }
   find_gaps(scene, lead_s);
@@ -141,31 +133,35 @@ float LaneCostToGo::delay_s(int path, float s_m, float speed_mps) const {
   const float ideal_s = way_m_ / lane.limit_mps;
   float target_mps = speed_mps;
   float longest_s = arrival_s(lane, lane.target_s_m, s_m, target_mps);
-  if (!lane.returns) return weight_ * max(0.0F, kHorizonS + longest_s - ideal_s);
-  // Where the way back begins we can just stop before the room for it ends.
-  const float per_braking = 0.5F / parameters_->comfort.braking_mps2;
-  float back_mps = speed_mps;
-  (void)arrival_s(lane, lane.room_s_m, s_m, back_mps);
-  float back_s_m = lane.room_s_m - per_braking * square(back_mps);
-  if (back_s_m < s_m) {
-    back_s_m = s_m;
-    back_mps = min(speed_mps, sqrt(max(0.0F, lane.room_s_m - s_m) / per_braking));
-  }
-  float meanwhile_mps = speed_mps;
-  const float back_s = arrival_s(lane, back_s_m, s_m, meanwhile_mps);
-  bool behind = false;  // the vehicle ahead of `other`
+  if (lane.returns) longest_s = max(longest_s, return_s(lane, s_m, speed_mps));
+  return max(0.0F, kHorizonS + longest_s - ideal_s);
+}
+
+bool LaneCostToGo::can_join(const Lane& lane, const LaneGap& gap, float s_m, float speed_mps) const {
+  if (!gap.found) return false;
+  const float time_s = time_to_meet_s(gap, 0.0F, s_m, speed_mps, lane.limit_mps, *parameters_);
+  if (time_s >= occupancy::kNeverS) return false;
+  const float place_m = place_in_gap_m(gap, 0.0F, s_m, speed_mps, time_s);
+  if (place_m > lane.room_s_m) return false;
   for (const LaneVehicle& other : lane.seen) {
-    if (other.in_lane) continue;
-    // While we brake to its speed we get ahead of it still.
-    const float ahead_m = back_s_m + centre_m_ + per_braking * square(max(0.0F, back_mps - other.speed_mps)) -
-                          (other.s_m + other.speed_mps * back_s);
-    const float needed_m = 0.5F * (parameters_->vehicle.length_m + other.length_m) +
-                           safety::change_gap_to_follower_m(other.speed_mps, other.speed_mps, *parameters_);
-    if (ahead_m >= needed_m && !(behind && other.tight)) break;  // there is room in front of it
-    behind = true;
-    longest_s = max(longest_s, behind_s(other, lane.target_s_m));
+    if (!other.in_lane || other.s_m < s_m + centre_m_) continue;
+    if (place_m + centre_m_ + standing_gap_m(other) > other.s_m + other.speed_mps * time_s) return false;
   }
-  return weight_ * max(0.0F, kHorizonS + longest_s - ideal_s);
+  return true;
+}
+
+float LaneCostToGo::return_s(const Lane& lane, float s_m, float speed_mps) const {
+  const LaneVehicle* front = nullptr;
+  for (int i = 0; i <= lane.seen.size(); ++i) {
+    const LaneVehicle* rear = i < lane.seen.size() ? &lane.seen[i] : nullptr;
+    if (rear != nullptr && rear->in_lane) continue;
+    if (can_join(lane, gap_between(front, rear, lane.limit_mps, *parameters_), s_m, speed_mps))
+      return front != nullptr ? behind_s(*front, lane.target_s_m) : 0.0F;
+    if (rear != nullptr) front = rear;
+  }
+  const occupancy::Pace from_rest = {0.0F, parameters_->comfort.acceleration_mps2, lane.limit_mps};
+  return max(0.0F, behind_s(*front, lane.room_s_m)) +
+         occupancy::time_to_cover_s(from_rest, max(0.0F, lane.target_s_m - lane.room_s_m));
 }
 
 float LaneCostToGo::closing_up_mps(int path, float start_s_m, float s_m, float time_s) const {

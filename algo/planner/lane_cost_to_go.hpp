@@ -21,8 +21,7 @@ class LaneCostToGo {
 
   /// Time lost [s] against driving at the limit, until the goal or 150 m from here, by whoever is at `s_m`
   /// with `speed_mps` at the horizon's end and then stays in the lane of `path`: behind the slower ones in
-  /// it, and behind those in the lanes of the route that cannot be passed before the way back into them.
-  /// Counts less, then nothing, as the room for lane changes that we have to make shortens.
+  /// it, and behind those in the route's lane of whose gaps none further ahead can be joined before the room for it ends.
   [[nodiscard]] float delay_s(int path, float s_m, float speed_mps) const;
 
   /// Speed at which one closes up on whoever is ahead in the lane of `path`, to stand as far behind it as behind one that
@@ -42,7 +41,7 @@ class LaneCostToGo {
  private:
   struct Lane {
     LaneVehicles seen;
-    bool returns = false;     ///< somebody is in a lane we have to return to
+    bool returns = false;     ///< somebody is in the route's lane, which we have to change to
     LaneGap gap;              ///< that we can meet, in a lane beside ours
     float target_s_m = 0.0F;  ///< how far we drive on in thought
     float room_s_m = 0.0F;    ///< where we must have come to rest if a change due has not been made
@@ -55,12 +54,17 @@ class LaneCostToGo {
   [[nodiscard]] float behind_s(const LaneVehicle& other, float to_s_m) const;
   /// When we are at `to_s_m`, from `s_m`, alone or behind somebody in the lane. \param speed_mps  ours; then
   float arrival_s(const Lane& lane, float to_s_m, float s_m, float& speed_mps) const;
+  /// Whether we can be in a gap of the route's lane, at its speed, before the room for the change ends, and not by running
+  /// into whoever is ahead of us until then.
+  [[nodiscard]] bool can_join(const Lane& lane, const LaneGap& gap, float s_m, float speed_mps) const;
+  /// When we are at the lane's target by way of the route's: in the foremost gap there that can be joined, or from rest at the
+  /// last place when all have passed. \pre lane.returns
+  [[nodiscard]] float return_s(const Lane& lane, float s_m, float speed_mps) const;
   void find_gaps(const scene::Scene& scene, float lead_s);
 
   BoundedVector<Lane, decltype(scene::Scene::ego_paths)::kCapacity> lanes_;
   const Parameters* parameters_ = nullptr;
   float way_m_ = 0.0F;
-  float weight_ = 1.0F;    ///< of time: 1 while there is ample room for the lane changes left to do
   float centre_m_ = 0.0F;  ///< from our rear axle
   float our_s_m_ = 0.0F;   ///< along the keep path, at plan start
 };

@@ -4,6 +4,7 @@
 #include "algo/core/sort.hpp"
 #include "algo/occupancy/pace.hpp"
 #include "algo/safety/change_gaps.hpp"
+#include "algo/scene/scene.hpp"
 #include "algo/trajectory/bicycle.hpp"
 
 namespace s4tp::planner {
@@ -30,6 +31,16 @@ float time_to_gain_s(float way_m, float speed, float up, float down, float top) 
   return max(0.0F, top - speed) / up + top / down + steady_m / top;
 }
 
+/// A vehicle hardly faster than the one ahead is in a column with it, and comes no nearer.
+void keep_distance(const LaneVehicle& ahead, LaneVehicle& vehicle) {
+  const float faster_mps = vehicle.speed_mps - ahead.speed_mps;
+  if (faster_mps <= 0.0F || faster_mps > kAlikeMps) return;
+  vehicle.s_m = vehicle.s_m - faster_mps * kHorizonS;
+  vehicle.speed_mps = ahead.speed_mps;
+}
+
+}  // namespace
+
 LaneGap gap_between(const LaneVehicle* front, const LaneVehicle* rear, float limit_mps,
                     const Parameters& parameters) {
   LaneGap gap;
@@ -53,24 +64,12 @@ LaneGap gap_between(const LaneVehicle* front, const LaneVehicle* rear, float lim
   return gap;
 }
 
-/// A vehicle hardly faster than the one ahead is in a column with it, and comes no nearer.
-void keep_distance(const LaneVehicle& ahead, LaneVehicle& vehicle) {
-  const float faster_mps = vehicle.speed_mps - ahead.speed_mps;
-  if (faster_mps <= 0.0F || faster_mps > kAlikeMps) return;
-  vehicle.s_m = vehicle.s_m - faster_mps * kHorizonS;
-  vehicle.speed_mps = ahead.speed_mps;
-}
-
-}  // namespace
-
-void put_in_order(LaneVehicles& vehicles, const Parameters& parameters) {
+void put_in_order(LaneVehicles& vehicles) {
   sort(vehicles, [](const LaneVehicle& a, const LaneVehicle& b) { return a.s_m > b.s_m; });
   const LaneVehicle* front[2] = {nullptr, nullptr};
   for (LaneVehicle& vehicle : vehicles) {
     const LaneVehicle*& ahead = front[vehicle.in_lane ? 1 : 0];
     if (ahead != nullptr) keep_distance(*ahead, vehicle);
-    const float limit_mps = vehicle.speed_mps;
-    vehicle.tight = ahead != nullptr && !gap_between(ahead, &vehicle, limit_mps, parameters).found;
     ahead = &vehicle;
   }
 }
@@ -94,6 +93,14 @@ float time_to_meet_s(const LaneGap& gap, float ahead_s, float s_m, float speed_m
   return gap.bounded_behind ? -speed / drive : 0.0F;
 }
 
+float place_in_gap_m(const LaneGap& gap, float ahead_s, float s_m, float speed_mps, float time_s) {
+  const float moved_m = gap.speed_mps * (time_s - ahead_s);
+  float place_m = s_m + 0.5F * (speed_mps + gap.speed_mps) * time_s;
+  if (gap.bounded_behind) place_m = max(place_m, gap.rear_s_m + moved_m);
+  if (gap.bounded_ahead) place_m = min(place_m, gap.front_s_m + moved_m);
+  return place_m;
+}
+
 LaneGap find_lane_gap(const LaneVehicles& vehicles, const GapSeeker& us, const Parameters& parameters) {
   LaneVehicles lane;
   for (const LaneVehicle& vehicle : vehicles) {
@@ -107,13 +114,9 @@ LaneGap find_lane_gap(const LaneVehicles& vehicles, const GapSeeker& us, const P
     if (!gap.found) continue;
     const float time_s = time_to_meet_s(gap, kHorizonS, us.s_m, us.speed_mps, us.limit_mps, parameters);
     if (time_s > (us.change_due ? kDuePatienceS : kPatienceS)) continue;
-    // Where we are in it then: at its nearer end, or where matching its speed takes us.
-    float place_m = us.s_m + 0.5F * (us.speed_mps + gap.speed_mps) * time_s;
-    const float moved_m = gap.speed_mps * (time_s - kHorizonS);
-    if (gap.bounded_behind) place_m = max(place_m, gap.rear_s_m + moved_m);
-    if (gap.bounded_ahead) place_m = min(place_m, gap.front_s_m + moved_m);
+    const float place_m = place_in_gap_m(gap, kHorizonS, us.s_m, us.speed_mps, time_s);
     const float stop_m = stopping_way_m(gap.speed_mps, parameters.comfort.braking_mps2);
-    if (us.change_due && place_m + stop_m > us.end_s_m) continue;
+    if (us.change_due && place_m + max(stop_m, scene::kChangeWayM) > us.end_s_m) continue;
     const float leader_s_m = us.leader_s_m + us.leader_mps * time_s - parameters.comfort.standstill_gap_m;
     if (us.has_leader && place_m > leader_s_m) continue;
     return gap;

@@ -13,8 +13,7 @@ struct LaneVehicle {
   float s_m = 0.0F;  ///< of its box centre
   float length_m = 0.0F;
   float speed_mps = 0.0F;
-  bool in_lane = false;  ///< of the path; else in a lane we have to return to
-  bool tight = false;    ///< no car of ours fits between it and the next one ahead in its lane
+  bool in_lane = false;  ///< of the path; else in the route's lane, which we have to change to
 };
 using LaneVehicles = BoundedVector<LaneVehicle, kMaxTracks>;
 
@@ -41,18 +40,26 @@ struct GapSeeker {
   float leader_mps = 0.0F;
 };
 
-/// Foremost first; and says who is tight behind whom. A vehicle faster than the one ahead by 0.5 m/s at
-/// most is in a column with it and comes no nearer (GAP-004).
-void put_in_order(LaneVehicles& vehicles, const Parameters& parameters);
+/// Foremost first. A vehicle faster than the one ahead by 0.5 m/s at most is in a column with it and comes no nearer
+/// (GAP-004).
+void put_in_order(LaneVehicles& vehicles);
 
 /// Time [s] until we are in the gap at its speed, by comfortable drive and braking; occupancy::kNeverS: never.
 /// \param ahead_s  when we are at `s_m`, before (positive) the horizon's end
 [[nodiscard]] float time_to_meet_s(const LaneGap& gap, float ahead_s, float s_m, float speed_mps,
                                    float limit_mps, const Parameters& parameters);
 
+/// Where we are when we are in it after `time_s`: at its nearer end, or where matching its speed takes us.
+[[nodiscard]] float place_in_gap_m(const LaneGap& gap, float ahead_s, float s_m, float speed_mps,
+                                   float time_s);
+
+/// The gap behind `front` and ahead of `rear`; nullptr: nobody is there.
+[[nodiscard]] LaneGap gap_between(const LaneVehicle* front, const LaneVehicle* rear, float limit_mps,
+                                  const Parameters& parameters);
+
 /// GAP-001 The foremost gap that takes a car of ours and can be met within 8 s, or 20 s when the change is
-/// due, not by running into our own leader (GAP-002), and where we can still stop from its speed before our
-/// lane ends (GAP-003). Not found: none, or the lane is free. \pre vehicles are in order
+/// due, not by running into our own leader (GAP-002), and where we can still stop from its speed, or
+/// change, before our lane ends (GAP-003). Not found: none, or the lane is free. \pre vehicles are in order
 [[nodiscard]] LaneGap find_lane_gap(const LaneVehicles& vehicles, const GapSeeker& us,
                                     const Parameters& parameters);
 
