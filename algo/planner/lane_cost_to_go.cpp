@@ -13,6 +13,7 @@ constexpr float kFarM = 150.0F;  // the map's horizon
 constexpr float kHorizonS = static_cast<float>(kHorizonSteps) * kStepS;
 constexpr float kFastestMps = 100.0F;  // wanted where nobody is ahead
 constexpr float kCrawlMps = 3.0F;      // who stands or crawls will not do so all the way
+constexpr float kRoomM = 60.0F;        // for each lane change left to do; with no more, nothing else counts
 constexpr float kInsideM = 1.0F;       // aimed at within a gap that has room for it
 
 // Work (WorkMeter's units).
@@ -38,6 +39,12 @@ int LaneCostToGo::look(const scene::Scene& scene, const satp::KinematicSet& cons
   if (scene.ego_paths.empty()) return 0;
   int work = 0;
   const scene::EgoPath& own = scene.ego_paths[0];
+  weight_ = 1.0F;
+  float way_m = 0.0F;
+  for (const float by_s_m : own.change_by_s_m) {
+    way_m = way_m + kRoomM;
+    weight_ = min(weight_, max(0.0F, (by_s_m - own.frenet.s_m - way_m) / kRoomM));
+  }
   way_m_ = clamp(own.goal_s_m - own.frenet.s_m, 0.0F, kFarM);
   const int count = constant_velocity.agents.size() < scene.agents.size() ? constant_velocity.agents.size()
                                                                           : scene.agents.size();
@@ -134,20 +141,34 @@ float LaneCostToGo::delay_s(int path, float s_m, float speed_mps) const {
   float target_mps = speed_mps;
   float longest_s = arrival_s(lane, lane.target_s_m, s_m, target_mps);
   if (lane.returns) longest_s = max(longest_s, return_s(lane, s_m, speed_mps));
-  return max(0.0F, kHorizonS + longest_s - ideal_s);
+  return weight_ * max(0.0F, kHorizonS + longest_s - ideal_s);
 }
 
-bool LaneCostToGo::can_join(const Lane& lane, const LaneGap& gap, float s_m, float speed_mps) const {
-  if (!gap.found) return false;
-  const float time_s = time_to_meet_s(gap, 0.0F, s_m, speed_mps, lane.limit_mps, *parameters_);
-  if (time_s >= occupancy::kNeverS) return false;
-  const float place_m = place_in_gap_m(gap, 0.0F, s_m, speed_mps, time_s);
-  if (place_m > lane.room_s_m) return false;
+bool LaneCostToGo::can_be_at(const Lane& lane, float place_s_m, float time_s, float s_m) const {
+  if (time_s >= occupancy::kNeverS || place_s_m > lane.room_s_m) return false;
   for (const LaneVehicle& other : lane.seen) {
     if (!other.in_lane || other.s_m < s_m + centre_m_) continue;
-    if (place_m + centre_m_ + standing_gap_m(other) > other.s_m + other.speed_mps * time_s) return false;
+    if (place_s_m + centre_m_ + standing_gap_m(other) > other.s_m + other.speed_mps * time_s) return false;
   }
   return true;
+}
+
+bool LaneCostToGo::can_join(const Lane& lane, const LaneVehicle* front, const LaneVehicle* rear, float s_m,
+                            float speed_mps) const {
+  if (front == nullptr) {
+    // Ahead of all of them we need not be as slow as they are, but as fast as we can be by then.
+    const float gained = 2.0F * parameters_->comfort.acceleration_mps2 * max(0.0F, lane.room_s_m - s_m);
+    const float own_mps = min(lane.limit_mps, sqrt(square(speed_mps) + gained));
+    const float ahead_m = 0.5F * rear->length_m + parameters_->vehicle.rear_overhang_m +
+                          safety::change_gap_to_follower_m(own_mps, rear->speed_mps, *parameters_);
+    const float way_m = max(0.0F, rear->s_m + ahead_m - s_m);
+    const float time_s = way_m / max(own_mps - rear->speed_mps, 0.01F);
+    return can_be_at(lane, s_m + own_mps * time_s, time_s, s_m);
+  }
+  const LaneGap gap = gap_between(front, rear, lane.limit_mps, *parameters_);
+  if (!gap.found) return false;
+  const float time_s = time_to_meet_s(gap, 0.0F, s_m, speed_mps, lane.limit_mps, *parameters_);
+  return can_be_at(lane, place_in_gap_m(gap, 0.0F, s_m, speed_mps, time_s), time_s, s_m);
 }
 
 float LaneCostToGo::return_s(const Lane& lane, float s_m, float speed_mps) const {
@@ -155,7 +176,7 @@ float LaneCostToGo::return_s(const Lane& lane, float s_m, float speed_mps) const
   for (int i = 0; i <= lane.seen.size(); ++i) {
     const LaneVehicle* rear = i < lane.seen.size() ? &lane.seen[i] : nullptr;
     if (rear != nullptr && rear->in_lane) continue;
-    if (can_join(lane, gap_between(front, rear, lane.limit_mps, *parameters_), s_m, speed_mps))
+    if (can_join(lane, front, rear, s_m, speed_mps))
       return front != nullptr ? behind_s(*front, lane.target_s_m) : 0.0F;
     if (rear != nullptr) front = rear;
   }

@@ -22,6 +22,7 @@ class LaneCostToGo {
   /// Time lost [s] against driving at the limit, until the goal or 150 m from here, by whoever is at `s_m`
   /// with `speed_mps` at the horizon's end and then stays in the lane of `path`: behind the slower ones in
   /// it, and behind those in the route's lane of whose gaps none further ahead can be joined before the room for it ends.
+  /// Counts less, then nothing, as the room for lane changes that we have to make shortens.
   [[nodiscard]] float delay_s(int path, float s_m, float speed_mps) const;
 
   /// Speed at which one closes up on whoever is ahead in the lane of `path`, to stand as far behind it as behind one that
@@ -54,9 +55,12 @@ class LaneCostToGo {
   [[nodiscard]] float behind_s(const LaneVehicle& other, float to_s_m) const;
   /// When we are at `to_s_m`, from `s_m`, alone or behind somebody in the lane. \param speed_mps  ours; then
   float arrival_s(const Lane& lane, float to_s_m, float s_m, float& speed_mps) const;
-  /// Whether we can be in a gap of the route's lane, at its speed, before the room for the change ends, and not by running
-  /// into whoever is ahead of us until then.
-  [[nodiscard]] bool can_join(const Lane& lane, const LaneGap& gap, float s_m, float speed_mps) const;
+  /// Whether whoever goes from `s_m` to a place in a gap may be there after `time_s`: before the room for the change ends,
+  /// and not by running into somebody ahead.
+  [[nodiscard]] bool can_be_at(const Lane& lane, float place_s_m, float time_s, float s_m) const;
+  /// Whether we can be in the gap of the route's lane behind `front`, at its speed, or ahead of all. \pre not both nullptr
+  [[nodiscard]] bool can_join(const Lane& lane, const LaneVehicle* front, const LaneVehicle* rear, float s_m,
+                              float speed_mps) const;
   /// When we are at the lane's target by way of the route's: in the foremost gap there that can be joined, or from rest at the
   /// last place when all have passed. \pre lane.returns
   [[nodiscard]] float return_s(const Lane& lane, float s_m, float speed_mps) const;
@@ -65,6 +69,7 @@ class LaneCostToGo {
   BoundedVector<Lane, decltype(scene::Scene::ego_paths)::kCapacity> lanes_;
   const Parameters* parameters_ = nullptr;
   float way_m_ = 0.0F;
+  float weight_ = 1.0F;    ///< of time: 1 while there is ample room for the lane changes left to do
   float centre_m_ = 0.0F;  ///< from our rear axle
   float our_s_m_ = 0.0F;   ///< along the keep path, at plan start
 };

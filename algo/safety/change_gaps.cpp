@@ -23,10 +23,8 @@ float change_gap_to_follower_m(float own_mps, float follower_mps, const Paramete
   const auto& rss = parameters.rss;
   const auto& guard = parameters.guard;
   const float own_stop_m = own_mps * guard.takeover_s + stopping_way_m(own_mps, kShare * guard.braking_mps2);
-  const float gains_s = kOverLineS + rss.response_s;
-  const float gained_mps = follower_mps + parameters.law.gain_mps2 * gains_s;
   const float its_stop_m =
-      0.5F * (follower_mps + gained_mps) * gains_s + stopping_way_m(gained_mps, rss.braking_min_mps2);
+      follower_mps * (kOverLineS + rss.response_s) + stopping_way_m(follower_mps, rss.braking_min_mps2);
   return kChangeStandingGapM + max(0.0F, its_stop_m - own_stop_m);
 }
 

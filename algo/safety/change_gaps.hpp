@@ -12,8 +12,7 @@ inline constexpr float kOverLineS = 0.5F;           ///< until a lane change jus
 /// Least gap [m] to a leader at `leader_mps` that brakes with law.braking_max.
 [[nodiscard]] float change_gap_to_leader_m(float own_mps, float leader_mps, const Parameters& parameters);
 
-/// Least gap [m] to a follower that gains law.gain until we are over the line and for rss rho more, then brakes with rss
-/// b_min (GUARD-009).
+/// Least gap [m] to a follower that brakes with rss b_min, rss rho after we are over the line.
 [[nodiscard]] float change_gap_to_follower_m(float own_mps, float follower_mps, const Parameters& parameters);
 
 }  // namespace s4tp::safety

@@ -15,6 +15,10 @@ static_assert(kNetworkAgentWork == satp::kMcuShape.modes * satp::kDecoderSteps);
 // Driven no further in 3 s, a vehicle goes on standing.
 constexpr float kStaysM = kStandingMps * static_cast<float>(kHorizonSteps) * kStepS;
 
+// What of a vehicle's mass goes on standing when none of its futures does. The network sees a second of the past:
+// without such a future nothing that is seen for longer could speak for it.
+constexpr float kStandsProbability = 0.05F;
+
 // By where it ends: a network's poses jitter on the way.
 float moved_m(const Mode& mode, const Pose& from) {
   return distance(position(from), position(mode.steps[kHorizonSteps - 1]));
@@ -29,6 +33,20 @@ void drop_least(AgentPrediction& futures) {
   const float rest = 1.0F - futures.modes[least].probability;
   futures.modes.swap_remove(least);
   for (Mode& mode : futures.modes) mode.probability = mode.probability / rest;
+}
+
+// One that stands has a future in which it goes on standing.
+void let_stand(const Pose& here, AgentPrediction& futures) {
+  for (const Mode& mode : futures.modes) {
+    if (moved_m(mode, here) < kStaysM) return;
+  }
+  drop_least(futures);
+  for (Mode& mode : futures.modes) mode.probability = mode.probability * (1.0F - kStandsProbability);
+  Mode stands;
+  stands.probability = kStandsProbability;
+  for (Pose& step : stands.steps) step = here;
+  measure_steps(stands);
+  (void)futures.modes.push(stands);
 }
 
 }  // namespace
@@ -61,6 +79,7 @@ void SatpPredictor::believe(int index, const satp::Futures& futures, AgentPredic
   const Track& track = scene_->agents[index].track;
   // Of whoever stands it was seen that it goes on standing, in the junction, too.
   const bool stands = track.speed_mps < kStandingMps;
+  if (stands) let_stand(encoded_.anchor[index], result);
   if (!stands && pair[static_cast<int>(satp::PairFeature::kZone)] == 0.0F) return;
   const float seen_if_yielding = exp(beliefs_ == nullptr ? 0.0F : beliefs_->evidence(track.id));
   float sum = 0.0F;

@@ -24,7 +24,7 @@ class SatpPredictor {
 
   /// As Predictor::decode. SATP-052 Without weights the bits are Predictor's. SATP-053 What
   /// was seen of a vehicle weighs its futures by how likely each is to let us pass, or, of one that stands, to
-  /// go on standing. SATP-054 What trust is missing goes to the kinematic future; without any,
+  /// go on standing; there is always one in which it does. SATP-054 What trust is missing goes to the kinematic future; without any,
   /// its futures stand alone.
   void decode(const Trajectory* plan, int allowance, PredictionSet& prediction) const;
 

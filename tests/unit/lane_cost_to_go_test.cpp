@@ -94,12 +94,31 @@ TEST(LaneCostToGo, WhoCannotJoinWaitsForAllToPass) {
   EXPECT_NEAR(road.cost_to_go.delay_s(1, 278.0F, 2.0F), 3.0F, 0.05F);
 }
 
+// A change that we have to make comes first: with 60 m left for it time counts for nothing, with 90 m half of
+// what it does with 120 m.
+TEST(LaneCostToGo, DeadlinesComeBeforeTime) {
+  float delays_s[3] = {};
+  const float rooms_m[3] = {60.0F, 90.0F, 120.0F};
+  for (int i = 0; i < 3; ++i) {
+    Road road;
+    need_changes(road.scene.ego_paths[0], 1, 20.0F + rooms_m[i]);
+    road.scene.ego_paths[1].changes_needed = 0;
+    road.vehicle(0, 60.0F, 5.0F);
+    road.look();
+    delays_s[i] = road.cost_to_go.delay_s(0, 50.0F, 10.0F);
+  }
+  EXPECT_EQ(delays_s[0], 0.0F);
+  EXPECT_NEAR(delays_s[1], 0.5F * delays_s[2], 0.01F);
+  EXPECT_NEAR(delays_s[2], 10.0F, 0.05F);
+}
+
 // Whom we could pass in time, but who leaves no room behind the one we cannot pass, is not passed either: 15
 // m behind that one, at 57 m at the horizon's end, it costs (171.5 + 18.3 - 57) / 9 = 14.8 s: 2.8 s lost. At
-// 30 m there is room: 5 + 5 m of lengths, 7.53 in front, 11.51 behind, 0.4 m to spare are 29.4 m.
+// 25 m there is room: 5 + 5 m of lengths, 1 + 81/10 - 81/16 in front, 1 + 0.2 * 9 behind, 0.4 m to spare
+// are 17.2 m.
 TEST(LaneCostToGo, NoReturnIntoATightColumn) {
   float delays_s[2] = {};
-  const float centres_m[2] = {30.0F, 15.0F};
+  const float centres_m[2] = {30.0F, 20.0F};
   for (int i = 0; i < 2; ++i) {
     Road road;
     road.vehicle(0, 45.0F, 9.0F);
