@@ -120,17 +120,13 @@ float LaneCostToGo::behind_s(const LaneVehicle& other, float to_s_m) const {
   return (to_s_m + centre_m_ + gap_m - other.s_m) / speed;
 }
 
-float LaneCostToGo::arrival_s(const Lane& lane, float to_s_m, float s_m, float& speed_mps) const {
+float LaneCostToGo::arrival_s(const Lane& lane, float s_m, float speed_mps) const {
   const occupancy::Pace alone = {min(speed_mps, lane.limit_mps), parameters_->comfort.acceleration_mps2,
                                  lane.limit_mps};
-  float longest_s = occupancy::time_to_cover_s(alone, to_s_m - s_m);
-  speed_mps = lane.limit_mps;
+  float longest_s = occupancy::time_to_cover_s(alone, lane.target_s_m - s_m);
   for (const LaneVehicle& other : lane.seen) {
-    if (!other.in_lane || other.s_m < s_m + centre_m_) continue;
-    const float time_s = behind_s(other, to_s_m);
-    if (time_s <= longest_s) continue;
-    longest_s = time_s;
-    speed_mps = min(lane.limit_mps, max(other.speed_mps, kCrawlMps));
+    if (other.in_lane && other.s_m >= s_m + centre_m_)
+      longest_s = max(longest_s, behind_s(other, lane.target_s_m));
   }
   return longest_s;
 }
@@ -138,8 +134,7 @@ float LaneCostToGo::arrival_s(const Lane& lane, float to_s_m, float s_m, float& 
 float LaneCostToGo::delay_s(int path, float s_m, float speed_mps) const {
   const Lane& lane = lanes_[path];
   const float ideal_s = way_m_ / lane.limit_mps;
-  float target_mps = speed_mps;
-  float longest_s = arrival_s(lane, lane.target_s_m, s_m, target_mps);
+  float longest_s = arrival_s(lane, s_m, speed_mps);
   if (lane.returns) longest_s = max(longest_s, return_s(lane, s_m, speed_mps));
   return weight_ * max(0.0F, kHorizonS + longest_s - ideal_s);
 }

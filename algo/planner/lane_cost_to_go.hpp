@@ -53,8 +53,8 @@ class LaneCostToGo {
   [[nodiscard]] float standing_gap_m(const LaneVehicle& other) const;
   /// When we are at `to_s_m`, behind the other.
   [[nodiscard]] float behind_s(const LaneVehicle& other, float to_s_m) const;
-  /// When we are at `to_s_m`, from `s_m`, alone or behind somebody in the lane. \param speed_mps  ours; then
-  float arrival_s(const Lane& lane, float to_s_m, float s_m, float& speed_mps) const;
+  /// When we are at the lane's target, from `s_m`, alone or behind somebody in the lane.
+  [[nodiscard]] float arrival_s(const Lane& lane, float s_m, float speed_mps) const;
   /// Whether whoever goes from `s_m` to a place in a gap may be there after `time_s`: before the room for the change ends,
   /// and not by running into somebody ahead.
   [[nodiscard]] bool can_be_at(const Lane& lane, float place_s_m, float time_s, float s_m) const;
