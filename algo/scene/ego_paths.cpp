@@ -135,13 +135,19 @@ LaneIndex lane_beside(const LaneTable& table, LaneIndex index, bool left) {
   return !lane.in_junction && table.valid(beside) ? beside : kNoLaneIndex;
 }
 
-// Between which places the changes that part `last` of the path asks for can be made. Lanes side by side begin side by side.
+// Between which places the changes that part `last` of the path asks for can be made: from the first lane on that asks for
+// some of them and has one beside. What lies between, as the seams of junctions, is passed as it is.
 void find_change_places(const LaneTable& table, int last, EgoPath& ego_path) {
   const bool left = ego_path.changes_needed > 0;
   const int changes = left ? ego_path.changes_needed : -ego_path.changes_needed;
   const PathLane& part = ego_path.path.lanes[last];
-  int first = last;
-  while (first > 0 && lane_beside(table, ego_path.path.lanes[first - 1].lane, left) != kNoLaneIndex) --first;
+  const auto can_change = [&](const PathLane& there) {
+    const Lane& lane = table.lane(there.lane);
+    return (left ? lane.changes_needed > 0 : lane.changes_needed < 0) &&
+           lane_beside(table, there.lane, left) != kNoLaneIndex;
+  };
+  int first = 0;
+  while (first < last && !can_change(ego_path.path.lanes[first])) ++first;
   ego_path.change_from_s_m = ego_path.path.lanes[first].start_s_m;
   LaneIndex index = part.lane;
   float by_s_m = ego_path.route_end_s_m;

@@ -190,6 +190,29 @@ TEST(SceneBuilder, KnowsOnTheRampByWhenEachLaneChangeIsToBeMade) {
   EXPECT_NEAR(path.route_end_s_m, 130.0F, 0.1F);
 }
 
+// Lanes side by side, cut by a seam of 1 m that has none beside it: what can be changed before the seam can be begun there, at 0, and
+// not only beyond. Drives gave up half a change on passing the seam, as what they had paid little for cost everything from there on.
+TEST(SceneBuilder, ASeamWithoutNeighboursDoesNotPutOffALaneChange) {
+  LaneMap map;
+  const LaneIndex before = test::add_lane(map, {{-60.0F, 0.0F}, {0.0F, 0.0F}});
+  const LaneIndex beside_before = test::add_lane(map, {{-60.0F, 3.2F}, {0.0F, 3.2F}});
+  const LaneIndex seam = test::add_lane(map, {{0.0F, 0.0F}, {1.0F, 0.0F}});
+  const LaneIndex after = test::add_lane(map, {{1.0F, 0.0F}, {101.0F, 0.0F}});
+  const LaneIndex beside_after = test::add_lane(map, {{1.0F, 3.2F}, {101.0F, 3.2F}});
+  test::link(map, before, seam);
+  test::link(map, seam, after);
+  test::neighbours(map, before, beside_before);
+  test::neighbours(map, after, beside_after);
+  for (const LaneIndex lane : {before, seam, after}) map.lanes[lane].changes_needed = 1;
+  map.lanes[seam].in_junction = true;
+  const scene::Scene scene = test::scene_of(map, test::ego_at(-40.0F, 0.0F, 0.0F, 8.0F), {});
+  ASSERT_GE(scene.ego_paths.size(), 1);
+  const scene::EgoPath& path = scene.ego_paths[0];
+  ASSERT_EQ(path.changes_needed, 1);
+  EXPECT_NEAR(path.change_by_s_m[0], 161.0F, 0.1F);
+  EXPECT_NEAR(path.change_from_s_m, 0.0F, 0.1F);
+}
+
 // The route turns left: our path does too, and its goal and end lie where the route says.
 TEST(SceneBuilder, FollowsTheRouteThroughTheJunction) {
   CrossJunction cross = test::cross_junction();
