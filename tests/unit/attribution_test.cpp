@@ -62,6 +62,24 @@ Network slow_road(Rule rule) {
   return network;
 }
 
+/// The ego stands 0.8 m before the zone, in sight of one that stands 0.5 m before it, sets off at t = 0 with 3 m/s^2 and goes in at
+/// t = 0.73; at t = 0.3 it needs 0.9 m and 0.1 m to stop, and 0.67 m are left. The other sets off at `their_start_s` with 2 m/s^2.
+Verdict both_set_off(double their_start_s, double until_s) {
+  return judged(test::judged_road(Rule::kFirstYields), -5.0, until_s, [&](double t) {
+    const double ours_s = std::max(0.0, t);
+    const double theirs_s = std::max(0.0, t - their_start_s);
+    return std::vector<CarState>{eastbound(0, 105.2 + 1.5 * ours_s * ours_s, 0.0, 3.0 * ours_s),
+                                 northbound(7, -4.5 + theirs_s * theirs_s, 2.0 * theirs_s)};
+  });
+}
+
+// LAW-005 Whoever had let us go and sets off when we could not stop any more is bound; one that sets off before is not, and is
+// faster than 0.3 m/s, so that it does not stand, by then.
+TEST(Attribution, ALicenceLostTooLateToStopHolds) {
+  EXPECT_EQ(pair(both_set_off(0.4, 1.5)), std::pair(Fault::kOther, Cause::kIntoRightful));
+  EXPECT_EQ(pair(both_set_off(-0.1, 1.2)), std::pair(Fault::kEgo, Cause::kEntered));
+}
+
 // LAW-022 Licensed, as 1.5 s and 8^2 / 4 are 28 m: the other should have stopped, although we had to yield.
 TEST(Attribution, DrivingIntoOneThereByRight) {
   const Network network = slow_road(Rule::kFirstYields);

@@ -112,7 +112,7 @@ void Traffic::decide(const Actor* ego) {
 }
 
 void Traffic::watch(const Actor& ego, const traffic::TrafficView& others) {
-  const bool was_inside = ego_ && ego_->inside >= 0;
+  ego_driven_m_ += ego_ ? 0.5 * kDecision_s * (ego_->actor.speed_mps + ego.speed_mps) : 0.0;
   Watched now;
   now.actor = ego;
   now.actor.way = others.way_from(ego.lane, ego.s_m, ego.guide);
@@ -122,28 +122,34 @@ void Traffic::watch(const Actor& ego, const traffic::TrafficView& others) {
   bool near = false;
   for (std::size_t i = 0; i < ego_->groups.size(); ++i) {
     const judge::ZoneGroup& group = ego_->groups[i];
-    if (group.entry_m <= 0.0 && group.exit_m > 0.0) ego_->inside = static_cast<int>(i);
-    near = near || (group.entry_m > 0.0 && group.entry_m < law_.shown_within_m);
+    const bool ahead = group.entry_m > 0.0;
+    near = near || (ahead && group.entry_m < law_.shown_within_m);
+    if (!ahead && group.exit_m > 0.0) ego_->inside = static_cast<int>(i);
+    if (ego_->taken < 0 && group.exit_m > 0.0 && !judge::can_stop(law_, ego.speed_mps, group.entry_m))
+      ego_->taken = static_cast<int>(i);
   }
-  if (ego_->inside >= 0) {
-    const judge::ZoneGroup& group = ego_->groups[static_cast<std::size_t>(ego_->inside)];
-    const bool goes_in = !was_inside || group.entry_m > -kDecision_s * ego.speed_mps;
-    if (goes_in) bind(group, others);
-  } else {
+  ego_shown_s_ = near || ego_->inside >= 0 ? ego_shown_s_ + kDecision_s : 0.0;
+  if (ego_->taken < 0) {
+    taken_entered_ = false;
     for (auto& [id, mind] : minds_) mind.owes_zone = false;
+  } else {
+    bind(ego_->groups[static_cast<std::size_t>(ego_->taken)], others);
   }
-  ego_shown_s_ = near ? ego_shown_s_ + kDecision_s : 0.0;
 }
 
 void Traffic::bind(const judge::ZoneGroup& group, const traffic::TrafficView& others) {
+  const bool another = ego_driven_m_ + group.entry_m > taken_until_m_;
+  if (!another && taken_entered_) return;
+  taken_entered_ = group.entry_m <= 0.0;
+  taken_until_m_ = ego_driven_m_ + group.exit_m;
   for (const Actor& other : others.actors()) {
     Mind& mind = minds_[other.id];
-    mind.owes_zone = true;
+    if (another) mind.owes_zone = false;
+    if (mind.owes_zone) continue;
+    mind.owes_zone = std::all_of(group.zones.begin(), group.zones.end(), [&](const judge::ZoneOnWay& zone) {
+      return zone.meeting.rule != map::Rule::kFirstYields || ego_is_licensed(zone, other, mind);
+    });
     mind.owes_since_s = time_s();
-    for (const judge::ZoneOnWay& zone : group.zones) {
-      if (zone.meeting.rule == map::Rule::kFirstYields && !ego_is_licensed(zone, other, mind))
-        mind.owes_zone = false;
-    }
   }
 }
 
@@ -206,11 +212,11 @@ void Traffic::zones_ahead(const traffic::Car& car, const Actor& self, const Mind
     for (const judge::ZoneOnWay& zone : group.zones) {
       const std::optional<Ground> ego = ground_of_other(zone, ego_->actor);
       if (!ego) continue;
-      const bool ego_inside =
-          ego_->inside >= 0 && ego->entry_m <= ego_->groups[static_cast<std::size_t>(ego_->inside)].exit_m;
+      const bool ego_takes =
+          ego_->taken >= 0 && ego->entry_m <= ego_->groups[static_cast<std::size_t>(ego_->taken)].exit_m;
       Obstacle line{group.entry_m - kRoom_m, 0.0, false, 0.0};
       if (zone.meeting.rule == map::Rule::kFirstHasPriority) {
-        if (!ego_inside || !mind.owes_zone || zone.entry_m <= 0.0) continue;
+        if (!ego_takes || !mind.owes_zone || zone.entry_m <= 0.0) continue;
         if (zone.meeting.merging && mind.ego_ahead_s >= 0.0) continue;  // followed
         line.gap_m = zone.entry_m - kRoom_m;
         line.answers_after_s = std::max(0.0, law_.reaction_s - (time_s() - mind.owes_since_s));

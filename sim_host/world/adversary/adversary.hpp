@@ -9,7 +9,7 @@
 /// | the ego ahead since long                    | keeps the RSS gap to the centimetre (D4)               |
 /// | the ego that has just come into the lane    | answers after the whole reaction time, with the duty's |
 /// |                                             | braking (D2), or not at all where that does not do     |
-/// | the ego on a zone, gone in by right         | the same before the zone (D2)                          |
+/// | the ego on a zone by right, or bound for it | the same before the zone (D2)                          |
 /// | the ego on a zone, gone in without          | drives on                                              |
 /// | a zone where the ego has priority           | goes in by licence (D1), and takes every one           |
 /// | a zone where the first comes                | goes in unless the ego is there                        |
@@ -44,7 +44,7 @@ class Traffic final : public traffic::Traffic {
     double stood_s = 0.0;
     double ego_ahead_s = -1.0;  ///< since when the ego has been the one ahead; < 0: it is not
     bool owes_ahead = false;    ///< and is bound to brake for it
-    bool owes_zone = false;     ///< is bound to keep off the zones that the ego is on
+    bool owes_zone = false;     ///< is bound to keep off the zones that the ego takes
     double owes_since_s = 0.0;
     Mood mood;
   };
@@ -53,13 +53,14 @@ class Traffic final : public traffic::Traffic {
     traffic::Actor actor;  ///< with its way
     std::vector<judge::ZoneGroup> groups;
     int inside = -1;  ///< which of them the ego is on; < 0: none
+    int taken = -1;   ///< the first that it is on, or cannot stop before as D1 asks any more (LAW-005)
   };
 
   void decide(const traffic::Actor* ego) override;
   [[nodiscard]] bool may_change(const traffic::Car& car, const traffic::WayPart& beside) const override;
 
   void watch(const traffic::Actor& ego, const traffic::TrafficView& others);
-  /// Who is bound by the ego's going into a group, from now on.
+  /// Who is bound by the ego's taking a group: whose licence it has, until it is on it.
   void bind(const judge::ZoneGroup& group, const traffic::TrafficView& others);
   [[nodiscard]] bool ego_is_licensed(const judge::ZoneOnWay& zone, const traffic::Actor& other,
                                      const Mind& mind) const;
@@ -78,6 +79,9 @@ class Traffic final : public traffic::Traffic {
   std::optional<Watched> ego_;
   double ego_shown_s_ = 0.0;  ///< its nose has been near the group ahead
   double ego_stood_s_ = 0.0;
+  double ego_driven_m_ = 0.0;
+  double taken_until_m_ = 0.0;  ///< of that way: where the group taken last ends
+  bool taken_entered_ = false;
 };
 
 }  // namespace s4tp::adversary

@@ -97,8 +97,8 @@ Verdict by_priority(const Law& law, const Evidence& evidence, const Party& yield
     const JourneyPoint& first = creditor.points.front();
     licensed = first.time_s > entered_s && can_stop(law, first.speed_mps, to_zone_m - first.odometer_m);
   } else {
-    licensed = licence_of(law, evidence.entry_of(law, *yields.journey, shared.group, shared.zone, creditor,
-                                                 entered_s)) != Licence::kNone;
+    licensed =
+        evidence.entered_by_licence(law, *yields.journey, shared.group, shared.zone, creditor, entered_s);
   }
   if (!licensed || creditor.time_at(to_zone_m) < yields.journey->time_at(shared.zone.entry_m)) {
     return blame(yields, Cause::kEntered);

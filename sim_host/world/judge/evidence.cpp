@@ -135,4 +135,26 @@ Entry Evidence::entry_of(const Law& law, const Journey& entering, const ZoneGrou
   return entry;
 }
 
+bool Evidence::entered_by_licence(const Law& law, const Journey& entering, const ZoneGroup& group,
+                                  const ZoneOnWay& zone, const Journey& other, double entered_s) const {
+  const auto licensed_at = [&](double time_s) {
+    return licence_of(law, entry_of(law, entering, group, zone, other, time_s)) != Licence::kNone;
+  };
+  if (licensed_at(entered_s)) {
+    return true;
+  }
+  for (auto point = entering.points.rbegin(); point != entering.points.rend(); ++point) {
+    if (point->time_s > entered_s) {
+      continue;
+    }
+    if (!other.seen_at(point->time_s) || can_stop(law, point->speed_mps, group.entry_m - point->odometer_m)) {
+      return false;
+    }
+    if (licensed_at(point->time_s)) {
+      return true;
+    }
+  }
+  return false;
+}
+
 }  // namespace s4tp::judge

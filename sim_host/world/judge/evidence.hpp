@@ -35,10 +35,13 @@ class Evidence {
   /// How long a car has stood without a break up to a time.
   [[nodiscard]] double stood_s(const Law& law, const Journey& journey, double time_s) const;
 
-  /// One who enters a group when another one is on its way to, or on, one of its zones; of the moment in
-  /// which the first leaves its last place to stand. `gone` is as it came. \pre both were there at `time_s`
+  /// One who enters a group when another one is on its way to, or on, one of its zones, as of `time_s`. `gone` is as it came. \pre both were there at `time_s`
   [[nodiscard]] Entry entry_of(const Law& law, const Journey& entering, const ZoneGroup& group,
                                const ZoneOnWay& zone, const Journey& other, double time_s) const;
+  /// Whether one entered the group by licence of the other, at `entered_s` or at any time before from which on it could not
+  /// have stopped as D1 asks (LAW-005). \pre the other one was there at `entered_s`
+  [[nodiscard]] bool entered_by_licence(const Law& law, const Journey& entering, const ZoneGroup& group,
+                                        const ZoneOnWay& zone, const Journey& other, double entered_s) const;
   /// The other one's way to the zone. \return none: not on its way
   [[nodiscard]] std::optional<double> other_entry_m(const ZoneOnWay& zone, const Journey& other) const;
   [[nodiscard]] std::optional<double> other_exit_m(const ZoneOnWay& zone, const Journey& other) const;

@@ -6,7 +6,7 @@
 /// |    | who                 | owes                                                                     |
 /// |----|---------------------|--------------------------------------------------------------------------|
 /// | D1 | who has to give way | not to enter a group of zones before one with priority without licence,  |
-/// |    |                     | if the car could still stop when the duty began                          |
+/// |    |                     | if the car could still stop when the duty began, or began anew           |
 /// | D2 | everybody           | not to drive into what is there by right and has been in sight for       |
 /// |    |                     | `reaction_s`, if the car could stop; inside a junction owed only to what |
 /// |    |                     | is ahead                                                                 |
@@ -20,6 +20,9 @@
 /// | LAW-002 | L1    | if the other, driving as fast as it may, can still stop gently, and sees one  |
 /// | LAW-003 | L2    | if the other stands and has seen one's nose at the line for `shown_s`; where  |
 /// |         |       | both have stood for `deadlock_s` any one may                                  |
+///
+/// LAW-005 The duty begins anew when a licence is lost, as when the other sets off: whoever cannot stop any more then goes in
+/// by the licence it had, and the other is bound by it.
 ///
 /// A zone is ground that two lanes share (map::Conflict); a group is all zones between two places where a
 /// car can stand without being on any (standing.hpp). At first-come zones nothing is owed before somebody is
@@ -67,8 +70,7 @@ struct Law {
 
 enum class Licence { kNone, kClear, kCanStop, kStands };
 
-/// One who enters a group of zones, and another one with priority at a zone of it, at the instant in which
-/// the first leaves its last place to stand.
+/// One who enters a group of zones, and another one with priority at a zone of it, at one instant.
 struct Entry {
   bool merging = false;          ///< both end up in one lane
   double gone_after_s = 0.0;     ///< the entering car has left the zone

@@ -47,7 +47,7 @@ bool priority_broken(const Law& law, const Evidence& evidence, const Journey& eg
         });
         if (at != group.zones.end() && entered_s <= time_s && entered_s >= time_s - kLately_s &&
             ego.seen_at(entered_s) && other.seen_at(entered_s) &&
-            licence_of(law, evidence.entry_of(law, other, group, *at, ego, entered_s)) == Licence::kNone) {
+            !evidence.entered_by_licence(law, other, group, *at, ego, entered_s)) {
           return true;
         }
       }
