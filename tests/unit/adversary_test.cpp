@@ -5,8 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <set>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "sim_host/campaign/episode.hpp"
@@ -50,6 +53,7 @@ struct Seen {
   double hardest_braking_mps2 = 0.0;
   double fastest_gain_mps2 = 0.0;
   double most_over_limit = 0.0;
+  double most_turned_standing_rad = 0.0;  ///< in 0.1 s, at less than 0.05 m/s
 };
 
 Seen drive(const char* planner, const char* name, std::uint64_t first_seed, int episodes) {
@@ -66,8 +70,14 @@ Seen drive(const char* planner, const char* name, std::uint64_t first_seed, int 
       ++seen.touches;
       seen.by_others += collision.fault == traffic::Fault::kOther ? 1 : 0;
     }
+    std::map<int, traffic::CarState> before;
     for (const traffic::Snapshot& snapshot : recording.snapshots) {
       for (const traffic::CarState& car : snapshot.others) {
+        const traffic::CarState was = std::exchange(before[car.id], car);
+        if (std::max(was.speed_mps, car.speed_mps) < 0.05 && was.id == car.id) {
+          const double turned_rad = std::abs(map::wrap_angle(car.heading_rad - was.heading_rad));
+          seen.most_turned_standing_rad = std::max(seen.most_turned_standing_rad, turned_rad);
+        }
         if (car.lane == map::kNoLane || snapshot.time_s < 0.0) continue;
         const map::Lane& lane = scenario.network.lanes[static_cast<std::size_t>(car.lane)];
         seen.hardest_braking_mps2 = std::max(seen.hardest_braking_mps2, -car.acceleration_mps2);
@@ -90,6 +100,12 @@ TEST(Adversary, GoesToTheLawsEdgeAndNotBeyond) {
   EXPECT_LE(seen.fastest_gain_mps2, 2.0 + 1e-9);
   EXPECT_GT(seen.most_over_limit, 1.0);
   EXPECT_LT(seen.most_over_limit, 1.12);
+}
+
+// Whoever stops half way over into another lane keeps its heading: 0.05 m/s for 0.1 s are 5 mm, 1 mrad of a circle of 5 m. They swung
+// round where they stood, by 0.2 rad and half a metre of their corners, into the way past them.
+TEST(Adversary, NobodyTurnsOnTheSpot) {
+  EXPECT_LE(drive("blind", "cut_in", 518, 6).most_turned_standing_rad, 0.001);
 }
 
 // WORLD-023 A copy goes on as the original does, to the bit, for 5 s.

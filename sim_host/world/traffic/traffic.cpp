@@ -9,6 +9,8 @@ namespace s4tp::traffic {
 namespace {
 
 constexpr double kInvites_s = 4.5;  // somebody waiting; it stops a little longer, lest both go at once
+constexpr double kChange_s = 3.0;   // a lane change takes this long
+constexpr double kChange_m = 15.0;  // and this way at least
 constexpr double kSideGone = 0.75;  // of a change, when the old lane is free again
 
 }  // namespace
@@ -117,7 +119,8 @@ void Traffic::move(Car& car) {
   car.speed_mps = std::max(0.0, car.speed_mps + car.acceleration_mps2 * kTick_s);
   car.s_m += car.speed_mps * kTick_s;
   if (car.change_done < 1.0) {
-    car.change_done = std::min(1.0, car.change_done + kTick_s * std::min(1.0 / 3.0, car.speed_mps / 15.0));
+    car.change_done =
+        std::min(1.0, car.change_done + kTick_s * std::min(1.0 / kChange_s, car.speed_mps / kChange_m));
     if (car.change_done > kSideGone) {
       car.leaving = map::kNoLane;
     }
@@ -162,15 +165,14 @@ std::vector<CarState> Traffic::cars() const {
   for (const Car& car : cars_) {
     const map::PolylinePose pose = lane(car.lane).centre.at(car.s_m);
     const double p = car.change_done;
-    const double rate = p < 1.0 ? std::min(1.0 / 3.0, car.speed_mps / 15.0) : 0.0;
-    const double sideways_mps = -car.change_from_m * 30.0 * p * p * (1.0 - p) * (1.0 - p) * rate;
-    const double along_mps = std::max(car.speed_mps, 0.1);
+    const double sideways = -car.change_from_m * 30.0 * p * p * (1.0 - p) * (1.0 - p);
+    const double change_way_m = std::max(kChange_s * car.speed_mps, kChange_m);
     const double offset_m = car.offset_m();
     CarState state;
     state.id = car.id;
     state.centre = {pose.point.x - offset_m * std::sin(pose.heading_rad),
                     pose.point.y + offset_m * std::cos(pose.heading_rad)};
-    state.heading_rad = map::wrap_angle(pose.heading_rad + std::atan2(sideways_mps, along_mps));
+    state.heading_rad = map::wrap_angle(pose.heading_rad + std::atan2(sideways, change_way_m));
     state.speed_mps = car.speed_mps;
     state.acceleration_mps2 = car.speed_mps > 0.0 ? car.acceleration_mps2 : 0.0;
     state.yaw_rate_radps = car.speed_mps * pose.curvature_1pm;
