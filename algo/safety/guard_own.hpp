@@ -43,7 +43,8 @@ struct Guard::Own {
                  kHorizonS + occupancy::time_to_cover_s(beyond(cap_mps), at_s_m - end_s_m()));
     int i = 0;
     while (i < kHorizonSteps && s_m[i] < at_s_m) ++i;
-    return static_cast<float>(i) * kStepS;
+    if (i == 0) return 0.0F;
+    return (static_cast<float>(i) - (s_m[i] - at_s_m) / (s_m[i] - s_m[i - 1])) * kStepS;
   }
   [[nodiscard]] float speed_at_mps(float time_s, float cap_mps) const {
     if (time_s >= kHorizonS) return occupancy::speed_after_mps(beyond(cap_mps), time_s - kHorizonS);

@@ -94,9 +94,10 @@ ZoneOccupancy zone_occupancy(const scene::Scene& scene, const scene::Agent& agen
   result.until_s =
       occupancy::latest_time_s(seen_mps(agent), parameters.law.braking_max_mps2, exit_m) - unseen_s - lead_s;
   if (result.to_entry_m <= 0.0F) {
-    // Where it stands it is an obstacle like any other; the rest of the zone is left by whoever does not
-    // move.
-    if (stands_in_sight(scene, agent, parameters)) result.claim = Claim::kStands;
+    // Where it stands it is an obstacle like any other. Whoever owes us nothing may go on: past the middle that is away.
+    const bool may_go_on =
+        zone.priority != Priority::kFirstHasPriority && result.to_entry_m + result.to_exit_m > 0.0F;
+    if (!may_go_on && stands_in_sight(scene, agent, parameters)) result.claim = Claim::kStands;
     result.from_s = -lead_s;
     return result;
   }

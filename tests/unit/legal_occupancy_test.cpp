@@ -153,14 +153,18 @@ TEST(LegalOccupancy, WhoStandsInSightMayBePassed) {
   EXPECT_EQ(standing(700, 0.7F, 0.1F, 1.0F), Claim::kMayCome);
 }
 
-// LEGAL-004 One that stands in the zone itself is an obstacle where it stands, and leaves the rest to us.
+// LEGAL-004 One that stands in the zone of 8 m past its middle is an obstacle where it stands, and leaves the rest to us. Before the middle
+// it may go on into our way: drives entered before one that stood 0.2 m in, and set off.
 TEST(LegalOccupancy, WhoStandsInTheZoneIsAnObstacle) {
-  Approach approach(Priority::kFirstYields, -1.0F, 0.0F);
-  approach.agent().stood_ms = 2000;
-  approach.scene.waited_s = 2.0F;
-  EXPECT_EQ(approach.claim(), Claim::kStands);
-  approach.agent().track.acceleration_mps2 = 1.0F;
-  EXPECT_EQ(approach.claim(), Claim::kMayCome);
+  EXPECT_EQ(Approach(Priority::kFirstYields, -4.1F, 0.0F).claim(), Claim::kMayCome);  // has not stood yet
+  for (const float entry_m : {-4.1F, -3.9F}) {
+    Approach approach(Priority::kFirstYields, entry_m, 0.0F);
+    approach.agent().stood_ms = 2000;
+    approach.scene.waited_s = 2.0F;
+    EXPECT_EQ(approach.claim(), entry_m < -4.0F ? Claim::kStands : Claim::kMayCome) << entry_m;
+    approach.agent().track.acceleration_mps2 = 1.0F;
+    EXPECT_EQ(approach.claim(), Claim::kMayCome);
+  }
 }
 
 // LEGAL-004 So does one that owes us the way; but who drives up to it may see it move on and clear the zone.
