@@ -35,7 +35,8 @@ class Evidence {
   /// How long a car has stood without a break up to a time.
   [[nodiscard]] double stood_s(const Law& law, const Journey& journey, double time_s) const;
 
-  /// One who enters a group when another one is on its way to, or on, one of its zones, as of `time_s`. `gone` is as it came. \pre both were there at `time_s`
+  /// One who enters a group when another one is on its way to, or on, one of its zones, as of `time_s`. `gone` is as it
+  /// came. \pre both were there at `time_s`
   [[nodiscard]] Entry entry_of(const Law& law, const Journey& entering, const ZoneGroup& group,
                                const ZoneOnWay& zone, const Journey& other, double time_s) const;
   /// Whether one entered the group by licence of the other, at `entered_s` or at any time before from which on it could not
