@@ -4,8 +4,8 @@
 /// GUARD-001 A plan passes that can still be stopped before a group of zones and before the road ends;
 /// without map or path nothing does. Who stands nearer to the group goes on standing, and comes no nearer;
 /// who set off and has not used its licence yet may use up the room before it.
-/// GUARD-002 Else it goes through when all others are gone, come later, or
-/// leave it to us. GUARD-003 Nobody stops in a group where it gives way, nor enters one without room beyond it, behind
+/// GUARD-002 Else it goes through when all others are gone, come later than it leaves, braking behind whoever leads once that is
+/// due, or leave it to us. GUARD-003 Nobody stops in a group where it gives way, nor enters one without room beyond it, behind
 /// whoever leads or merges ahead.
 /// GUARD-004 It can be stopped behind a leader who brakes as hard as can be, and while our box comes over to the
 /// path, behind whoever leads where it still is; behind a cut-in it only must not get worse. GUARD-005 What is

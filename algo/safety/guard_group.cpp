@@ -45,7 +45,7 @@ bool Guard::passes_threat(const scene::EgoPath& path, const PathContext& context
     if (threat.zone >= group.first && threat.zone < group.end) cap_mps = group.cap_mps;
   }
   const float in_s = own.time_at_s(zone.entry_s_m, cap_mps);
-  const float out_s = own.time_at_s(zone.exit_s_m, cap_mps);
+  const float out_s = own.latest_time_at_s(zone.exit_s_m, cap_mps, parameters_->guard.braking_mps2);
   if (when.until_s < in_s) return true;  // it is certain to have left
   if (!zone.merging && when.from_s > out_s) return true;
   if (zone.merging) {

@@ -19,6 +19,7 @@ struct Guard::Own {
   float branch_mps;
   float branch_mps2;
   bool blocked;  ///< somebody ahead makes us brake
+  float due_s;   ///< when braking is due at the latest for who is ahead; the horizon's end: it is not
 
   [[nodiscard]] float end_s_m() const { return s_m[kHorizonSteps]; }
   [[nodiscard]] float stop_s_m(float braking_mps2) const {
@@ -36,24 +37,14 @@ struct Guard::Own {
     const float end_mps = speed_mps[kHorizonSteps];
     return {end_mps, kGoesOnMps2, max(end_mps, cap_mps)};
   }
+  /// Sets `due_s`: braking from then on still ends at `free_s_m`.
+  void find_due(float free_s_m, float braking_mps2);
   /// When the centre comes to `at_s_m`; the plan is driven on beyond its horizon.
-  [[nodiscard]] float time_at_s(float at_s_m, float cap_mps) const {
-    if (at_s_m > end_s_m())
-      return min(occupancy::kNeverS,
-                 kHorizonS + occupancy::time_to_cover_s(beyond(cap_mps), at_s_m - end_s_m()));
-    int i = 0;
-    while (i < kHorizonSteps && s_m[i] < at_s_m) ++i;
-    if (i == 0) return 0.0F;
-    return (static_cast<float>(i) - (s_m[i] - at_s_m) / (s_m[i] - s_m[i - 1])) * kStepS;
-  }
-  [[nodiscard]] float speed_at_mps(float time_s, float cap_mps) const {
-    if (time_s >= kHorizonS) return occupancy::speed_after_mps(beyond(cap_mps), time_s - kHorizonS);
-    return speed_mps[to_int(time_s / kStepS, 0, kHorizonSteps)];
-  }
-  [[nodiscard]] float place_at_m(float time_s, float cap_mps) const {
-    if (time_s >= kHorizonS) return end_s_m() + occupancy::way_after_m(beyond(cap_mps), time_s - kHorizonS);
-    return s_m[to_int(time_s / kStepS, 0, kHorizonSteps)];
-  }
+  [[nodiscard]] float time_at_s(float at_s_m, float cap_mps) const;
+  /// The same if it brakes once that is due.
+  [[nodiscard]] float latest_time_at_s(float at_s_m, float cap_mps, float braking_mps2) const;
+  [[nodiscard]] float speed_at_mps(float time_s, float cap_mps) const;
+  [[nodiscard]] float place_at_m(float time_s, float cap_mps) const;
 };
 
 }  // namespace s4tp::safety

@@ -30,8 +30,8 @@ unsigned any_seed() {
   return seed;
 }
 
-/// Three of the properties below still have scenes that touch, about one in four thousand (docs/safety.md): they are
-/// asked of the same scenes each time, and of random ones in the long tests.
+/// Of the properties below merges still have scenes that touch, about one in five thousand, and crossings one in a hundred
+/// thousand (docs/safety.md): they are asked of the same scenes each time, and of random ones in the long tests.
 constexpr unsigned kScenes = 300;
 template <typename Scene>
 void expect_of_all(const Scene& holds_of) {

@@ -97,11 +97,12 @@ struct Traffic {
     const safety::Verdict verdict = road.guard.judge(0, trajectory);
     if (!verdict.safe()) return false;
     road.guard.commit(0, verdict);
-    // It is driven until it is left for good, or through the zone.
+    // It is driven until its fail-safe begins to brake; one that begins no sooner than the horizon's end, through the zone.
     ahead.resize(2);
     Mover at = start;
+    const int branch = static_cast<int>(std::lround(verdict.fail_safe.branch_s / kTickS));
     for (int i = 0; i < 400; ++i) {
-      const bool leaves = i >= 7 && (!verdict.clears || at.s_m >= kExitM);
+      const bool leaves = i >= branch && (branch < 2 * kHorizonSteps || at.s_m >= kExitM);
       const bool beyond = i / 2 >= kHorizonSteps;
       const float wanted_mps2 = leaves ? -6.0F : beyond ? 1.5F : i / 2 < steps ? first_mps2 : then_mps2;
       ahead.push_back(wanted_mps2);
@@ -160,11 +161,6 @@ struct Traffic {
       }
     }
     ++refused;
-    // Through the zone, but not into who is ahead there.
-    for (const Lawful& other : others) {
-      const bool there = other.leads || (merging && other.motion.s_m > kEntryM);
-      if (committed && there && other.motion.s_m > ego.s_m) ahead.assign(400, -6.0F);
-    }
   }
 
   void tick() {

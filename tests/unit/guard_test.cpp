@@ -136,6 +136,21 @@ TEST(Guard, TheZoneIsEnteredWhenThereIsRoomBeyondIt) {
   EXPECT_EQ(enters(108.8F, 0.0F, Priority::kFirstHasPriority), Cause::kNone);
 }
 
+// GUARD-002 Whoever leads may brake hard while we are in the zone. From 86 at 10 m/s the plan is out after 1.8 s. Behind one that
+// stands at 110 our centre stands at 104.5: 8.3 m of braking are due at 96, after 1 s, and then it is out after 2.33 s. One at
+// 15.3 m/s comes after 2.1 s from 32 m before the zone, after 2.7 s from 41 m.
+TEST(Guard, WhoBrakesBehindALeaderIsOutOfTheZoneInTimeToo) {
+  const auto cause = [](float way_m, bool leader) {
+    SharedGround road(Priority::kFirstYields);
+    road.other(96.0F - way_m, 1.1F * kLimitMps);
+    if (leader) road.leader(110.0F, 0.0F);
+    return road.cause(86.0F, 10.0F, 0.0F);
+  };
+  EXPECT_EQ(cause(32.0F, false), Cause::kNone);
+  EXPECT_EQ(cause(32.0F, true), Cause::kZone);
+  EXPECT_EQ(cause(41.0F, true), Cause::kNone);
+}
+
 // GUARD-003 Two zones 0.9 m apart are one group: before the first one it takes the licence of the second. 2 m
 // apart one can wait between them.
 TEST(Guard, ZonesWithoutRoomBetweenAreOneGroup) {
