@@ -10,6 +10,7 @@ using occupancy::kNeverS;
 using occupancy::Pace;
 
 constexpr float kSetsOffMps2 = 0.5F;
+constexpr float kStandOffS = 2.0F;     // when all have stood so long any one may go
 constexpr float kShortOfZoneM = 0.5F;  // who gives way stops so far before
 constexpr float kBendRad = 0.5F;       // lanes that turn by less are driven like straight ones
 constexpr float kGripMps2 = 7.0F;      // physics: nobody turns faster
@@ -46,11 +47,11 @@ bool can_stop_gently(const scene::Agent& agent, const Pace& fastest, float to_en
   return room_m > 0.0F && square(later_mps) <= 2.0F * law.ask_braking_mps2 * room_m;
 }
 
-/// L2. Who is not seen any more may have set off.
-bool stands_in_sight(const scene::Scene& scene, const scene::Agent& agent, const Parameters& parameters) {
+/// L2: it and we, for `since_s`. Who is not seen any more may have set off.
+bool stands_in_sight(const scene::Scene& scene, const scene::Agent& agent, float since_s) {
   return agent.age_ms <= scene::kFreshMs && agent.track.speed_mps < kStandingMps &&
-         agent.track.acceleration_mps2 < kSetsOffMps2 && seconds(agent.stood_ms) >= parameters.law.seen_s &&
-         scene.waited_s >= parameters.law.seen_s;
+         agent.track.acceleration_mps2 < kSetsOffMps2 && seconds(agent.stood_ms) >= since_s &&
+         scene.waited_s >= since_s;
 }
 
 }  // namespace
@@ -95,9 +96,11 @@ ZoneOccupancy zone_occupancy(const scene::Scene& scene, const scene::Agent& agen
       occupancy::latest_time_s(seen_mps(agent), parameters.law.braking_max_mps2, exit_m) - unseen_s - lead_s;
   if (result.to_entry_m <= 0.0F) {
     // Where it stands it is an obstacle like any other. Whoever owes us nothing may go on: past the middle that is away.
+    // Before it two may wait for each other.
     const bool may_go_on =
         zone.priority != Priority::kFirstHasPriority && result.to_entry_m + result.to_exit_m > 0.0F;
-    if (!may_go_on && stands_in_sight(scene, agent, parameters)) result.claim = Claim::kStands;
+    if (stands_in_sight(scene, agent, may_go_on ? kStandOffS : parameters.law.seen_s))
+      result.claim = Claim::kStands;
     result.from_s = -lead_s;
     return result;
   }
@@ -117,7 +120,7 @@ ZoneOccupancy zone_occupancy(const scene::Scene& scene, const scene::Agent& agen
     if (can_stop(agent, entry_m, max(0.0F, response_s - known_s), parameters)) result.claim = Claim::kOwes;
   } else if (can_stop_gently(agent, fastest, entry_m, unseen_s, parameters)) {
     result.claim = Claim::kCanStop;
-  } else if (stands_in_sight(scene, agent, parameters)) {
+  } else if (stands_in_sight(scene, agent, parameters.law.seen_s)) {
     result.claim = Claim::kStands;
   }
   return result;

@@ -154,17 +154,23 @@ TEST(LegalOccupancy, WhoStandsInSightMayBePassed) {
 }
 
 // LEGAL-004 One that stands in the zone of 8 m past its middle is an obstacle where it stands, and leaves the rest to us. Before the middle
-// it may go on into our way: drives entered before one that stood 0.2 m in, and set off.
+// it may go on into our way (drives entered before one that stood 0.2 m in, and set off), until all have stood for 2 s: else one that
+// waits for us as we for it stands there for ever.
 TEST(LegalOccupancy, WhoStandsInTheZoneIsAnObstacle) {
   EXPECT_EQ(Approach(Priority::kFirstYields, -4.1F, 0.0F).claim(), Claim::kMayCome);  // has not stood yet
-  for (const float entry_m : {-4.1F, -3.9F}) {
+  const auto standing = [](float entry_m, std::uint16_t stood_ms, float waited_s) {
     Approach approach(Priority::kFirstYields, entry_m, 0.0F);
-    approach.agent().stood_ms = 2000;
-    approach.scene.waited_s = 2.0F;
-    EXPECT_EQ(approach.claim(), entry_m < -4.0F ? Claim::kStands : Claim::kMayCome) << entry_m;
+    approach.agent().stood_ms = stood_ms;
+    approach.scene.waited_s = waited_s;
+    const Claim claim = approach.claim();
     approach.agent().track.acceleration_mps2 = 1.0F;
-    EXPECT_EQ(approach.claim(), Claim::kMayCome);
-  }
+    EXPECT_EQ(approach.claim(), Claim::kMayCome) << "sets off";
+    return claim;
+  };
+  EXPECT_EQ(standing(-4.1F, 700, 0.7F), Claim::kStands);
+  EXPECT_EQ(standing(-3.9F, 60'000, 1.9F), Claim::kMayCome);
+  EXPECT_EQ(standing(-3.9F, 1900, 60.0F), Claim::kMayCome);
+  EXPECT_EQ(standing(-3.9F, 2000, 2.0F), Claim::kStands);
 }
 
 // LEGAL-004 So does one that owes us the way; but who drives up to it may see it move on and clear the zone.
