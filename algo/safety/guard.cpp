@@ -212,7 +212,7 @@ Verdict Guard::judge(int path_index, const Trajectory& trajectory) const {
     }
     const float clear_s = own.time_at_s(group.exit_s_m, group.cap_mps);
     if (!verdict.clears) verdict.clear_s = clear_s;
-    verdict.fail_safe.branch_s = max(verdict.fail_safe.branch_s, min(clear_s, own.due_s));
+    verdict.fail_safe.branch_s = max(verdict.fail_safe.branch_s, min(clear_s, own.due_s()));
     verdict.clears = true;
     verdict.cleared_end = group.end;
     if (!passes_group(path, context, group, own, verdict)) return verdict;

@@ -3,10 +3,10 @@
 namespace s4tp::safety {
 
 void Guard::Own::find_due(float free_s_m, float braking_mps2) {
-  int i = 1;
-  while (i <= kHorizonSteps && s_m[i] + occupancy::stopping_way_m(speed_mps[i], braking_mps2) <= free_s_m)
-    ++i;
-  due_s = static_cast<float>(i > kHorizonSteps ? kHorizonSteps : i - 1) * kStepS;
+  due = 0;
+  while (due < kHorizonSteps &&
+         s_m[due + 1] + occupancy::stopping_way_m(speed_mps[due + 1], braking_mps2) <= free_s_m)
+    ++due;
 }
 
 float Guard::Own::time_at_s(float at_s_m, float cap_mps) const {
@@ -21,9 +21,8 @@ float Guard::Own::time_at_s(float at_s_m, float cap_mps) const {
 
 float Guard::Own::latest_time_at_s(float at_s_m, float cap_mps, float braking_mps2) const {
   const float time_s = time_at_s(at_s_m, cap_mps);
-  if (time_s <= due_s || due_s >= kHorizonS) return time_s;
-  const int due = to_int(due_s / kStepS + 0.5F, 0, kHorizonSteps);
-  return due_s + occupancy::latest_time_s(speed_mps[due], braking_mps2, at_s_m - s_m[due]);
+  if (time_s <= due_s() || due == kHorizonSteps) return time_s;
+  return due_s() + occupancy::latest_time_s(speed_mps[due], braking_mps2, at_s_m - s_m[due]);
 }
 
 float Guard::Own::speed_at_mps(float time_s, float cap_mps) const {

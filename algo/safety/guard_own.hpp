@@ -19,7 +19,7 @@ struct Guard::Own {
   float branch_mps;
   float branch_mps2;
   bool blocked;  ///< somebody ahead makes us brake
-  float due_s;   ///< when braking is due at the latest for who is ahead; the horizon's end: it is not
+  int due;       ///< step at which braking is due at the latest for who is ahead; kHorizonSteps: it is not
 
   [[nodiscard]] float end_s_m() const { return s_m[kHorizonSteps]; }
   [[nodiscard]] float stop_s_m(float braking_mps2) const {
@@ -37,7 +37,8 @@ struct Guard::Own {
     const float end_mps = speed_mps[kHorizonSteps];
     return {end_mps, kGoesOnMps2, max(end_mps, cap_mps)};
   }
-  /// Sets `due_s`: braking from then on still ends at `free_s_m`.
+  [[nodiscard]] float due_s() const { return static_cast<float>(due) * kStepS; }
+  /// Sets `due`: braking from then on still ends at `free_s_m`.
   void find_due(float free_s_m, float braking_mps2);
   /// When the centre comes to `at_s_m`; the plan is driven on beyond its horizon.
   [[nodiscard]] float time_at_s(float at_s_m, float cap_mps) const;

@@ -117,8 +117,10 @@ struct Traffic {
   void take_licences() {
     for (Lawful& other : others) {
       if (other.leads) continue;
-      // The guard takes one that stands in the zone itself to stay where it is, too.
-      if (!left_out(other) && other.stood_s >= 0.7F && waited_s >= 0.7F &&
+      // The guard takes one that stands in the zone itself to stay where it is, too; in its first half after 2 s.
+      const bool first_half = other.motion.s_m > kEntryM && other.motion.s_m < 0.5F * (kEntryM + kExitM);
+      const float since_s = first_half && we_yield() ? 2.0F : 0.7F;
+      if (!left_out(other) && other.stood_s >= since_s && waited_s >= since_s &&
           other.motion.acceleration_mps2 < 0.5F)
         other.stays = true;
       if (!we_yield() || other.to_entry_m() <= 0.0F || !other.can_be_asked()) continue;
