@@ -146,7 +146,7 @@ Verdict Guard::judge(int path_index, const Trajectory& trajectory) const {
   const float stop_s_m = own.stop_s_m(guard.braking_mps2);
 
   verdict.fail_safe = {guard.takeover_s, guard.braking_mps2};
-  const float front_m = front_m_ - centre_m_;
+  const float front_m = context.front_m;
   // Who cannot stop before the end any more brakes; at rest it stays.
   const float last_s_m = context.end_s_m - front_m;
   const float at_once_s_m = own.at_once_s_m(guard.braking_mps2);

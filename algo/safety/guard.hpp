@@ -7,7 +7,7 @@
 /// GUARD-002 Else it goes through when all others are gone, come later than it leaves, braking behind whoever leads once that is
 /// due, or leave it to us. GUARD-003 Nobody stops in a group where it gives way, nor enters one without room beyond it, behind
 /// whoever leads or merges ahead.
-/// GUARD-004 It can be stopped behind a leader who brakes as hard as can be, and while our box comes over to the
+/// GUARD-004 It can be stopped behind a leader who brakes as hard as can be, as our box is turned, and while our box comes over to the
 /// path, behind whoever leads where it still is; behind a cut-in it only must not get worse. GUARD-005 What is
 /// safe only by hard braking says so. GUARD-006 A licence used holds, for the ground it was given for, until we
 /// stand, for a plan that leaves that in time; used it is once we cannot stop before it any more.
@@ -159,6 +159,7 @@ class Guard {
   struct PathContext {
     float start_s_m = 0.0F;        ///< of our rear axle at plan start
     float stop_s_m = 0.0F;         ///< where our centre stands if the fail-safe begins as soon as it can
+    float front_m = 0.0F;          ///< from our centre, as our box is turned to the path at plan start
     float end_s_m = 0.0F;          ///< of the road
     float leader_stop_s_m = 0.0F;  ///< foremost place for our front bumper if who is ahead brakes hard
     std::uint8_t leader = 255;

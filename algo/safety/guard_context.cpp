@@ -107,8 +107,11 @@ void Guard::look_at_path(int path_index) {
   const scene::EgoPath& path = scene_->ego_paths[path_index];
   PathContext& context = contexts_[path_index];
   new (&context) PathContext;  // assigned, it would be made on the stack first
-  context.start_s_m =
-      scene::project(*scene_->map, path.path, position(start_.rear_axle), path.frenet.s_m, 15.0F, work_).s_m;
+  const scene::Frenet start =
+      scene::project(*scene_->map, path.path, position(start_.rear_axle), path.frenet.s_m, 15.0F, work_);
+  context.start_s_m = start.s_m;
+  const float turned = abs(sin(wrap_angle(start_.rear_axle.heading_rad - start.heading_rad)));
+  context.front_m = front_m_ - centre_m_ + 0.5F * turned * parameters_->vehicle.width_m;
   context.stop_s_m = context.start_s_m + centre_m_ + parameters_->guard.takeover_s * start_.speed_mps +
                      occupancy::stopping_way_m(start_.speed_mps, parameters_->guard.braking_mps2);
   context.end_s_m = trajectory::dead_end_s_m(*scene_, path);

@@ -13,6 +13,8 @@ constexpr float kStopMarginM = 1.0F;     // before the zone, where no stop line 
 constexpr float kShortOfLineM = 0.5F;    // a little too far, and others see us in the junction
 constexpr float kPassedLineM = 0.5F;     // a stop line this far behind our front no longer binds
 constexpr float kJunctionReachM = 8.0F;  // zones this close behind a junction still belong to it
+constexpr float kOverS = 1.0F;           // a lane change is half made so long after it has begun
+constexpr float kBegunM = 0.5F;          // ... when we are so far off our lane's centre
 constexpr float kStraightRad = 0.05F;    // turns that differ by less are equally straight
 
 // Work (WorkMeter's units).
@@ -180,6 +182,17 @@ void follow_route(const LaneTable& table, EgoPath& ego_path) {
   if (last >= 0) find_change_places(table, last, ego_path);
 }
 
+// Whether a change to the path, from the lane beside, is half made before a junction begins: what is beside us then leads
+// elsewhere.
+bool is_made_in_time(const LaneTable& table, const EgoPath& ego_path, float speed_mps) {
+  const Lane& first = table.lane(ego_path.path.lanes[0].lane);
+  if (abs(ego_path.frenet.d_m) < first.width_m - kBegunM) return true;
+  for (const PathLane& part : ego_path.path.lanes) {
+    if (table.lane(part.lane).in_junction) return ego_path.frenet.s_m + kOverS * speed_mps < part.start_s_m;
+  }
+  return true;
+}
+
 void add_path(const LaneTable& table, Manoeuvre manoeuvre, LaneIndex lane, const Parameters& parameters,
               Scene& scene) {
   const Point rear_axle = position(scene.ego.rear_axle);
@@ -192,7 +205,9 @@ void add_path(const LaneTable& table, Manoeuvre manoeuvre, LaneIndex lane, const
   ego_path.frenet = project(table.map(), ego_path.path, rear_axle, here_s_m, kReachM, work);
   table.spend(work);
   const bool beside = ego_path.frenet.s_m > -kBehindStartM && ego_path.frenet.s_m < ego_path.path.length_m;
-  if (manoeuvre != Manoeuvre::kKeep && !beside) return;
+  if (manoeuvre != Manoeuvre::kKeep &&
+      !(beside && is_made_in_time(table, ego_path, scene.ego.speed_mps)))
+    return;
   follow_route(table, ego_path);
   find_zones(table, parameters, ego_path);
   (void)scene.ego_paths.push(ego_path);

@@ -8,7 +8,8 @@
 namespace s4tp::scene {
 
 /// Fills scene.ego_paths from the lane under us: keep, then left and right where the map allows a change.
-/// Each goes on along the route; where that ends, straight on. \pre table.valid(lane)
+/// Each goes on along the route; where that ends, straight on. A change that has not begun is offered only where half of it
+/// is made before a junction begins. \pre table.valid(lane)
 void build_ego_paths(const LaneTable& table, LaneIndex lane, const Parameters& parameters, Scene& scene);
 
 }  // namespace s4tp::scene

@@ -6,8 +6,8 @@
 
 namespace s4tp::trajectory {
 
-/// Gap our box needs beside one who stands.
-inline constexpr float kBystanderGapM = 0.4F;
+/// Gap our box needs beside one who stands: the strip that the guard asks for (kStripM), and 0.1 m of tracking.
+inline constexpr float kBystanderGapM = 0.3F;
 
 /// Whether the vehicle stands, as far as its measured speed tells.
 [[nodiscard]] bool is_standing(const scene::Agent& agent);

@@ -49,11 +49,12 @@ struct SharedGround {
   }
   scene::Agent& leader(float s_m, float speed_mps) { return add_vehicle(scene, map, ours, s_m, speed_mps); }
 
-  /// What the guard says of constant acceleration from box centre `centre_s_m`.
-  safety::Verdict judge(float centre_s_m, float speed_mps, float acceleration_mps2) {
+  /// What the guard says of constant acceleration from box centre `centre_s_m`, with our box turned to the lane at first.
+  safety::Verdict judge(float centre_s_m, float speed_mps, float acceleration_mps2, float turned_rad = 0.0F) {
     TrajectoryPoint start =
         state_on(map, ours, centre_s_m - trajectory::rear_axle_to_centre_m(parameters), speed_mps);
     start.acceleration_mps2 = acceleration_mps2;
+    start.rear_axle.heading_rad += turned_rad;
     put_ego(scene, start);
     Trajectory trajectory;
     trajectory.points[0] = start;

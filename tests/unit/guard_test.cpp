@@ -184,6 +184,22 @@ TEST(Guard, TheLeaderMayBrakeHard) {
   EXPECT_EQ(behind(17.7F, 12.0F, 0.0F, 0.0F), Cause::kNone);
 }
 
+// GUARD-004 Turned by 0.25 rad our box reaches 0.9 m * sin(0.25) = 0.22 m further along the lane: 8.7 m, enough when it is straight, is
+// too little, and 9.0 m are enough.
+TEST(Guard, WhoIsAskewInItsLaneReachesFurther) {
+  const auto behind = [](float gap_m, float turned_rad) {
+    SharedGround road(Priority::kFirstHasPriority);
+    road.scene.ego_paths[0].zones.clear();
+    road.leader(20.0F + 5.0F + gap_m, 12.0F);
+    return road.judge(20.0F, 12.0F, 0.0F, turned_rad).cause;
+  };
+  EXPECT_EQ(behind(8.7F, 0.0F), Cause::kNone);
+  for (const float turned_rad : {-0.25F, 0.25F}) {
+    EXPECT_EQ(behind(8.7F, turned_rad), Cause::kLeader) << turned_rad;
+    EXPECT_EQ(behind(9.0F, turned_rad), Cause::kNone) << turned_rad;
+  }
+}
+
 // GUARD-004 Towards one that stands, 12 m/s are kept up to 17.6 m before it and no longer.
 TEST(Guard, NobodyGoesOnTowardsOneWhoStands) {
   SharedGround road(Priority::kFirstHasPriority);

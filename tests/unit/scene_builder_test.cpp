@@ -228,6 +228,25 @@ TEST(SceneBuilder, FollowsTheRouteThroughTheJunction) {
   }
 }
 
+// Two lanes of 100 m into a junction: the lane beside is offered while half of the change is made before, at 10 m/s and
+// one second 10 m; from rest up to the end; and to the end whoever has begun it.
+TEST(SceneBuilder, NobodySetsOutForALaneBesideJustBeforeAJunction) {
+  LaneMap map = test::straight_road(2, 100.0F);
+  for (const LaneIndex lane : {LaneIndex{0}, LaneIndex{1}}) {
+    const Point end = map.lanes[lane].points[1];
+    const LaneIndex across = test::add_lane(map, {end, {end.x_m + 20.0F, end.y_m}});
+    map.lanes[across].in_junction = true;
+    test::link(map, lane, across);
+  }
+  const auto paths = [&](float s_m, float left_m, float speed_mps) {
+    return test::scene_of(map, test::ego_at(s_m, left_m, 0.0F, speed_mps), {}).ego_paths.size();
+  };
+  EXPECT_EQ(paths(89.0F, 0.0F, 10.0F), 2);
+  EXPECT_EQ(paths(91.0F, 0.0F, 10.0F), 1);
+  EXPECT_EQ(paths(91.0F, 1.0F, 10.0F), 2);
+  EXPECT_EQ(paths(98.0F, 0.0F, 0.0F), 2);
+}
+
 // Turning left from the minor road we must yield to the straight traffic of the main one, and to who comes
 // towards us; all zones are in order and we wait half a metre short of the stop line, which is 51.5 m along a
 // lane of 52 m: at 51.
