@@ -205,8 +205,7 @@ void add_path(const LaneTable& table, Manoeuvre manoeuvre, LaneIndex lane, const
   ego_path.frenet = project(table.map(), ego_path.path, rear_axle, here_s_m, kReachM, work);
   table.spend(work);
   const bool beside = ego_path.frenet.s_m > -kBehindStartM && ego_path.frenet.s_m < ego_path.path.length_m;
-  if (manoeuvre != Manoeuvre::kKeep &&
-      !(beside && is_made_in_time(table, ego_path, scene.ego.speed_mps)))
+  if (manoeuvre != Manoeuvre::kKeep && !(beside && is_made_in_time(table, ego_path, scene.ego.speed_mps)))
     return;
   follow_route(table, ego_path);
   find_zones(table, parameters, ego_path);
