@@ -219,7 +219,7 @@ Verdict Guard::judge(int path_index, const Trajectory& trajectory) const {
     if (verdict.stops_short) break;  // the fail-safe comes no further
   }
   if (verdict.stops_short) verdict.fail_safe.branch_s = guard.takeover_s;
-  if ((context.changes && !context.half_over) || (context.settles && !context.behind.empty())) {
+  if (context.changes || (context.settles && !context.behind.empty())) {
     bool brakes = false;
     for (int k = 0; k < kStopCount && !brakes; ++k) {
       const FailSafe stop = stop_after_change(k);

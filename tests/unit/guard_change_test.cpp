@@ -136,6 +136,17 @@ TEST(Guard, BeforeOneThatCannotBrakeAnyMoreWeDriveOn) {
   EXPECT_EQ(change.cause_across(15.0F, 1.0F, 1, 0.4F, kLaneWidthM), Cause::kFollower);
 }
 
+// GUARD-009 The same with most of us over the line: until the lane is ours by its name, too, and from then on (GUARD-013), whoever
+// is behind in it keeps its room.
+TEST(Guard, AChangeHalfMadeLeavesTheFollowerItsRoom) {
+  for (const float from_m : {1.4F, 1.8F, 2.4F, 3.0F}) {
+    Change change;
+    change.in_left_lane(100.0F - 5.0F - 8.0F, 25.0F);
+    EXPECT_EQ(change.cause_across(15.0F, 1.0F, 1, from_m, kLaneWidthM), Cause::kNone) << from_m;
+    EXPECT_EQ(change.cause_across(15.0F, -3.0F, 1, from_m, kLaneWidthM), Cause::kFollower) << from_m;
+  }
+}
+
 // GUARD-009 One beside us, half a length back, leaves no room for a change at all.
 TEST(Guard, NobodyChangesIntoOneBeside) {
   Change change;
