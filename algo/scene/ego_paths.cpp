@@ -13,7 +13,7 @@ constexpr float kStopMarginM = 1.0F;     // before the zone, where no stop line 
 constexpr float kShortOfLineM = 0.5F;    // a little too far, and others see us in the junction
 constexpr float kPassedLineM = 0.5F;     // a stop line this far behind our front no longer binds
 constexpr float kJunctionReachM = 8.0F;  // zones this close behind a junction still belong to it
-constexpr float kOverS = 1.0F;           // a lane change is half made so long after it has begun
+constexpr float kHalfMadeS = 1.0F;       // a lane change is half made so long after it has begun
 constexpr float kBegunM = 0.5F;          // ... when we are so far off our lane's centre
 constexpr float kStraightRad = 0.05F;    // turns that differ by less are equally straight
 
@@ -188,7 +188,8 @@ bool is_made_in_time(const LaneTable& table, const EgoPath& ego_path, float spee
   const Lane& first = table.lane(ego_path.path.lanes[0].lane);
   if (abs(ego_path.frenet.d_m) < first.width_m - kBegunM) return true;
   for (const PathLane& part : ego_path.path.lanes) {
-    if (table.lane(part.lane).in_junction) return ego_path.frenet.s_m + kOverS * speed_mps < part.start_s_m;
+    if (table.lane(part.lane).in_junction)
+      return ego_path.frenet.s_m + kHalfMadeS * speed_mps < part.start_s_m;
   }
   return true;
 }

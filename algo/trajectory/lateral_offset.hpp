@@ -3,11 +3,12 @@
 
 #include "algo/core/parameters.hpp"
 #include "algo/scene/scene.hpp"
+#include "algo/trajectory/along_path.hpp"
 
 namespace s4tp::trajectory {
 
-/// Gap our box needs beside one who stands: the strip that the guard asks for (kStripM), and 0.1 m of tracking.
-inline constexpr float kBystanderGapM = 0.3F;
+/// Gap our box needs beside one who stands: the strip that the guard asks for, and what tracking strays.
+inline constexpr float kBystanderGapM = kStripM + 0.1F;
 
 /// Whether the vehicle stands, as far as its measured speed tells.
 [[nodiscard]] bool is_standing(const scene::Agent& agent);

@@ -136,8 +136,7 @@ TEST(Guard, BeforeOneThatCannotBrakeAnyMoreWeDriveOn) {
   EXPECT_EQ(change.cause_across(15.0F, 1.0F, 1, 0.4F, kLaneWidthM), Cause::kFollower);
 }
 
-// GUARD-009 The same with most of us over the line: until the lane is ours by its name, too, and from then on (GUARD-013), whoever
-// is behind in it keeps its room.
+// GUARD-009 The same whether our centre is short of the line, 1.6 m from our lane's, or beyond.
 TEST(Guard, AChangeHalfMadeLeavesTheFollowerItsRoom) {
   for (const float from_m : {1.4F, 1.8F, 2.4F, 3.0F}) {
     Change change;
