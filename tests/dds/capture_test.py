@@ -32,7 +32,9 @@ LOOPBACK = """<General><Interfaces><NetworkInterface name="lo" multicast="false"
 
 
 def tshark(file, shown, *fields):
-    command = ["tshark", "-r", str(file), "-Y", shown, "-T", "fields"] + [one for field in fields for one in ("-e", field)]
+    # RTPS is known by its first bytes. An ephemeral port may be another protocol's own, which must not be asked first.
+    command = ["tshark", "-r", str(file), "-o", "udp.try_heuristic_first:TRUE", "-Y", shown, "-T", "fields"]
+    command += [one for field in fields for one in ("-e", field)]
     result = subprocess.run(command, capture_output=True, text=True, check=True)
     return [line.split("\t") for line in result.stdout.splitlines()]
 
