@@ -191,16 +191,19 @@ std::string family_tables(const Cells& cells) {
              format("%+.2f", 100.0 * pair.upper), format("%d, %d", pair.first_at_fault, pair.second_at_fault),
              format("%.2f, %.2f", pair.first_restricted_mean_s, pair.second_restricted_mean_s)});
   }
-  return table(
-             "families",
-             {"family", "driver", "roads", "episodes", "goal<br>%", "95 %, by road<br>%", "design effect",
-              "collisions", "through our fault", "off road", "time-out", "to goal, a failure<br>counts 80 s"},
-             families) +
-         table("family_pairs",
-               {"family", "1st", "2nd", "same episodes", "only 1st fails", "only 2nd fails", "McNemar p",
-                "1st loses at most<br>%, by road", "own collisions<br>1st, 2nd",
-                "to goal, a failure<br>counts 80 s"},
-               pairs);
+  std::string tables =
+      table("families",
+            {"family", "driver", "roads", "episodes", "goal<br>%", "95 %, by road<br>%", "design effect",
+             "collisions", "through our fault", "off road", "time-out", "to goal, a failure<br>counts 80 s"},
+            families);
+  if (!pairs.empty()) {
+    tables += table("family_pairs",
+                    {"family", "1st", "2nd", "same episodes", "only 1st fails", "only 2nd fails", "McNemar p",
+                     "1st loses at most<br>%, by road", "own collisions<br>1st, 2nd",
+                     "to goal, a failure<br>counts 80 s"},
+                    pairs);
+  }
+  return tables;
 }
 
 }  // namespace s4tp::view

@@ -139,5 +139,16 @@ TEST(Families, StandOnThePage) {
   EXPECT_EQ(view::family_tables({&cells[0]}), "");
 }
 
+// With one driver there is nobody to compare it with, and no table for that.
+TEST(Families, AloneAreComparedWithNobody) {
+  std::vector<EpisodeRow> rows;
+  add(rows, "s4tp", true, "merge_1", {kGoal});
+  add(rows, "s4tp", true, "merge_2", {kGoal});
+  const std::vector<CellResult> cells = collect(rows);
+  const std::string page = view::family_tables({&cells[0], &cells[1]});
+  EXPECT_NE(page.find("families"), std::string::npos);
+  EXPECT_EQ(page.find("family_pairs"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace s4tp::campaign
