@@ -55,6 +55,47 @@ TEST(TrafficJunction, SomebodyGoesFirst) {
   }
 }
 
+/// From lane 0 one goes straight on over lane 2, or to the left over lanes 1 and 3: a waiting place cuts that turn in two.
+///
+/// \code
+///                    _3_/   (112, 8.3)
+///   0 ----------->1_/
+///                 ------2-----------> (120, 0)
+/// \endcode
+map::Network turn_in_two_parts() {
+  const auto lane = [](bool in_junction, const std::vector<map::Vec2>& points,
+                       std::vector<map::LaneId> successors) {
+    map::Lane result;
+    result.centre = map::Polyline(points);
+    result.in_junction = in_junction;
+    result.successors = std::move(successors);
+    return result;
+  };
+  map::Network network;
+  network.lanes = {
+      lane(false, {{0.0, 0.0}, {100.0, 0.0}}, {1, 2}), lane(true, {{100.0, 0.0}, {104.0, 0.3}}, {3}),
+      lane(true, {{100.0, 0.0}, {120.0, 0.0}}, {}), lane(true, {{104.0, 0.3}, {112.0, 8.3}}, {})};
+  return network;
+}
+
+// Whoever waits in the second part of a turn is ahead of one that goes straight on while its tail is less than 2.3 m beside its way: 5 m
+// on, where the tail is 2.5 m / sqrt(2) + 0.3 m beside; not 6 m on, with 3.5 m / sqrt(2) + 0.3 m. 10 + 4.01 + 5 m ahead, less 5 m of
+// cars, are left.
+TEST(TrafficView, SeesWhoWaitsInTheSecondPartOfATurn) {
+  const map::Network network = turn_in_two_parts();
+  const RoadIndex road(network);
+  const auto gap_m = [&](double s_m) {
+    Actor waits;
+    waits.id = 1;
+    waits.lane = 3;
+    waits.s_m = s_m;
+    const TrafficView view(road, {waits});
+    return view.leader({{0, -90.0}, {2, 10.0}}, 2, 5.0).gap_m;
+  };
+  EXPECT_NEAR(gap_m(5.0), 14.01, 0.01);
+  EXPECT_TRUE(std::isinf(gap_m(6.0)));
+}
+
 class LeftTurnFromNorth : public testing::Test {
  protected:
   /// Somebody on an arm `before_line_m` (bumper) before its line.

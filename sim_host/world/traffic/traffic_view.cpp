@@ -51,10 +51,37 @@ RoadIndex::RoadIndex(const map::Network& network)
   for (const map::Lane& from : network.lanes) {
     for (const map::LaneId one : from.successors) {
       for (const map::LaneId other : from.successors) {
-        if (one != other) {
-          siblings_[static_cast<std::size_t>(one)].push_back(
-              {other, apart_m(lane(other).centre, lane(one).centre)});
-        }
+        if (one != other) add_siblings(way_across(one), way_across(other));
+      }
+    }
+  }
+}
+
+std::vector<WayPart> RoadIndex::way_across(map::LaneId first) const {
+  std::vector<WayPart> way{{first, 0.0}};
+  while (lane(way.back().lane).in_junction && way.size() < kWayPartsMax) {
+    const map::Lane& last = lane(way.back().lane);
+    if (last.successors.size() != 1 || !lane(last.successors.front()).in_junction) break;
+    way.push_back({last.successors.front(), way.back().start_m + last.centre.length_m()});
+  }
+  return way;
+}
+
+void RoadIndex::add_siblings(const std::vector<WayPart>& one, const std::vector<WayPart>& other) {
+  const auto centre_of = [&](const std::vector<WayPart>& way) {
+    std::vector<map::Vec2> points;
+    for (const WayPart& part : way) {
+      const std::vector<map::Vec2>& more = lane(part.lane).centre.points();
+      points.insert(points.end(), more.begin(), more.end());
+    }
+    return map::Polyline(points);
+  };
+  const double parted_m = apart_m(centre_of(other), centre_of(one));
+  for (const WayPart& own : one) {
+    for (const WayPart& theirs : other) {
+      if (own.start_m < parted_m && theirs.start_m < parted_m) {
+        siblings_[static_cast<std::size_t>(own.lane)].push_back(
+            {theirs.lane, parted_m - theirs.start_m, theirs.start_m - own.start_m});
       }
     }
   }
@@ -104,7 +131,7 @@ Leader TrafficView::leader(const std::vector<WayPart>& way, int self, double len
     for (const Sibling& sibling : road_.siblings(part.lane)) {
       for (const Occupant& occupant : occupants(sibling.lane)) {
         if (occupant.s_m - 0.5 * actors_[occupant.actor].length_m < sibling.apart_m) {
-          consider(occupant, part.start_m);
+          consider(occupant, part.start_m + sibling.start_m);
         }
       }
     }

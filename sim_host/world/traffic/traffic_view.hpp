@@ -46,10 +46,11 @@ struct Meeting {
   bool merging = false;  ///< both lanes lead into the same one
 };
 
-/// Lane that leaves the same lane as another one; cars on it stand in each other's way up to there.
+/// A lane of a way that leaves the same lane as another way; cars on it stand in the other's way up to there.
 struct Sibling {
   map::LaneId lane = map::kNoLane;
   double apart_m = 0.0;
+  double start_m = 0.0;  ///< from the start of the lane it is seen from
 };
 
 /// What can be known of a network beforehand.
@@ -68,6 +69,10 @@ class RoadIndex {
   }
 
  private:
+  /// The way from a lane to the end of the junction: waiting places cut a turn in two.
+  [[nodiscard]] std::vector<WayPart> way_across(map::LaneId first) const;
+  void add_siblings(const std::vector<WayPart>& one, const std::vector<WayPart>& other);
+
   const map::Network& network_;
   std::vector<std::vector<Meeting>> meetings_;
   std::vector<std::vector<Sibling>> siblings_;
