@@ -88,6 +88,29 @@ TEST(Attribution, DrivingIntoOneThereByRight) {
             std::pair(Fault::kOther, Cause::kIntoRightful));
 }
 
+/// The other one, who has to yield, enters at 2 m/s when we are 57 m from the zone, and stands with its front at y = -1 from t = -8
+/// on; we come to a stand at x = 107, 0.1 m from it, at `stand_s`; from t = 0 on it drives on with 1 m/s.
+Verdict it_drives_on_into_us(double stand_s) {
+  const Network network = slow_road(Rule::kFirstHasPriority);
+  const std::vector<traffic::Snapshot> history = test::recorded(-12.0, 0.2, [&](double t) {
+    const double north_y = t < -8.0 ? -3.5 + 2.0 * (t + 8.0) : t < 0.0 ? -3.5 : -3.5 + t;
+    return std::vector<CarState>{
+        eastbound(0, std::min(107.0, 107.0 + 8.0 * (t - stand_s)), 0.0, t < stand_s ? 8.0 : 0.0),
+        northbound(7, north_y,
+                   t < -8.0  ? 2.0
+                   : t < 0.0 ? 0.0
+                             : 1.0)};
+  });
+  return attribute(network, test::eastwards(network), history, 7, gentle());
+}
+
+// LAW-022 Nobody drives into anything while it stands: after 2 s it is the other one who does. After 0.3 s it is us, who came to where
+// it was by licence: 59 m before the zone we could have stopped in 12 + 16 m.
+TEST(Attribution, WhoStandsDrivesIntoNothing) {
+  EXPECT_EQ(pair(it_drives_on_into_us(-2.0)), std::pair(Fault::kOther, Cause::kIntoRightful));
+  EXPECT_EQ(pair(it_drives_on_into_us(-0.3)), std::pair(Fault::kEgo, Cause::kIntoRightful));
+}
+
 // LAW-021 The same behind a queue that already stood at x = 117 when we entered: our rear cannot leave the
 // zone (114 - 5 < 117 - 5 < 114).
 TEST(Attribution, EnteringWithoutRoomBeyond) {
@@ -132,6 +155,37 @@ Verdict cut_in(int front, double gap_m) {
 TEST(Attribution, CuttingIn) {
   EXPECT_EQ(pair(cut_in(0, 3.0)), std::pair(Fault::kEgo, Cause::kCutIn));
   EXPECT_EQ(pair(cut_in(7, 3.0)), std::pair(Fault::kOther, Cause::kCutIn));
+}
+
+/// The way from the south joins ours at x = 120, where we are at t = 0 with 5 m/s; 7 m behind us comes one with 10 m/s, and touches
+/// us at t = 1.4, at x = 127.
+Verdict run_into_beyond_the_merge(Rule our_rule) {
+  Network network = test::judged_road(our_rule);
+  network.lanes[3].centre = map::Polyline(std::vector<map::Vec2>{{110.0, -10.0}, {120.0, 0.0}});
+  network.lanes[3].successors = {5};
+  const double way_m = network.lanes[3].centre.length_m();
+  network.conflicts = {{2, 3, our_rule, 12.0, 20.0, way_m - 8.0, way_m}};
+  return judged(network, -5.0, 1.5, [&](double t) {
+    CarState joins = eastbound(7, 120.0 - 12.0 + 10.0 * t, 0.0, 10.0);
+    const double to_merge_m = 120.0 - joins.centre.x;
+    if (to_merge_m > way_m) {
+      joins = northbound(7, -10.0 - (to_merge_m - way_m), 10.0);
+    } else if (to_merge_m > 0.0) {
+      const map::PolylinePose pose = network.lanes[3].centre.at(way_m - to_merge_m);
+      joins.centre = pose.point;
+      joins.heading_rad = pose.heading_rad;
+      joins.lane = 3;
+    }
+    return std::vector<CarState>{eastbound(0, 120.05 + 5.0 * t, 0.0, 5.0), joins};
+  });
+}
+
+// LAW-024 Merging ahead of one that has to give way is no cutting in, ahead of one that has priority it is: 10 m/s behind 5 m/s ask for
+// 5.25 + 11^2 / 10 - 25 / 16 = 15.8 m.
+TEST(Attribution, MergingWithPriorityIsNoCuttingIn) {
+  EXPECT_EQ(pair(run_into_beyond_the_merge(Rule::kFirstHasPriority)),
+            std::pair(Fault::kOther, Cause::kRanInto));
+  EXPECT_EQ(pair(run_into_beyond_the_merge(Rule::kFirstYields)), std::pair(Fault::kEgo, Cause::kCutIn));
 }
 
 // LAW-026 After 19.5 m it takes 4.9 s until they touch: the one behind had time; and so it had with 12 m,

@@ -16,6 +16,7 @@ namespace {
 using traffic::Cause;
 
 constexpr double kStoodFor_s = 1.0;
+constexpr double kSnapshot_s = 0.1;
 constexpr double kZonePad_m = 3.0;  // a car beside its lane's centre touches a little before or behind a zone
 constexpr double kSlow_mps = 1.0;   // who is slower in a zone was stopped there
 constexpr double kQueue_mps = 2.0;  // who is slower beyond a junction leaves no room
@@ -103,6 +104,10 @@ Verdict by_priority(const Law& law, const Evidence& evidence, const Party& yield
   if (!licensed || creditor.time_at(to_zone_m) < yields.journey->time_at(shared.zone.entry_m)) {
     return blame(yields, Cause::kEntered);
   }
+  // Nobody drives into anything while it stands.
+  if (evidence.stood_s(law, creditor, time_s) > kStoodFor_s) {
+    return blame(yields, Cause::kIntoRightful);
+  }
   const bool stuck = yields.car->speed_mps < kSlow_mps;
   return stuck && no_room(evidence, *yields.journey, shared.group, entered_s)
              ? blame(yields, Cause::kNoRoom)
@@ -165,11 +170,24 @@ Verdict by_line(const Party& ego, const Party& other, Cause cause, const Strayed
   return blame(strayed_s(other) > strayed_s(ego) ? other : ego, cause);
 }
 
+/// Whether the one in front came ahead where both ways merge and the one behind has to give way.
+bool merged_by_right(const Evidence& evidence, const Journey& front, const Journey& rear, double since_s) {
+  const map::LaneId from = front.at(since_s - kSnapshot_s).lane;
+  const std::vector<ZoneGroup> groups = evidence.groups_of(front);
+  return std::any_of(groups.begin(), groups.end(), [&](const ZoneGroup& group) {
+    return std::any_of(group.zones.begin(), group.zones.end(), [&](const ZoneOnWay& zone) {
+      return zone.lane == from && zone.meeting.merging && zone.meeting.rule == map::Rule::kFirstHasPriority &&
+             evidence.other_entry_m(zone, rear).has_value();
+    });
+  });
+}
+
 Verdict nose_to_tail(const Law& law, const Evidence& evidence, const map::RouteGuide& guide,
                      const Party& front, const Party& rear, double time_s) {
   const double since_s = ahead_since_s(*front.journey, *rear.journey, time_s);
   if (since_s > time_s - law.settle_s && since_s <= time_s && rear.journey->seen_at(since_s) &&
-      !left_gap(law, *front.journey, *rear.journey, since_s)) {
+      !left_gap(law, *front.journey, *rear.journey, since_s) &&
+      !merged_by_right(evidence, *front.journey, *rear.journey, since_s)) {
     return blame(front, Cause::kCutIn);
   }
   if (front.ours && evidence.stood_s(law, *front.journey, time_s) > kStoodFor_s - 1e-6 &&
