@@ -180,8 +180,10 @@ TEST(Adversary, NobodyComesOverBeforeAnEgoThatMay) {
 /// The first group of the way of an ego that stands 0.5 m before it.
 struct AtTheLine {
   explicit AtTheLine(const scenario::Scenario& scenario)
-      : guide(scenario::mission_guide(scenario)), road(scenario.network) {
-    ego.actor.lane = ego.car.lane = scenario.mission.start_lane;
+      : AtTheLine(scenario, scenario::mission_guide(scenario), scenario.mission.start_lane) {}
+  AtTheLine(const scenario::Scenario& scenario, map::RouteGuide route, map::LaneId from)
+      : guide(std::move(route)), road(scenario.network) {
+    ego.actor.lane = ego.car.lane = from;
     ego.actor.guide = &guide;
     std::vector<judge::Stretch> way;
     for (const traffic::WayPart& part :
@@ -192,9 +194,8 @@ struct AtTheLine {
     group = judge::zone_groups(road, way, ego.actor.length_m).front();
     ego.actor.s_m = group.entry_m - 0.5;
   }
-  /// Drives the ego on with 3 m/s^2.
-  void go_on(double time_s, traffic::EgoSeen& at) const {
-    at.actor.speed_mps += 3.0 * time_s;
+  void go_on(double time_s, traffic::EgoSeen& at, double acceleration_mps2 = 3.0) const {
+    at.actor.speed_mps += acceleration_mps2 * time_s;
     at.actor.s_m += at.actor.speed_mps * time_s;
     const double length_m = road.lane(at.actor.lane).centre.length_m();
     if (at.actor.s_m < length_m) return;
@@ -242,6 +243,56 @@ TEST(Adversary, WhoLetTheEgoGoIsBoundOnceItCannotStop) {
     }
   }
   EXPECT_GT(bound_count, 20);
+}
+
+/// An ego that goes straight on with 8 m/s comes to 6 m before its group, at each of 300 moments. \return how many others are in the
+/// junction then, before ground where they give way to it, and can stop (4 m/s^2, 0.1 s from now) 0.5 m short of that; of those how many come to it
+/// before the ego has left it.
+std::pair<int, int> inside_and_went_on(int seed) {
+  const scenario::Scenario scenario = test::shipped("left_turn");
+  const map::Network& network = scenario.network;
+  AtTheLine line(scenario, {network, {"west_in", "east_out"}, map::kNoLane, 0.0}, network.find("west_in_0"));
+  line.ego.actor.s_m = line.group.entry_m - 6.0;
+  line.ego.actor.speed_mps = 8.0;
+  const double way_m = 6.0 + line.group.exit_m - line.group.entry_m;
+  std::pair<int, int> count;
+  Traffic traffic(scenario, 0, static_cast<std::uint64_t>(seed));
+  for (int moment = 0; moment < 300; ++moment) {
+    for (int i = 0; i < 100; ++i) traffic.step(nullptr);
+    Traffic copy = traffic;
+    traffic::EgoSeen ego = line.ego;
+    std::set<int> inside;
+    std::set<int> went_on;
+    for (int i = 0; i * traffic::kTick_s * 8.0 < way_m; ++i) {
+      copy.step(&ego);
+      line.go_on(traffic::kTick_s, ego, 0.0);
+      for (const traffic::Car& car : copy.details()) {
+        for (const judge::ZoneOnWay& zone : line.group.zones) {
+          if (zone.meeting.other != car.lane || zone.meeting.rule != map::Rule::kFirstHasPriority) continue;
+          const double room_m = zone.meeting.other_entry_m - car.s_m;
+          if (i == 0 && room_m > 0.5 + car.speed_mps * (0.1 + car.speed_mps / 8.0)) inside.insert(car.id);
+          const bool on_it = room_m < 0.0 && car.s_m < zone.meeting.other_exit_m;
+          const bool ego_left = line.group.entry_m - 6.0 + 8.0 * traffic::kTick_s * i > zone.exit_m;
+          if (on_it && !ego_left && inside.count(car.id) > 0) went_on.insert(car.id);
+        }
+      }
+    }
+    count.first += static_cast<int>(inside.size());
+    count.second += static_cast<int>(went_on.size());
+  }
+  return count;
+}
+
+// LAW-042 Who has gone into a group by licence keeps off ground further on to which an ego comes that has priority.
+TEST(Adversary, WhoIsInTheJunctionGivesWayStill) {
+  std::pair<int, int> all;
+  for (const int seed : {1, 2, 3, 4}) {
+    const std::pair<int, int> count = inside_and_went_on(seed);
+    all.first += count.first;
+    all.second += count.second;
+  }
+  EXPECT_GT(all.first, 20);
+  EXPECT_EQ(all.second, 0);
 }
 
 }  // namespace

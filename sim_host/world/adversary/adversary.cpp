@@ -220,9 +220,14 @@ void Traffic::zones_ahead(const traffic::Car& car, const Actor& self, const Mind
         if (zone.meeting.merging && mind.ego_ahead_s >= 0.0) continue;  // followed
         line.gap_m = zone.entry_m - kRoom_m;
         line.answers_after_s = std::max(0.0, law_.reaction_s - (time_s() - mind.owes_since_s));
-      } else if (group.entry_m <= 0.0 ||
-                 may_enter(self, mind, group.entry_m, zone, ego->entry_m, ego->exit_m)) {
-        continue;
+      } else {
+        // Who is in the group stops before the zone where that can still be done.
+        const double to_line_m = group.entry_m > 0.0 ? group.entry_m : zone.entry_m;
+        line.gap_m = to_line_m - kRoom_m;
+        const double stop_m =
+            judge::stopping_m(car.speed_mps, 0.0, 0.0, car.speed_mps, law_.duty_braking_mps2);
+        const bool in = to_line_m <= 0.0 || (group.entry_m <= 0.0 && stop_m > line.gap_m);
+        if (in || may_enter(self, mind, to_line_m, zone, ego->entry_m, ego->exit_m)) continue;
       }
       all.push_back(line);
     }

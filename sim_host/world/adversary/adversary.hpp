@@ -11,7 +11,8 @@
 /// |                                             | braking (D2), or not at all where that does not do     |
 /// | the ego on a zone by right, or bound for it | the same before the zone (D2)                          |
 /// | the ego on a zone, gone in without          | drives on                                              |
-/// | a zone where the ego has priority           | goes in by licence (D1), and takes every one           |
+/// | a zone where the ego has priority           | goes in by licence (D1), and takes every one; in its   |
+/// |                                             | group already, stops before it where it still can      |
 /// | a zone where the first comes                | goes in unless the ego is there                        |
 /// | a lane beside the ego                       | changes into it where RSS gaps are left (D3)           |
 ///
