@@ -96,7 +96,8 @@ float Guard::way_over_ends_s_m(std::uint8_t agent_index, const Trajectory& traje
   const Box there{shift_ahead(agent.track.centre, stop_m), agent.track.length_m, agent.track.width_m};
   float room_m = trajectory::kStripM;
   for (int i = 0; i < kTrajectoryPoints; i += kWayOverStride) {
-    const float gap_m = separation(trajectory::ego_box(trajectory.points[i].rear_axle, *parameters_), there);
+    const Pose rear_axle = shift_ahead(trajectory.points[i].rear_axle, ahead_m_);
+    const float gap_m = separation(trajectory::ego_box(rear_axle, *parameters_), there);
     if (i == 0) room_m = min(room_m, gap_m - kRoundingM);  // whoever is nearer already comes no nearer
     if (gap_m < room_m) return own.s_m[i - kWayOverStride];
   }
@@ -156,11 +157,11 @@ Verdict Guard::judge(int path_index, const Trajectory& trajectory) const {
     return verdict;
   }
   // Behind a leader. The fail-safe in force stops behind whoever keeps to the law; a moving one nearer than
-  // that has broken it: then it only must not get worse, and behind a slower one that takes braking.
+  // that has broken it: then it only must not get worse, and behind a slower one, or one that stands, that takes braking.
   const float coasting_s_m = at_once_s_m + own.speed_mps[0] * guard.takeover_s;
   const auto reachable_s_m = [&](float free_s_m, float its_mps) {
     if (own.nearest_stop_s_m(guard.braking_mps2) <= free_s_m) return free_s_m;
-    const bool slower = its_mps < own.speed_mps[0];
+    const bool slower = its_mps < max(own.speed_mps[0], kStandingMps);
     return max(free_s_m, (slower ? lerp(at_once_s_m, coasting_s_m, kEasesOff) : coasting_s_m) + kRoundingM);
   };
   float free_s_m = reachable_s_m(context.leader_stop_s_m - front_m - guard.margin_m, context.leader_mps);

@@ -8,9 +8,10 @@
 /// due, or leave it to us. GUARD-003 Nobody stops in a group where it gives way, nor enters one without room beyond it, behind
 /// whoever leads or merges ahead.
 /// GUARD-004 It can be stopped behind a leader who brakes as hard as can be, as our box is turned, and while our box comes over to the
-/// path, behind whoever leads where it still is; behind a cut-in it only must not get worse. GUARD-005 What is
-/// safe only by hard braking says so. GUARD-006 A licence used holds, for the ground it was given for, until we
-/// stand, for a plan that leaves that in time; used it is once we cannot stop before it any more.
+/// path, behind whoever leads where it still is; behind a cut-in it only must not get worse, nor beside one that stands askew. Who is
+/// further than its plan is judged from there. GUARD-005 What is safe only by hard braking says so. GUARD-006 A licence used
+/// holds, for the ground it was given for, until we stand, for a plan that leaves that in time; used it is once we cannot stop
+/// before it any more.
 /// GUARD-007 Who cannot stay out of a zone any more leaves it no later than it was to. GUARD-008 Merging
 /// leaves room, in both orders. GUARD-009 A lane change leaves who is behind, who may gain speed until we are over
 /// the line, room to brake, and begins only when who is ahead is ahead of all of us by then, braking as hard as can
@@ -270,6 +271,7 @@ class Guard {
   int work_ = 0;  ///< of the look
   TrajectoryPoint start_;
   float lead_s_ = 0.0F;
+  float ahead_m_ = 0.0F;   ///< of it we will be then, as we drive now
   float centre_m_ = 0.0F;  ///< from our rear axle
   float front_m_ = 0.0F;
   PathContext contexts_[kPaths];

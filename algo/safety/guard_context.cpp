@@ -42,6 +42,9 @@ int Guard::look(const scene::Scene& scene, const TrajectoryPoint& start, float l
   if (start.speed_mps < kStandingMps) latched_.clear();
   centre_m_ = trajectory::rear_axle_to_centre_m(parameters);
   front_m_ = trajectory::rear_axle_to_front_m(parameters);
+  const float driven_m =
+      lead_s * max(0.0F, scene.ego.speed_mps + 0.5F * scene.ego.acceleration_mps2 * lead_s);
+  ahead_m_ = max(0.0F, to_local(start.rear_axle, position(shift_ahead(scene.ego.rear_axle, driven_m))).x_m);
   work_ = kLookWork;
   if (scene.map == nullptr) return work_;
   occupancy::LaneReach reach[kMaxTracks];
@@ -109,7 +112,7 @@ void Guard::look_at_path(int path_index) {
   new (&context) PathContext;  // assigned, it would be made on the stack first
   const scene::Frenet start =
       scene::project(*scene_->map, path.path, position(start_.rear_axle), path.frenet.s_m, 15.0F, work_);
-  context.start_s_m = start.s_m;
+  context.start_s_m = start.s_m + max(0.0F, ahead_m_ - parameters_->guard.margin_m);
   const float turned = abs(sin(wrap_angle(start_.rear_axle.heading_rad - start.heading_rad)));
   context.front_m = front_m_ - centre_m_ + 0.5F * turned * parameters_->vehicle.width_m;
   context.stop_s_m = context.start_s_m + centre_m_ + parameters_->guard.takeover_s * start_.speed_mps +
@@ -158,6 +161,13 @@ void Guard::look_at_path(int path_index) {
     if (seen.centre_s_m > centre_s_m) {
       // It may have begun to brake when it was last seen.
       const float seen_s_m = seen.centre_s_m - seen.half_length_m - agent.coasted_m;
+      // Of one that stands askew beside our front it is the boxes that tell, unless they touch.
+      if (seen_s_m < context.start_s_m + centre_m_ + context.front_m && seen_mps(agent) < kStandingMps &&
+          separation(trajectory::ego_box(start_.rear_axle, *parameters_),
+                     {agent.track.centre, agent.track.length_m, agent.track.width_m}) > 0.0F) {
+        keep_nearest(context.on_way_over, {static_cast<std::uint8_t>(i), 0, seen_s_m, along_mps}, centre_s_m);
+        continue;
+      }
       const float last_mps = max(0.0F, along_mps - agent.coasted_mps);
       const float stop_s_m =
           seen_s_m + occupancy::stopping_way_m(last_mps, parameters_->law.braking_max_mps2);

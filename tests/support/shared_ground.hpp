@@ -49,13 +49,17 @@ struct SharedGround {
   }
   scene::Agent& leader(float s_m, float speed_mps) { return add_vehicle(scene, map, ours, s_m, speed_mps); }
 
-  /// What the guard says of constant acceleration from box centre `centre_s_m`, with our box turned to the lane at first.
-  safety::Verdict judge(float centre_s_m, float speed_mps, float acceleration_mps2, float turned_rad = 0.0F) {
+  /// What the guard says of constant acceleration from box centre `centre_s_m`, with our box turned to the lane at first, and the
+  /// vehicle `ahead_m` of its plan.
+  safety::Verdict judge(float centre_s_m, float speed_mps, float acceleration_mps2, float turned_rad = 0.0F,
+                        float ahead_m = 0.0F) {
     TrajectoryPoint start =
         state_on(map, ours, centre_s_m - trajectory::rear_axle_to_centre_m(parameters), speed_mps);
     start.acceleration_mps2 = acceleration_mps2;
     start.rear_axle.heading_rad += turned_rad;
-    put_ego(scene, start);
+    TrajectoryPoint driven = start;
+    driven.rear_axle = shift_ahead(start.rear_axle, ahead_m);
+    put_ego(scene, driven);
     Trajectory trajectory;
     trajectory.points[0] = start;
     for (int i = 1; i < kTrajectoryPoints; ++i)

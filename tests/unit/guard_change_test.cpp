@@ -93,10 +93,12 @@ struct Change : LaneChangeRoad {
   }
   /// Of a plan that comes from `from_m` to `to_m` left of the right lane's centre within 3 s.
   [[nodiscard]] Cause cause_across(float speed_mps, float acceleration_mps2, int path, float from_m,
-                                   float to_m) {
+                                   float to_m, float ahead_m = 0.0F) {
     TrajectoryPoint start = state_on(map, scene.ego_paths[0].path, 98.5F, speed_mps);
     start.rear_axle.y_m += from_m;
-    put_ego(scene, start);
+    TrajectoryPoint driven = start;
+    driven.rear_axle = shift_ahead(start.rear_axle, ahead_m);
+    put_ego(scene, driven);
     Guard guard;
     guard.look(scene, start, 0.0F, parameters);
     return guard.judge(path, across(start, acceleration_mps2, to_m - from_m)).cause;
@@ -210,6 +212,18 @@ TEST(Guard, WhoIsBetweenTwoLanesHasALeaderInEach) {
   EXPECT_EQ(cause(16.0F, 1.4F), Cause::kNone);
   EXPECT_EQ(cause(10.0F, 1.4F), Cause::kLeader);
   EXPECT_EQ(cause(10.0F, 0.0F), Cause::kNone);
+}
+
+// GUARD-004 Between two lanes at 1 m/s, which takes 0.43 m to stop, 0.9 m behind one that stands, of which 0.2 m are kept: enough, unless
+// the vehicle is 0.5 m ahead of its plan.
+TEST(Guard, WhoIsAheadOfItsPlanBetweenTwoLanesIsJudgedFromThere) {
+  const auto cause = [](float ahead_m) {
+    Change change;
+    change.in_left_lane(100.0F + 5.0F + 0.9F, 0.0F);
+    return change.cause_across(1.0F, 0.0F, 0, 1.4F, 1.4F, ahead_m);
+  };
+  EXPECT_EQ(cause(0.0F), Cause::kNone);
+  EXPECT_EQ(cause(0.5F), Cause::kLeader);
 }
 
 // GUARD-004 Beside one that stands half in our lane, nearer than the 0.2 m kept: from rest we may leave it, and come no nearer.

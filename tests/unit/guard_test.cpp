@@ -200,6 +200,37 @@ TEST(Guard, WhoIsAskewInItsLaneReachesFurther) {
   }
 }
 
+// GUARD-004 The 0.5 m kept cover a vehicle that is so far ahead of its plan: 8.7 m are enough then, too. 0.8 m ahead it takes 0.3 m
+// more. One that is late is on its way to where its plan has it.
+TEST(Guard, WhoIsAheadOfItsPlanIsJudgedFromThere) {
+  const auto behind = [](float gap_m, float ahead_m) {
+    SharedGround road(Priority::kFirstHasPriority);
+    road.scene.ego_paths[0].zones.clear();
+    road.leader(20.0F + 5.0F + gap_m, 12.0F);
+    return road.judge(20.0F, 12.0F, 0.0F, 0.0F, ahead_m).cause;
+  };
+  EXPECT_EQ(behind(8.7F, 0.5F), Cause::kNone);
+  EXPECT_EQ(behind(8.7F, -0.8F), Cause::kNone);
+  EXPECT_EQ(behind(8.7F, 0.8F), Cause::kLeader);
+  EXPECT_EQ(behind(9.0F, 0.8F), Cause::kNone);
+}
+
+// GUARD-004 One that stands askew, turned by 128 degrees, has its front 6 cm from our corner: every metre we go on brings us 0.62 m nearer.
+// From rest nothing sets off into it, however gently, and what stands passes. 2 m away a start passes that stops before it.
+TEST(Guard, NobodyCreepsIntoOneThatStandsAskew) {
+  const auto cause = [](float away_m, float acceleration_mps2) {
+    SharedGround road(Priority::kFirstHasPriority);
+    road.scene.ego_paths[0].zones.clear();
+    scene::Agent& askew = road.leader(54.0F, 0.0F);
+    askew.track.centre = {-45.76F + away_m, -2.77F, 2.24F};
+    return road.cause(50.0F, 0.0F, acceleration_mps2);
+  };
+  EXPECT_EQ(cause(0.0F, 0.0F), Cause::kNone);
+  EXPECT_EQ(cause(0.0F, 0.3F), Cause::kLeader);
+  EXPECT_EQ(cause(0.0F, 2.0F), Cause::kLeader);
+  EXPECT_EQ(cause(2.0F, 0.3F), Cause::kNone);
+}
+
 // GUARD-004 Towards one that stands, 12 m/s are kept up to 17.6 m before it and no longer.
 TEST(Guard, NobodyGoesOnTowardsOneWhoStands) {
   SharedGround road(Priority::kFirstHasPriority);
