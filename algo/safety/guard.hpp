@@ -8,8 +8,8 @@
 /// due, or leave it to us. GUARD-003 Nobody stops in a group where it gives way, nor enters one without room beyond it, behind
 /// whoever leads or merges ahead.
 /// GUARD-004 It can be stopped behind a leader who brakes as hard as can be, as our box is turned, and while our box comes over to the
-/// path, behind whoever leads where it still is; behind a cut-in it only must not get worse, nor beside one that stands askew. Who is
-/// further than its plan is judged from there. GUARD-005 What is safe only by hard braking says so. GUARD-006 A licence used
+/// path, behind whoever leads where it still is; behind a cut-in, and beside one that stands askew, it only must not get worse. A
+/// vehicle ahead of its plan is judged from there. GUARD-005 What is safe only by hard braking says so. GUARD-006 A licence used
 /// holds, for the ground it was given for, until we stand, for a plan that leaves that in time; used it is once we cannot stop
 /// before it any more.
 /// GUARD-007 Who cannot stay out of a zone any more leaves it no later than it was to. GUARD-008 Merging
@@ -271,7 +271,7 @@ class Guard {
   int work_ = 0;  ///< of the look
   TrajectoryPoint start_;
   float lead_s_ = 0.0F;
-  float ahead_m_ = 0.0F;   ///< of it we will be then, as we drive now
+  float ahead_m_ = 0.0F;   ///< of plan start, where we will be then as we drive now
   float centre_m_ = 0.0F;  ///< from our rear axle
   float front_m_ = 0.0F;
   PathContext contexts_[kPaths];

@@ -246,8 +246,8 @@ TEST(Adversary, WhoLetTheEgoGoIsBoundOnceItCannotStop) {
 }
 
 /// An ego that goes straight on with 8 m/s comes to 6 m before its group, at each of 300 moments. \return how many others are in the
-/// junction then, before ground where they give way to it, and can stop (4 m/s^2, 0.1 s from now) 0.5 m short of that; of those how many come to it
-/// before the ego has left it.
+/// junction then, before ground where they give way to it, and can stop (4 m/s^2, 0.1 s from now) 0.5 m short of that; of those how
+/// many come to it before the ego has left it.
 std::pair<int, int> inside_and_went_on(int seed) {
   const scenario::Scenario scenario = test::shipped("left_turn");
   const map::Network& network = scenario.network;
