@@ -91,6 +91,13 @@ Campaign load_campaign(const CampaignPlan& plan, const std::filesystem::path& sc
       }
     }
   }
+  std::set<Cell> known;
+  for (const CampaignCell& cell : campaign.cells) {
+    if (!known.insert(cell.cell).second) {
+      throw std::invalid_argument(
+          words(cell.cell) + " is asked for twice: its episodes would count twice; name each value once");
+    }
+  }
   return campaign;
 }
 

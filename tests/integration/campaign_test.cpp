@@ -242,6 +242,23 @@ TEST(Campaign, WrongUse) {
   EXPECT_EQ(eval({"merge", folder / "nowhere", "--json", folder / "x.json"}, folder / "said"), 2);
 }
 
+// A value named twice counted its episodes twice, as if there were twice as many.
+TEST(Campaign, NothingCountsTwice) {
+  const fs::path folder = scratch();
+  for (const std::string option : {"--planner", "--scenario", "--flavour", "--traffic", "--guard"}) {
+    const std::string value = option == "--planner"    ? "constant_speed"
+                              : option == "--scenario" ? "cruise"
+                              : option == "--flavour"  ? "smarts"
+                              : option == "--traffic"  ? "builtin"
+                                                       : "on";
+    EXPECT_EQ(
+        eval({option, value, option, value, "--episodes", "1", "--out", folder / "out"}, folder / "said"), 2)
+        << option;
+    EXPECT_NE(content(folder / "said").find("asked for twice"), std::string::npos)
+        << content(folder / "said");
+  }
+}
+
 // FILE-009 A seed below zero was 2^64 - 1 and more; beyond what a seed can be it was another one.
 TEST(Campaign, SeedsAreWrittenInDigits) {
   const fs::path folder = scratch();
