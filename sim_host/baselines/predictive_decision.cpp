@@ -13,6 +13,7 @@
 #include "algo/trajectory/along_path.hpp"
 #include "algo/trajectory/bicycle.hpp"
 #include "algo/trajectory/candidates.hpp"
+#include "sim_host/baselines/goal_distance.hpp"
 #include "sim_host/baselines/planner_registry.hpp"
 #include "sim_host/metrics/time_to_collision.hpp"
 
@@ -30,8 +31,6 @@ const RegisterPlanner kRegistered{
 const RegisterPlanner kKinematic{
     entry<false>("predictive_decision_kinematic", "the same, predicting with the kinematic model")};
 
-constexpr float kHorizonS = kHorizonSteps * kStepS;
-constexpr float kMissedM = 100.0F;
 constexpr float kJerkMps3 = 10.0F;
 constexpr float kGapM = 1.0F;
 constexpr float kFarM = 8.0F;  // gaps beyond this count as nothing
@@ -50,30 +49,6 @@ traffic::CarState car_at(const Pose& now, const Pose& next, float length_m, floa
   return car;
 }
 
-/// Way left to the goal at the end, less what a car as fast as allowed would have left, of its way.
-float goal_share(const scene::Scene& scene, const scene::EgoPath& path, const Trajectory& trajectory,
-                 const Parameters& parameters) {
-  const TrajectoryPoint& start = trajectory.points[0];
-  const TrajectoryPoint& end = trajectory.points[kHorizonSteps];
-  const float start_s_m =
-      scene::project(*scene.map, path.path, position(start.rear_axle), path.frenet.s_m, 15.0F).s_m;
-  float way_m = 0.0F;
-  for (int i = 1; i < kTrajectoryPoints; ++i)
-    way_m += 0.5F * kStepS * (trajectory.points[i - 1].speed_mps + trajectory.points[i].speed_mps);
-  const float end_s_m =
-      scene::project(*scene.map, path.path, position(end.rear_axle), start_s_m + way_m, 15.0F).s_m;
-  const float limit_mps = scene::path_point(*scene.map, path.path, start_s_m).speed_limit_mps;
-  const float longest_m = std::max(limit_mps, 1.0F) * kHorizonS;
-  float lacking_m = std::max(0.0F, longest_m - (end_s_m - start_s_m));
-  if (path.changes_needed != 0) {
-    const float change_m = parameters.comfort.lane_change_s * limit_mps;
-    lacking_m += change_m * static_cast<float>(std::abs(path.changes_needed));
-    const float front_s_m = end_s_m + trajectory::rear_axle_to_front_m(parameters);
-    if (front_s_m > path.route_end_s_m - change_m) lacking_m += kMissedM;
-  }
-  return lacking_m / longest_m;
-}
-
 }  // namespace
 
 float weighted(const PdCost& f, const PdCost& w) {
@@ -86,7 +61,7 @@ PdCost pd_features(const scene::Scene& scene, int path_index, const trajectory::
                    const satp::KinematicSet& others, const Parameters& parameters) {
   const scene::EgoPath& path = scene.ego_paths[path_index];
   PdCost features;
-  features.goal = goal_share(scene, path, trajectory, parameters);
+  features.goal = goal_distance(scene, path, trajectory, parameters);
 
   float s_m = trajectory::locate_on(line, position(trajectory.points[0].rear_axle), path.frenet.s_m).s_m;
   for (int i = 1; i < kTrajectoryPoints; ++i) {

@@ -13,9 +13,8 @@
 ///   ttc        1 - (least time to collision) / 3 s                     5
 ///   collision  chance of one within the horizon                        10
 /// \endcode
-/// A lane change still due counts as the way that one takes at the limit (comfort.lane_change_s), and 100 m more where
-/// that is not left for it; driving over the end of a road is a collision. Modes of a vehicle count by their probability, the worst
-/// vehicle counts.
+/// What a lane change still due counts, and one that is too late, says goal_distance.hpp; driving over the end of a road is a collision.
+/// Modes of a vehicle count by their probability, the worst vehicle counts.
 
 #include "algo/planner/planner.hpp"
 

@@ -6,6 +6,7 @@
 
 #include <memory>
 
+#include "sim_host/baselines/goal_distance.hpp"
 #include "tests/support/first_plan.hpp"
 #include "tests/support/lane_maps.hpp"
 #include "tests/support/scene_support.hpp"
@@ -84,14 +85,54 @@ TEST(PredictiveDecision, KeepsItsDistance) {
   EXPECT_FLOAT_EQ(cost.collision, 0.0F);
 }
 
-// A lane change still due counts as the 3 s at the limit that it takes, 30 m of 30 m; 100 m more where less than those are
-// left for it: the front comes to 20 + 30 + 4 = 54 m, the lane can be left until 80 m.
-TEST(PredictiveDecision, ALaneChangeStillDueCostsWay) {
+// A lane change still due counts as the 3 s at the limit that it takes, 30 m of 30 m. From 10 m/s, 54 m with the front, 10^2 / (2 * 2.5)
+// = 20 m to a standstill and 15 m for the change need the lane until 89 m: where it ends at 80 m the missed goal counts
+// by 9 m of 15 m, and whole where it ends at 70 m; braking with 3 m/s^2 it comes to 40.5 m with 1 m/s and misses nothing.
+TEST(PredictiveDecision, ALaneChangeStillDueCostsWayAndMoreWhenItIsTooLate) {
   Road road({}, 2);
+  const Trajectory on = test::plan_of(road.ego);
+  const Trajectory brakes = test::plan_of(road.ego, -3.0F);
   road.scene.ego_paths[0].changes_needed = 1;
-  EXPECT_NEAR(road.cost_of(test::plan_of(road.ego)).goal, 30.0F / 30.0F, 1e-3F);
-  road.scene.ego_paths[0].route_end_s_m = 80.0F;
-  EXPECT_NEAR(road.cost_of(test::plan_of(road.ego)).goal, 130.0F / 30.0F, 1e-3F);
+  EXPECT_NEAR(road.cost_of(on).goal, 1.0F, 1e-3F);
+  const float in_time = road.cost_of(brakes).goal;
+  const auto ends_at = [&](float s_m) {
+    road.scene.ego_paths[0].route_end_s_m = s_m;
+    road.scene.ego_paths[0].change_by_s_m.clear();
+    ASSERT_TRUE(road.scene.ego_paths[0].change_by_s_m.push(s_m));
+  };
+  ends_at(80.0F);
+  EXPECT_NEAR(road.cost_of(on).goal, 1.0F + kMissed * 9.0F / 15.0F, 0.05F);
+  EXPECT_NEAR(road.cost_of(brakes).goal, in_time, 1e-3F);
+  ends_at(70.0F);
+  EXPECT_NEAR(road.cost_of(on).goal, 1.0F + kMissed, 1e-3F);
+  EXPECT_NEAR(road.cost_of(brakes).goal, in_time, 1e-3F);
+}
+
+// A goal that is missed is worse than the least time to collision, and less bad than a collision.
+TEST(PredictiveDecision, AMissedGoalLiesBetweenDangerAndCollision) {
+  EXPECT_GT(kMissed * kPdWeights.goal, kPdWeights.ttc);
+  EXPECT_LT(kMissed * kPdWeights.goal, kPdWeights.collision);
+}
+
+// Our lane ends at 80 m, the one on the left goes on. A change that is over before costs no more than the way it takes; beside
+// it for 3 s, all of it is left to do where our lane ends, and a metre sideways is not enough.
+TEST(PredictiveDecision, AChangeHasToBeMadeWhereOurLaneEnds) {
+  Road road({}, 2);
+  int left = 0;
+  while (left < road.scene.ego_paths.size() &&
+         road.scene.ego_paths[left].manoeuvre != scene::Manoeuvre::kLeft)
+    ++left;
+  ASSERT_LT(left, road.scene.ego_paths.size());
+  road.scene.ego_paths[0].changes_needed = 1;
+  road.scene.ego_paths[0].route_end_s_m = 50.0F;
+  const auto beside = [&](float d_m) {
+    Trajectory motion = test::plan_of(road.ego);
+    for (TrajectoryPoint& point : motion.points) point.rear_axle.y_m += d_m;
+    return goal_distance(road.scene, road.scene.ego_paths[left], motion, road.parameters);
+  };
+  EXPECT_NEAR(beside(3.2F), 0.0F, 1e-3F);
+  EXPECT_GT(beside(1.0F), 0.3F * kMissed);
+  EXPECT_GT(beside(0.0F), 1.0F + 0.9F * kMissed);
 }
 
 // Behind a standing car the planner itself brakes, bare as well: the cost says so, no rule.
