@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
 # The whole table of results: every planner, bare and guarded, in every scenario, in our traffic and in SUMO's.
 #
-#   sim_host/campaign/main_table.sh [--jobs N] [--episodes N] [--parts NAME,...] FOLDER
+#   sim_host/campaign/main_table.sh [--jobs N] [--episodes N] [--first-seed N] [--parts NAME,...] FOLDER
 #
 #   --jobs N       episodes at a time (default: one a core)
 #   --episodes N   so many a cell, to try it (default: 100 in our traffic, 40 in SUMO's, and what is below)
+#   --first-seed N the block of seeds (default: 10000; a table that decides something takes one nothing was looked at on)
 #   --parts NAMES  of builtin, sumo, long, raw, real, networks and networks_sumo only these (default: all, in this order)
 #
 # Killed or interrupted, the same command goes on. FOLDER then holds a folder for each part, with its record
@@ -15,11 +16,13 @@ root=$(realpath "$(dirname "${BASH_SOURCE[0]}")/../..")
 
 jobs=$(nproc)
 episodes=
+first_seed=10000
 parts=builtin,sumo,long,raw,real,networks,networks_sumo
 while [[ ${1:-} == --* ]]; do
   case $1 in
     --jobs) jobs=$2 ;;
     --episodes) episodes=$2 ;;
+    --first-seed) first_seed=$2 ;;
     --parts) parts=$2 ;;
     *) break ;;
   esac
@@ -49,7 +52,7 @@ part() {
   [[ " ${parts[*]} " == *" $name "* ]] || return 0
   echo "== $name: part $((++number)) of ${#parts[@]}" >&2
   mkdir -p "$folder/$name"
-  "$tool" eval --planner "$planners" "$@" --episodes "${episodes:-$most}" --first-seed 10000 --jobs "$jobs" \
+  "$tool" eval --planner "$planners" "$@" --episodes "${episodes:-$most}" --first-seed "$first_seed" --jobs "$jobs" \
     --out "$folder/$name" >"$folder/$name/table.txt"
   for other in ${planners//,/ }; do
     [[ $other == s4tp ]] || "$tool" eval compare "$folder/$name/results.json" --planner s4tp --against "$other" \

@@ -26,8 +26,8 @@ MOST_COLUMNS = 10  # a wider table is turned on its side
 PAGE = """# Results
 
 `sim_host/campaign/main_table.sh --jobs 2 out/main` drives all of this and goes on where it was stopped; `out/main/report/index.html`
-then shows every table, plots, and replays of failures, `out/main/docs` is this folder. Seeds 10,000 and on, on which nothing was
-tuned; commit {commit}. Each cell is **goals in `smarts` / in `social`**; ours: collisions through our own fault. Bare: with the
+then shows every table, plots, and replays of failures, `out/main/docs` is this folder. Seeds {first_seed:,} and on, on which
+nothing was tuned; commit {commit}. Each cell is **goals in `smarts` / in `social`**; ours: collisions through our own fault. Bare: with the
 command gate alone; guarded: with the guard and the fail-safe, whoever plans. The other numbers of each run (intervals,
 rates, gaps, comfort, the competition's own metrics) are in the JSON beside this page, a line a run.
 
@@ -182,6 +182,7 @@ def main():
     arguments = parser.parse_args()
     arguments.out.mkdir(parents=True, exist_ok=True)
     sections = ""
+    first_seeds = set()
     for name in PARTS:
         folder = arguments.folder / name
         if not (folder / "results.json").exists():
@@ -193,7 +194,11 @@ def main():
         with open(folder / "episodes.jsonl", encoding="utf-8") as record:
             times = goal_times(record)
         sections += section(name, document, against, times)
-    (arguments.out / "README.md").write_text(PAGE.format(commit=arguments.commit) + sections, encoding="utf-8")
+        first_seeds.add(document["first_seed"])
+    if len(first_seeds) != 1:
+        parser.error(f"{arguments.folder}: parts of different blocks, from seeds {sorted(first_seeds)} on")
+    page = PAGE.format(commit=arguments.commit, first_seed=first_seeds.pop()) + sections
+    (arguments.out / "README.md").write_text(page, encoding="utf-8")
 
 
 if __name__ == "__main__":

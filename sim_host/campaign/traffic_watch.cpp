@@ -15,7 +15,6 @@ namespace s4tp::campaign {
 namespace {
 
 constexpr int kTicksPerSnapshot = 10;
-constexpr double kSnapshot_s = 0.1;
 constexpr double kOnlyOnce_per_min = 0.1;  // the second one would come 10 minutes later
 
 scenario::FlowGroup neutral_driver(const scenario::Scenario& scenario) {
@@ -32,13 +31,13 @@ metrics::TrafficSamples watch_one(const scenario::Scenario& scenario, const Watc
                                   std::uint64_t seed) {
   const std::unique_ptr<traffic::TrafficEngine> engine = world::make_engine(scenario, {options.engine, seed});
   std::vector<traffic::Snapshot> snapshots;
-  const auto count = static_cast<int>(std::lround(options.duration_s / kSnapshot_s));
+  const auto count = static_cast<int>(std::lround(options.duration_s / traffic::kSnapshotPeriod_s));
   for (int i = 1; i <= count; ++i) {
     for (int tick = 0; tick < kTicksPerSnapshot; ++tick) {
       engine->step(nullptr);
     }
     traffic::Snapshot snapshot;
-    snapshot.time_s = i * kSnapshot_s;
+    snapshot.time_s = i * traffic::kSnapshotPeriod_s;
     snapshot.others = engine->cars();
     snapshots.push_back(std::move(snapshot));
   }

@@ -19,7 +19,6 @@ constexpr double kMoving_mps = 3.0;
 constexpr double kPetMax_s = 10.0;
 constexpr double kFirstInLine_m = 15.0;
 constexpr double kTurn_rad = 0.6;
-constexpr double kStep_s = 0.1;
 constexpr double kStuck_s = 60.0;
 
 void post_encroachment(const map::Network& network, const std::vector<Journey>& tracks,
@@ -198,7 +197,8 @@ void still_waiting(const map::Network& network, const std::vector<Journey>& trac
     const auto moved = std::find_if(track.points.rbegin(), track.points.rend(),
                                     [](const judge::JourneyPoint& p) { return p.speed_mps > kMoving_mps; });
     const double since_s = moved == track.points.rend() ? track.points.front().time_s : moved->time_s;
-    if (at_line && !lane.in_junction && last.time_s > last_s - 0.5 * kStep_s && last_s - since_s > kStuck_s) {
+    if (at_line && !lane.in_junction && last.time_s > last_s - 0.5 * traffic::kSnapshotPeriod_s &&
+        last_s - since_s > kStuck_s) {
       ++samples.still_waiting;
     }
   }

@@ -13,8 +13,6 @@
 namespace s4tp::metrics {
 namespace {
 
-constexpr double kStep_s = 0.1;
-
 void collisions(const traffic::Snapshot& snapshot, std::set<std::pair<int, int>>& known) {
   const std::vector<traffic::CarState>& cars = snapshot.others;
   for (std::size_t a = 0; a < cars.size(); ++a) {
@@ -104,14 +102,14 @@ TrafficSamples observe_traffic(const map::Network& network, std::span<const traf
   samples.vehicles = static_cast<int>(tracks.size());
   for (const judge::Journey& track : tracks) {
     samples.vehicle_s += track.points.back().time_s - track.points.front().time_s;
-    samples.finished += track.points.back().time_s < last_s - 0.5 * kStep_s ? 1 : 0;
+    samples.finished += track.points.back().time_s < last_s - 0.5 * traffic::kSnapshotPeriod_s ? 1 : 0;
   }
   std::set<std::pair<int, int>> touched;
   double next_speed_s = snapshots.front().time_s;
   for (const traffic::Snapshot& snapshot : snapshots) {
     add_following(network, snapshot, samples);
     collisions(snapshot, touched);
-    if (snapshot.time_s >= next_speed_s - 0.5 * kStep_s) {
+    if (snapshot.time_s >= next_speed_s - 0.5 * traffic::kSnapshotPeriod_s) {
       next_speed_s += 1.0;
       for (const traffic::CarState& car : snapshot.others) {
         samples.speeds_mps.push_back(car.speed_mps);

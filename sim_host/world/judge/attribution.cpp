@@ -16,7 +16,6 @@ namespace {
 using traffic::Cause;
 
 constexpr double kStoodFor_s = 1.0;
-constexpr double kSnapshot_s = 0.1;
 constexpr double kZonePad_m = 3.0;  // a car beside its lane's centre touches a little before or behind a zone
 constexpr double kSlow_mps = 1.0;   // who is slower in a zone was stopped there
 constexpr double kQueue_mps = 2.0;  // who is slower beyond a junction leaves no room
@@ -172,7 +171,7 @@ Verdict by_line(const Party& ego, const Party& other, Cause cause, const Strayed
 
 /// Whether the one in front came ahead where both ways merge and the one behind has to give way.
 bool merged_by_right(const Evidence& evidence, const Journey& front, const Journey& rear, double since_s) {
-  const map::LaneId from = front.at(since_s - kSnapshot_s).lane;
+  const map::LaneId from = front.at(since_s - traffic::kSnapshotPeriod_s).lane;
   const std::vector<ZoneGroup> groups = evidence.groups_of(front);
   return std::any_of(groups.begin(), groups.end(), [&](const ZoneGroup& group) {
     return std::any_of(group.zones.begin(), group.zones.end(), [&](const ZoneOnWay& zone) {

@@ -10,7 +10,6 @@ namespace {
 
 constexpr std::size_t kChainMax = 4;  // lanes passed in 0.1 s: seams between edges are 1 m long
 constexpr double kAhead_m = 100.0;
-constexpr double kStep_s = 0.1;
 
 /// Lanes from `from` to `to` going forward, both included; empty: not within reach.
 std::vector<map::LaneId> chain(const map::Network& network, map::LaneId from, map::LaneId to,
@@ -95,7 +94,7 @@ const JourneyPoint& Journey::at(double time_s) const {
 }
 
 bool Journey::seen_at(double time_s) const {
-  return time_s > points.front().time_s - 1e-6 && time_s < points.back().time_s + kStep_s;
+  return time_s > points.front().time_s - 1e-6 && time_s < points.back().time_s + traffic::kSnapshotPeriod_s;
 }
 
 std::vector<Journey> journeys_of(const map::Network& network, std::span<const traffic::Snapshot> snapshots,

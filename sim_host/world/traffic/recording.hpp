@@ -22,6 +22,8 @@ struct CarState {
   int lane = -1;  ///< network lane id; -1: off the network
 };
 
+inline constexpr double kSnapshotPeriod_s = 0.1;  ///< of a recording
+
 struct Snapshot {
   double time_s = 0.0;  ///< since the ECU took over; negative in the pre-roll
   CarState ego;
@@ -66,7 +68,7 @@ struct Recording {
   Ending ending = Ending::kRunning;
   map::Vec2 goal;                                 ///< where it lies
   double goal_distance_m = 0.0;                   ///< Manhattan distance to the goal at the end
-  std::vector<Snapshot> snapshots;                ///< every 0.1 s
+  std::vector<Snapshot> snapshots;                ///< every kSnapshotPeriod_s
   std::vector<Collision> collisions;              ///< boxes of the cars' own size
   std::vector<Collision> collisions_competition;  ///< the same with 3.68 x 1.47 m boxes
 };
