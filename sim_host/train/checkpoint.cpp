@@ -80,6 +80,11 @@ Tensor Trainer::fingerprint() const {
   if (const IntegerRounding* const rounding = network_->rounding()) {
     for (const auto& [layer, range] : rounding->calibrated()) print.push_back(range.magnitude());
   }
+  if (teacher_ != nullptr) {
+    double taught = 0.0;
+    for (const Tensor& parameter : teacher_->parameters()) taught += parameter.abs().sum().item<double>();
+    print.push_back(taught);
+  }
   return torch::tensor(print, torch::kFloat64);
 }
 

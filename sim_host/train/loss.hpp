@@ -23,7 +23,10 @@ struct Loss {
       ego;  ///< smooth L1 of the ego head where a sample tells our motion; of other sizes than full 0
 };
 
-[[nodiscard]] Loss loss_of(const Batch& batch, const Encoded& encoded, const Decoded& decoded);
+/// \param teacher  TRAIN-019 what a larger network expects of the same batch: half of the total is learned from it, each
+/// of its futures taken for what happens, as often as it is probable; the other parts are of what did happen
+[[nodiscard]] Loss loss_of(const Batch& batch, const Encoded& encoded, const Decoded& decoded,
+                           const Decoded* teacher = nullptr);
 
 /// Mean distance over the steps seen, of each mode [V, K]; 0 where nothing was seen.
 [[nodiscard]] torch::Tensor mean_distance_m(const Batch& batch, const Decoded& decoded);

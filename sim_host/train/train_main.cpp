@@ -128,6 +128,12 @@ void add_run(CLI::App& tool, RunOptions& options) {
                   "checkpoint of a trained mcu network: go on from it with the ECU's rounding in it, so that "
                   "its image loses less")
       ->check(CLI::ExistingFile);
+  command
+      .add_option(
+          "--teacher", training.teacher,
+          "checkpoint of a trained network of size teacher: learn from what it expects as well as from "
+          "what happened")
+      ->check(CLI::ExistingFile);
   command.add_option("--passes", training.passes, "times a scene is seen at most")->capture_default_str();
   command.add_option("--validate-every", training.validate_every, "steps between points of the curve")
       ->check(CLI::Range(1, 1000000))

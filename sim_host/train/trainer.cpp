@@ -55,6 +55,18 @@ std::shared_ptr<Network> new_network(const satp::NetworkShape& shape, const Trai
   return network;
 }
 
+// The network that is learned from.
+std::shared_ptr<Network> teacher_of(const TrainingOptions& options, const satp::NetworkShape& shape,
+                                    torch::Device device) {
+  if (options.teacher.empty()) return nullptr;
+  if (shape.id == satp::kFullShape.id)
+    throw std::runtime_error(
+        "the size full reads scenes on a finer grid than a teacher: it learns from none");
+  auto teacher = load_network(satp::kTeacherShape, options.teacher);
+  teacher->to(device);
+  return teacher;
+}
+
 // The parts of the loss that the curve tells, in its order.
 Tensor parts_of(const Loss& loss) {
   return torch::stack({loss.position, loss.mode, loss.route, loss.yields, loss.ego})
@@ -87,6 +99,7 @@ Trainer::Trainer(const satp::NetworkShape& shape, const TrainingOptions& options
       validation_(samples_of(set, Part::kValidation)),
       device_(best_device()),
       network_(new_network(shape, options, set, device_)),
+      teacher_(teacher_of(options, shape, device_)),
       adam_(network_->parameters(), torch::optim::AdamOptions(options.rate)),
       steps_(steps_of(options, training_.size())),
       losses_(torch::zeros({5}, torch::TensorOptions(device_).dtype(torch::kFloat64))) {
@@ -129,6 +142,16 @@ Trainer::StepInput Trainer::input_of(std::int64_t step) {
   return {make_batch(samples, network_->shape()).to(device_), torch::tensor(has_plan).to(device_)};
 }
 
+Loss Trainer::loss_with_teacher(const Batch& batch, const Encoded& encoded, const Decoded& decoded,
+                                const Tensor& has_plan) {
+  if (teacher_ == nullptr) return loss_of(batch, encoded, decoded);
+  const Decoded expected = [&] {
+    const torch::NoGradGuard no_gradient;
+    return teacher_->decode(batch, teacher_->encode(batch), has_plan);
+  }();
+  return loss_of(batch, encoded, decoded, &expected);
+}
+
 void Trainer::train_step() {
   const auto [batch, has_plan] = ahead_.valid() ? ahead_.get() : input_of(step_);
   if (step_ + 1 < steps_)
@@ -138,7 +161,7 @@ void Trainer::train_step() {
   adam_.zero_grad();
   const Encoded encoded = network_->encode(batch);
   const Decoded decoded = network_->decode(batch, encoded, has_plan);
-  const Loss loss = loss_of(batch, encoded, decoded);
+  const Loss loss = loss_with_teacher(batch, encoded, decoded, has_plan);
   loss.total.backward();
   const double gradient = torch::nn::utils::clip_grad_norm_(network_->parameters(), options_.clip);
   if (!std::isfinite(gradient)) {

@@ -29,6 +29,7 @@ struct TrainingOptions {
   double rough = 0.6;                 ///< share of scenes whose tracks are roughened (rough_tracks.hpp)
   bool forks = true;                  ///< false: only what the ego did by itself is learned from
   std::filesystem::path integers;     ///< a trained network to go on from with the ECU's rounding in it
+  std::filesystem::path teacher;      ///< a trained network of size teacher to learn from as well
   std::int64_t passes = 15;           ///< no scene is seen more often
   std::int64_t validate_every = 500;  ///< steps
 };
@@ -67,6 +68,8 @@ class Trainer {
   void train_step();
   [[nodiscard]] CurvePoint sums() const;
   void validate(CurvePoint& point);
+  [[nodiscard]] Loss loss_with_teacher(const Batch& batch, const Encoded& encoded, const Decoded& decoded,
+                                       const torch::Tensor& has_plan);
   [[nodiscard]] torch::Tensor fingerprint() const;
 
   TrainingOptions options_;
@@ -75,6 +78,7 @@ class Trainer {
   std::vector<std::size_t> validation_;
   torch::Device device_;
   std::shared_ptr<Network> network_;
+  std::shared_ptr<Network> teacher_;  ///< null: none
   torch::optim::Adam adam_;
   std::int64_t steps_;
   std::int64_t step_ = 0;

@@ -62,5 +62,40 @@ TEST(Loss, WhoHasLeftHasNoLikelihood) {
   EXPECT_NEAR(futures.loss().likelihood.item<float>(), 0.0F, 1e-4F);
 }
 
+/// What a teacher expects: that everybody stays where it is, in all three futures, and does not let us pass.
+Decoded teacher_of(const Futures& futures) {
+  const Tensor far_off = torch::full_like(futures.decoded.yields, -30.0F);
+  return {torch::zeros_like(futures.decoded.pose), torch::zeros_like(futures.decoded.score), far_off};
+}
+
+// TRAIN-019 A teacher that expects what happens teaches nothing else: the total is the same.
+TEST(Loss, ATeacherThatIsRightChangesNothing) {
+  Futures futures;
+  futures.put_off(1, 2.0F);
+  futures.batch.target_mask.fill_(1.0F);
+  futures.batch.route.fill_(-1);
+  futures.batch.yields.zero_();
+  const Decoded teacher = teacher_of(futures);
+  const float alone = futures.loss().total.item<float>();
+  const float both = loss_of(futures.batch, futures.encoded, futures.decoded, &teacher).total.item<float>();
+  EXPECT_NEAR(both, alone, 1e-4F);
+}
+
+// TRAIN-019 Half is learned from the teacher, each of its futures by its probability. The network is right and surely so; of the
+// teacher's futures one, of a third, is 2 m off for all. It counts 1.5 in the nearest, half of 1.5 in the expected and half of
+// 2^2 / 2 = 2 in the likelihood: a half of a third of 3.25 more.
+TEST(Loss, HalfIsLearnedFromTheTeacher) {
+  Futures futures;
+  futures.batch.target_mask.fill_(1.0F);
+  futures.batch.route.fill_(-1);
+  futures.batch.yields.zero_();
+  futures.decoded.yields.fill_(-30.0F);
+  Decoded teacher = teacher_of(futures);
+  const float right = loss_of(futures.batch, futures.encoded, futures.decoded, &teacher).total.item<float>();
+  teacher.pose.select(1, 2).select(2, 1).fill_(2.0F);
+  const float off = loss_of(futures.batch, futures.encoded, futures.decoded, &teacher).total.item<float>();
+  EXPECT_NEAR(off - right, 0.5F * (1.5F + 0.5F * 1.5F + 0.5F * 2.0F) / 3.0F, 1e-3F);
+}
+
 }  // namespace
 }  // namespace s4tp::train

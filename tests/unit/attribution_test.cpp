@@ -1,11 +1,10 @@
-// Whose fault and why: each row of attribution.hpp's table, and each reason to stand.
+// Whose fault and why: each row of attribution.hpp's table.
 
 #include "sim_host/world/judge/attribution.hpp"
 
 #include <gtest/gtest.h>
 
-#include "sim_host/world/judge/reasons.hpp"
-#include "tests/support/judged_road.hpp"
+#include "tests/support/judged_touch.hpp"
 
 namespace s4tp::judge {
 namespace {
@@ -13,19 +12,13 @@ namespace {
 using map::Network;
 using map::Rule;
 using test::eastbound;
+using test::judged;
 using test::northbound;
+using test::pair;
+using test::rear_ended;
 using traffic::CarState;
 using traffic::Cause;
 using traffic::Fault;
-
-/// Of car 7, at the end of what was recorded.
-Verdict judged(const Network& network, double from_s, double until_s, const test::Drive& drive) {
-  return attribute(network, test::eastwards(network), test::recorded(from_s, until_s, drive), 7);
-}
-
-std::pair<Fault, Cause> pair(const Verdict& verdict) {
-  return {verdict.fault, verdict.cause};
-}
 
 /// Both at 8 m/s: the ego at x = 104 + 8 t, the other at y = -6 + 8 t: boxes touch at t = 0.5.
 std::vector<CarState> both_cross(double t) {
@@ -195,16 +188,6 @@ TEST(Attribution, RunningIntoOneWhoCameLongAgo) {
   EXPECT_EQ(pair(cut_in(7, 12.0)), std::pair(Fault::kEgo, Cause::kRanInto));
 }
 
-/// The ego stands at x from t = -4 on (before it braked from 8 m/s), car 7 runs into its tail.
-test::Drive rear_ended(double x, std::vector<CarState> further = {}) {
-  return [=](double t) {
-    std::vector<CarState> cars{eastbound(0, t < -4.0 ? x + 8.0 * (t + 4.0) : x, 0.0, t < -4.0 ? 8.0 : 0.0),
-                               eastbound(7, x - 4.9 + 8.0 * t, 0.0, 8.0)};
-    cars.insert(cars.end(), further.begin(), further.end());
-    return cars;
-  };
-}
-
 // LAW-025 In the middle of a free road without reason: ours, though it runs into us.
 TEST(Attribution, StoppingInALiveLane) {
   EXPECT_EQ(pair(judged(test::judged_road(Rule::kFirstYields), -6.0, 0.0, rear_ended(50.0))),
@@ -228,49 +211,6 @@ TEST(Attribution, BeingRunInto) {
                               eastbound(7, 45.1 + 12.0 * t, 0.0, 12.0)};
                         })),
             std::pair(Fault::kOther, Cause::kRanInto));
-}
-
-// LAW-030 Reasons: a queue 14 m ahead; 10 m before a zone where we have to yield (x = 96; the zone begins at
-// 106); not where we have priority.
-TEST(Reasons, QueueAndGivingWay) {
-  EXPECT_EQ(pair(judged(test::judged_road(Rule::kFirstYields), -6.0, 0.0,
-                        rear_ended(50.0, {eastbound(8, 69.0, 0.0, 0.0)}))),
-            std::pair(Fault::kOther, Cause::kRanInto));
-  EXPECT_EQ(pair(judged(test::judged_road(Rule::kFirstYields), -6.0, 0.0, rear_ended(96.0))),
-            std::pair(Fault::kOther, Cause::kRanInto));
-  EXPECT_EQ(pair(judged(test::judged_road(Rule::kFirstHasPriority), -6.0, 0.0, rear_ended(96.0))),
-            std::pair(Fault::kEgo, Cause::kStopped));
-}
-
-// LAW-030 The left lane ends at x = 100 and the route needs the right one: standing at its end is a reason,
-// 50 m before it is none.
-TEST(Reasons, TheLastPlaceForALaneChange) {
-  const Network network = test::judged_road(Rule::kFirstYields);
-  const auto at = [&](double x) {
-    return judged(network, -6.0, 0.0, [&](double t) {
-      return std::vector<CarState>{eastbound(0, x, 3.2, 0.0), eastbound(7, x - 4.9 + 8.0 * t, 3.2, 8.0)};
-    });
-  };
-  EXPECT_EQ(pair(at(95.0)), std::pair(Fault::kOther, Cause::kRanInto));
-  EXPECT_EQ(pair(at(45.0)), std::pair(Fault::kEgo, Cause::kStopped));
-}
-
-/// We have priority, stop at x = 86 at t = -1.5, 20 m before the zone, and are run into at t = 0. Car 8
-/// creeps over the zone at 2 m/s from `entered_s` on.
-Verdict stopped_for_one_who_creeps(double entered_s) {
-  return judged(test::judged_road(Rule::kFirstHasPriority), -30.0, 0.0, [&](double t) {
-    const bool stands = t > -1.5;
-    return std::vector<CarState>{
-        eastbound(0, stands ? 86.0 : 86.0 + 8.0 * (t + 1.5), 0.0, stands ? 0.0 : 8.0),
-        eastbound(7, 81.1 + 12.0 * t, 0.0, 12.0), northbound(8, -4.0 + 2.0 * (t - entered_s), 2.0)};
-  });
-}
-
-// LAW-030 It enters 2 s ago, gone after 4 s, when we were 24 m away at 8 m/s (3 s; 28 m to stop gently): it
-// broke the law, reason enough. Entered 20 s ago, it was gone before we came.
-TEST(Reasons, SomebodyBrokeTheLaw) {
-  EXPECT_EQ(pair(stopped_for_one_who_creeps(-2.0)), std::pair(Fault::kOther, Cause::kRanInto));
-  EXPECT_EQ(pair(stopped_for_one_who_creeps(-20.0)), std::pair(Fault::kEgo, Cause::kStopped));
 }
 
 /// Head-on at x = 60: the ego at y, car 7 on its way west at its y.
