@@ -195,7 +195,9 @@ def main():
             times = goal_times(record)
         sections += section(name, document, against, times)
         first_seeds.add(document["first_seed"])
-    if len(first_seeds) != 1:
+    if not first_seeds:
+        parser.error(f"{arguments.folder}: holds no part of a table (a folder with results.json)")
+    if len(first_seeds) > 1:
         parser.error(f"{arguments.folder}: parts of different blocks, from seeds {sorted(first_seeds)} on")
     page = PAGE.format(commit=arguments.commit, first_seed=first_seeds.pop()) + sections
     (arguments.out / "README.md").write_text(page, encoding="utf-8")

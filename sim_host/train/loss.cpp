@@ -71,34 +71,36 @@ struct Happening {
   Tensor settled;  ///< [V] weights of that
 };
 
-// Which mode is nearest to what happens [V, 1], and how near each is [V, K]: nothing to learn from itself.
-std::pair<Tensor, Tensor> nearness(const Happening& happening, const Decoded& decoded) {
+// Of the modes, which is nearest to what happens and how near each is: nothing to learn from itself.
+struct Nearness {
+  Tensor best;   ///< [V, 1]
+  Tensor share;  ///< [V, K]
+};
+Nearness nearness_of(const Happening& happening, const Decoded& decoded) {
   const torch::NoGradGuard no_gradient;
   const Tensor distance = distance_m(happening.target, happening.mask, decoded);
   return {distance.argmin(1, true), torch::softmax(distance / -kAlikeM, 1)};
 }
 
-Tensor yields_loss(const Happening& happening, const Decoded& decoded) {
-  const Tensor share = nearness(happening, decoded).second;
+Tensor yields_loss(const Happening& happening, const Decoded& decoded, const Nearness& near) {
   const Tensor yielded = happening.yields.unsqueeze(1).expand_as(decoded.yields);
   const Tensor wrong =
       torch::binary_cross_entropy_with_logits(decoded.yields, yielded, {}, {}, torch::Reduction::None);
-  return weighted_mean((share * wrong).sum(1), happening.settled);
+  return weighted_mean((near.share * wrong).sum(1), happening.settled);
 }
 
 // The parts of the loss that compare with what happens; route, yields, ego and total stay undefined.
-Loss compare(const Happening& happening, const Decoded& decoded) {
+Loss compare(const Happening& happening, const Decoded& decoded, const Nearness& near) {
   const Tensor steps = happening.mask.sum(1);
   const Tensor smooth =
       (smooth_off(decoded.pose - happening.target.unsqueeze(1)) * happening.mask.unsqueeze(1)).sum(2) /
       steps.clamp_min(1.0F).unsqueeze(1);  // [V, K]
-  const auto [best, share] = nearness(happening, decoded);
   const Tensor log_probability = torch::log_softmax(decoded.score, 1);
   const Tensor weight = (steps > 0).to(torch::kFloat32) * happening.counts;
   Loss loss;
-  loss.position = weighted_mean(smooth.gather(1, best).squeeze(1), weight);
+  loss.position = weighted_mean(smooth.gather(1, near.best).squeeze(1), weight);
   loss.expected = weighted_mean((log_probability.exp() * smooth).sum(1), weight);
-  loss.mode = weighted_mean(-(share * log_probability).sum(1), weight);
+  loss.mode = weighted_mean(-(near.share * log_probability).sum(1), weight);
   loss.likelihood = weighted_mean(unlikeliness(happening.target, decoded, log_probability),
                                   happening.mask.select(1, kHorizonSteps - 1) * happening.counts);
   return loss;
@@ -119,8 +121,9 @@ Tensor taught(const Happening& truth, const Decoded& decoded, const Decoded& tea
                            by_mode(truth.counts), torch::sigmoid(teacher.yields).flatten(),
                            by_mode(truth.settled)};
   const Decoded own{repeated(decoded.pose), repeated(decoded.score), repeated(decoded.yields)};
-  const Loss loss = compare(expected, own);
-  return total_of(loss, loss.mode + yields_loss(expected, own));
+  const Nearness near = nearness_of(expected, own);
+  const Loss loss = compare(expected, own, near);
+  return total_of(loss, loss.mode + yields_loss(expected, own, near));
 }
 
 }  // namespace
@@ -133,11 +136,12 @@ Loss loss_of(const Batch& batch, const Encoded& encoded, const Decoded& decoded,
   const Tensor counts = 1.0F + (kSharesZoneCount - 1.0F) * batch.rule.select(1, 0);
   const Happening truth{batch.target, batch.target_mask, counts, batch.yields.clamp_min(0),
                         (batch.yields >= 0).to(torch::kFloat32)};
-  Loss loss = compare(truth, decoded);
+  const Nearness near = nearness_of(truth, decoded);
+  Loss loss = compare(truth, decoded, near);
   const Tensor known = (batch.route >= 0).to(torch::kFloat32);
   const Tensor taken = encoded.route.gather(1, batch.route.clamp_min(0).unsqueeze(1)).squeeze(1);
   loss.route = weighted_mean(-torch::log(taken.clamp_min(kLeastShare)), known);
-  loss.yields = yields_loss(truth, decoded);
+  loss.yields = yields_loss(truth, decoded, near);
   loss.total = total_of(loss, loss.mode + loss.route + loss.yields);
   if (teacher != nullptr)
     loss.total = (1.0F - kTaughtShare) * loss.total + kTaughtShare * taught(truth, decoded, *teacher);

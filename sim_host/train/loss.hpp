@@ -3,6 +3,8 @@
 /// TRAIN-017 Who shares a zone with us counts as three: few do, and what they do is what we plan by.
 /// TRAIN-018 Beside the distances the likelihood at the horizon's end, of the mixture of all modes; who is not seen any
 /// more then has none.
+/// TRAIN-019 With a teacher half of the total is learned from it: each of its futures is taken for what happens, as often as it is
+/// probable.
 
 #include <torch/types.h>
 
@@ -23,8 +25,7 @@ struct Loss {
       ego;  ///< smooth L1 of the ego head where a sample tells our motion; of other sizes than full 0
 };
 
-/// \param teacher  TRAIN-019 what a larger network expects of the same batch: half of the total is learned from it, each
-/// of its futures taken for what happens, as often as it is probable; the other parts are of what did happen
+/// \param teacher  what a larger network expects of the same batch, or nullptr; the parts but the total are of what did happen
 [[nodiscard]] Loss loss_of(const Batch& batch, const Encoded& encoded, const Decoded& decoded,
                            const Decoded* teacher = nullptr);
 

@@ -245,12 +245,12 @@ TEST(Campaign, WrongUse) {
 // A value named twice counted its episodes twice, as if there were twice as many.
 TEST(Campaign, NothingCountsTwice) {
   const fs::path folder = scratch();
-  for (const std::string option : {"--planner", "--scenario", "--flavour", "--traffic", "--guard"}) {
-    const std::string value = option == "--planner"    ? "constant_speed"
-                              : option == "--scenario" ? "cruise"
-                              : option == "--flavour"  ? "smarts"
-                              : option == "--traffic"  ? "builtin"
-                                                       : "on";
+  const std::pair<std::string, std::string> named[] = {{"--planner", "constant_speed"},
+                                                       {"--scenario", "cruise"},
+                                                       {"--flavour", "smarts"},
+                                                       {"--traffic", "builtin"},
+                                                       {"--guard", "on"}};
+  for (const auto& [option, value] : named) {
     EXPECT_EQ(
         eval({option, value, option, value, "--episodes", "1", "--out", folder / "out"}, folder / "said"), 2)
         << option;

@@ -69,6 +69,24 @@ TEST_F(Training, IsAFunctionOfItsSeed) {
   EXPECT_NE(first, trained(options, set));
 }
 
+// TRAIN-019 A teacher changes what is learned, the same way each time; without it, or at the size full, its training does not go on.
+TEST_F(Training, ATeacherIsPartOfIt) {
+  const SampleSet set = traffic(1, 40, 2);
+  TrainingOptions options = short_training();
+  Trainer larger(satp::kTeacherShape, options, set);
+  larger.run(kGoOn, [](const CurvePoint&) {});
+  larger.save(folder / "teacher.pt");
+  const auto alone = trained(options, set);
+  options.teacher = folder / "teacher.pt";
+  const auto taught = trained(options, set);
+  EXPECT_NE(taught, alone);
+  EXPECT_EQ(taught, trained(options, set));
+  Trainer(satp::kMcuShape, options, set).save(folder / "taught.pt");
+  Trainer without(satp::kMcuShape, short_training(), set);
+  EXPECT_THROW(without.load(folder / "taught.pt"), std::runtime_error);
+  EXPECT_THROW(Trainer(satp::kFullShape, options, set), std::runtime_error);
+}
+
 // TRAIN-004 Stopped between two points of its curve, saved and gone on with by another program: the same
 // bits.
 TEST_F(Training, GoesOnAsIfNothingHadBeen) {

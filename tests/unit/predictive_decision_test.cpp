@@ -114,8 +114,8 @@ TEST(PredictiveDecision, AMissedGoalLiesBetweenDangerAndCollision) {
   EXPECT_LT(kMissed * kPdWeights.goal, kPdWeights.collision);
 }
 
-// Our lane ends at 80 m, the one on the left goes on. A change that is over before costs no more than the way it takes; beside
-// it for 3 s, all of it is left to do where our lane ends, and a metre sideways is not enough.
+// Our lane ends at 50 m, where our front is after 2.6 s; the one on the left goes on. Whoever is in that by then misses nothing; beside
+// it all of the change is left to do, and a metre sideways is not enough.
 TEST(PredictiveDecision, AChangeHasToBeMadeWhereOurLaneEnds) {
   Road road({}, 2);
   int left = 0;
