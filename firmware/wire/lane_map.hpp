@@ -7,6 +7,9 @@
 /// present; a hole among them travels as a record of lane 0 with itself. The digest is the sum of the checks
 /// (crc16.hpp) of all frames of the records in use, each of which says its slot: a record left over from 16
 /// revisions ago has the right revision, but not the right content.
+///
+/// WIRE-036 Each half of the slots also says a digest over the revisions of its records in use: records of
+/// two maps, each whole, do not pass for one by a chance of 1 in 65,536 that their sums agree.
 
 #include <cstdint>
 
@@ -97,6 +100,7 @@ class MapSender {
   [[nodiscard]] bool take_conflicts(const Map& map);
   void revise(int record);
   void make_digest();
+  [[nodiscard]] std::uint16_t revisions(int half) const;
   [[nodiscard]] bool header_frame(std::uint32_t now_ms, Frame& frame);
   [[nodiscard]] int choose_record(std::uint32_t now_ms);
 
@@ -168,6 +172,7 @@ class MapReceiver {
   void change_digest(std::uint16_t out, std::uint16_t in);
   [[nodiscard]] std::uint16_t conflict_check(int slot) const;
   [[nodiscard]] bool complete() const;
+  [[nodiscard]] std::uint16_t revisions(int half) const;
   [[nodiscard]] bool plausible() const;
   [[nodiscard]] bool finish_if_whole();
   void reject();
@@ -186,7 +191,8 @@ class MapReceiver {
   bool revised_ = false;  ///< a record took another revision since whole_ was made
   std::uint8_t generation_ = 0;
   std::uint32_t in_use_[2] = {};
-  std::uint8_t halves_ = 0;   ///< bit i: in_use_[i] arrived
+  std::uint16_t revisions_[2] = {};
+  std::uint8_t halves_ = 0;   ///< bit i: in_use_[i] and revisions_[i] of this generation arrived
   std::uint16_t digest_ = 0;  ///< of the records in use, as far as they are there
   std::uint16_t rejected_ = 0;
 };

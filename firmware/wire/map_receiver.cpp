@@ -155,6 +155,7 @@ bool MapReceiver::accept_header(const Frame& frame) {
   announced.conflict_count = header.conflict_count;
   announced.lanes_left_out = header.lanes_left_out;
   announced.digest = header.digest;
+  if (!header_seen_ || generation_ != header.generation) halves_ = 0;
   header_seen_ = true;
   generation_ = header.generation;
   announce(announced);
@@ -170,6 +171,7 @@ bool MapReceiver::accept_slots(const Frame& frame) {
   }
   if (!header_seen_ || slots.generation != generation_) return false;
   use_lanes(slots.half, slots.in_use);
+  revisions_[slots.half] = slots.revisions;
   halves_ = static_cast<std::uint8_t>(halves_ | (1U << slots.half));
   return finish_if_whole();
 }
@@ -239,7 +241,7 @@ void MapReceiver::change_digest(std::uint16_t out, std::uint16_t in) {
   digest_ = static_cast<std::uint16_t>(digest_ - out + in);
 }
 
-/// Whether every record in use is there.
+/// Whether every record in use is there, in the revision that was announced.
 bool MapReceiver::complete() const {
   if (halves_ != kBothHalves) return false;
   if (count_bits(in_use_[0]) + count_bits(in_use_[1]) != announced_.lane_count) return false;
@@ -252,7 +254,20 @@ bool MapReceiver::complete() const {
   for (int slot = 0; slot < announced_.conflict_count; ++slot) {
     if (!conflict_progress_[slot].has(kConflictParts)) return false;
   }
-  return true;
+  return revisions(0) == revisions_[0] && revisions(1) == revisions_[1];
+}
+
+std::uint16_t MapReceiver::revisions(int half) const {
+  RevisionDigest digest;
+  const int lane = half * RevisionDigest::kLanes;
+  for (int slot = lane; slot < lane + RevisionDigest::kLanes; ++slot) {
+    if (contains(in_use_, slot)) digest.add(lane_progress_[slot].revision);
+  }
+  const int conflict = half * RevisionDigest::kConflicts;
+  for (int slot = conflict; slot < conflict + RevisionDigest::kConflicts; ++slot) {
+    if (slot < announced_.conflict_count) digest.add(conflict_progress_[slot].revision);
+  }
+  return digest.value();
 }
 
 /// Whether the records fit each other: a sender's fault otherwise.

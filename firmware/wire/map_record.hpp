@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "firmware/wire/crc16.hpp"
 #include "firmware/wire/frame.hpp"
 #include "firmware/wire/lane_map.hpp"
 
@@ -18,6 +19,20 @@ inline constexpr std::uint8_t kRevisions = 16;
 /// Lane slots in use, 32 a word.
 using LaneSet = std::uint32_t[2];
 [[nodiscard]] bool contains(const LaneSet& lanes, int lane);
+
+/// What a half of the slots says of the revisions of its records in use, taken lanes first, by slot.
+class RevisionDigest {
+ public:
+  static constexpr int kLanes = kMaxLanes / 2;  ///< of each half
+  static constexpr int kConflicts = kMaxConflicts / 2;
+
+  void add(std::uint8_t revision) { crc_ = crc16_add(crc_, revision); }
+  /// The lower 15 bits of the CRC-16 of one byte a record: what there is room for.
+  [[nodiscard]] std::uint16_t value() const { return static_cast<std::uint16_t>(crc_ & 0x7FFFU); }
+
+ private:
+  std::uint16_t crc_ = kCrc16Start;
+};
 
 [[nodiscard]] int part_count(const Lane& lane);
 [[nodiscard]] int part_count(const Conflict& conflict);

@@ -176,6 +176,19 @@ void MapSender::make_digest() {
   }
 }
 
+std::uint16_t MapSender::revisions(int half) const {
+  RevisionDigest digest;
+  const int lane = half * RevisionDigest::kLanes;
+  for (int slot = lane; slot < lane + RevisionDigest::kLanes; ++slot) {
+    if (in_use(slot)) digest.add(progress_[slot].revision);
+  }
+  const int conflict = kMaxLanes + half * RevisionDigest::kConflicts;
+  for (int record = conflict; record < conflict + RevisionDigest::kConflicts; ++record) {
+    if (in_use(record)) digest.add(progress_[record].revision);
+  }
+  return digest.value();
+}
+
 bool MapSender::header_frame(std::uint32_t now_ms, Frame& frame) {
   const int part = header_part_;
   header_part_ = (header_part_ + 1) % kHeaderParts;
@@ -183,7 +196,8 @@ bool MapSender::header_frame(std::uint32_t now_ms, Frame& frame) {
     MapSlots slots;
     slots.generation = generation_;
     slots.half = static_cast<std::uint8_t>(part - 1);
-    slots.in_use = lanes_in_use_[part - 1];
+    slots.in_use = lanes_in_use_[slots.half];
+    slots.revisions = revisions(slots.half);
     if (!encode(slots, frame)) return false;
     e2e_seal(frame);
     return true;

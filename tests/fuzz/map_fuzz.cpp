@@ -73,6 +73,7 @@ class Forger {
     const bool lane = input.below(3) != 2;
     const int slot = input.below(kSlots);
     revision_ = static_cast<std::uint8_t>((revision_ + 1) % wire::kRevisions);
+    (lane ? lane_revisions_ : conflict_revisions_)[slot] = revision_;
     if (lane) {
       lanes_[slot] = take_lane(input);
       send(lanes_[slot], slot, lane_checks_[slot], receiver);
@@ -88,10 +89,17 @@ class Forger {
     header.conflict_count = static_cast<std::uint8_t>(input.below(kSlots + 1));
     std::uint32_t in_use = input.byte();
     unsigned digest = 0;
+    wire::RevisionDigest revisions[2];
     for (int slot = 0; slot < kSlots; ++slot) {
       if (lane_checks_[slot] == 0) in_use &= ~(1U << slot);
-      if ((in_use >> slot & 1U) != 0) digest += lane_checks_[slot], ++header.lane_count;
-      if (slot < header.conflict_count) digest += conflict_checks_[slot];
+      if ((in_use >> slot & 1U) == 0) continue;
+      digest += lane_checks_[slot];
+      revisions[0].add(lane_revisions_[slot]);
+      ++header.lane_count;
+    }
+    for (int slot = 0; slot < header.conflict_count; ++slot) {
+      digest += conflict_checks_[slot];
+      revisions[0].add(conflict_revisions_[slot]);
     }
     header.digest = static_cast<std::uint16_t>(digest);
     wire::Frame frame;
@@ -99,7 +107,10 @@ class Forger {
     protection_.protect(frame);
     static_cast<void>(receiver.accept(frame));
     for (std::uint8_t half = 0; half < 2; ++half) {
-      const wire::MapSlots slots{.generation = generation_, .half = half, .in_use = half == 0 ? in_use : 0};
+      const wire::MapSlots slots{.generation = generation_,
+                                 .half = half,
+                                 .in_use = half == 0 ? in_use : 0,
+                                 .revisions = revisions[half].value()};
       expect(wire::encode(slots, frame), "slots fit the wire");
       wire::e2e_seal(frame);
       if (receiver.accept(frame)) check(receiver.map());
@@ -123,6 +134,8 @@ class Forger {
   wire::Conflict conflicts_[kSlots];
   std::uint16_t lane_checks_[kSlots] = {};
   std::uint16_t conflict_checks_[kSlots] = {};
+  std::uint8_t lane_revisions_[kSlots] = {};
+  std::uint8_t conflict_revisions_[kSlots] = {};
   wire::E2eSender protection_;
   std::uint8_t generation_ = 0;
   std::uint8_t revision_ = 0;

@@ -94,6 +94,8 @@ class AnySender {
     head_.conflict_count = static_cast<std::uint8_t>(conflicts);
     head_.digest = receiver.digest(lanes_, conflicts);
     if (happens(1)) ++head_.digest;
+    for (int half = 0; half < 2; ++half) revisions_[half] = receiver.revisions(half, lanes_, conflicts);
+    if (happens(1)) revisions_[below(2)] ^= 1;
   }
 
   Frame header() {
@@ -104,7 +106,7 @@ class AnySender {
   }
 
   Frame slots(int half) {
-    const MapSlots slots{head_.generation, static_cast<std::uint8_t>(half), lanes_[half]};
+    const MapSlots slots{head_.generation, static_cast<std::uint8_t>(half), lanes_[half], revisions_[half]};
     Frame frame;
     EXPECT_TRUE(encode(slots, frame));
     e2e_seal(frame);
@@ -115,6 +117,7 @@ class AnySender {
   E2eSender protection_;
   MapHeader head_;
   LaneSet lanes_ = {};
+  std::uint16_t revisions_[2] = {};
   std::vector<Frame> sent_;
 };
 

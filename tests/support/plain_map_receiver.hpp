@@ -61,6 +61,17 @@ class PlainReceiver {
     return static_cast<std::uint16_t>(sum);
   }
 
+  /// Of the revisions that these records have in a half of the slots.
+  std::uint16_t revisions(int half, const LaneSet& lanes, int conflicts) const {
+    RevisionDigest digest;
+    for (const auto& [slot, record] : records_) {
+      const int half_of_slot = slot < kMaxLanes ? slot / 32 : (slot - kMaxLanes) / 64;
+      if (half_of_slot == half && in_use(slot, lanes, conflicts))
+        digest.add(static_cast<std::uint8_t>(record.revision));
+    }
+    return digest.value();
+  }
+
   /// Whether all of a record is there.
   bool has(int record) const {
     if (!records_.contains(record)) return false;
@@ -102,6 +113,7 @@ class PlainReceiver {
     if (state == E2eState::kInitial || state == E2eState::kRepeated) return false;
     MapHeader head;
     if (!E2eReceiver::trusted(state) || !decode(frame, head)) return reject();
+    if (!head_ || head_->generation != head.generation) slots_ = {};
     head_ = head;
     confirmed_ = whole_ && whole_->lane_count == head.lane_count &&
                  whole_->conflict_count == head.conflict_count &&
@@ -114,7 +126,7 @@ class PlainReceiver {
     if (!e2e_crc_fits(frame) || !decode(frame, slots)) return reject();
     if (!head_ || slots.generation != head_->generation) return false;
     in_use_[slots.half] = slots.in_use;
-    half_there_[slots.half] = true;
+    slots_[slots.half] = slots;
     return look();
   }
 
@@ -141,7 +153,7 @@ class PlainReceiver {
     if (!head_ || (confirmed_ && !revised_)) return false;
     if (digest(in_use_, head_->conflict_count) != head_->digest || !complete()) return false;
     if (!plausible()) {
-      half_there_ = {};
+      slots_ = {};
       return reject();
     }
     whole_ = head_;
@@ -164,12 +176,14 @@ class PlainReceiver {
   }
 
   bool complete() const {
-    if (!half_there_[0] || !half_there_[1]) return false;
+    if (!slots_[0] || !slots_[1]) return false;
     if (std::popcount(in_use_[0]) + std::popcount(in_use_[1]) != head_->lane_count) return false;
     for (int record = 0; record < kMaxLanes + kMaxConflicts; ++record) {
       if (in_use(record) && !has(record)) return false;
     }
-    return true;
+    return std::ranges::all_of(slots_, [&](const auto& slots) {
+      return slots->revisions == revisions(slots->half, in_use_, head_->conflict_count);
+    });
   }
 
   /// Whether a conflict that is there is none.
@@ -219,7 +233,7 @@ class PlainReceiver {
   std::optional<MapHeader> whole_;
   E2eReceiver protection_;
   LaneSet in_use_ = {};
-  std::array<bool, 2> half_there_ = {};
+  std::array<std::optional<MapSlots>, 2> slots_;
   bool confirmed_ = false;
   bool revised_ = false;
   int rejected_ = 0;

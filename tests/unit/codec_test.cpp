@@ -193,7 +193,7 @@ TEST(Codec, NamesItsMessages) {
 
 // WIRE-050: VERSION "5" of the DBC; that the hash follows the layout is shown where the generator is tested.
 TEST(Version, IsWhatTheGeneratorFound) {
-  EXPECT_EQ(wire_version(), 7);
+  EXPECT_EQ(wire_version(), 8);
   EXPECT_EQ(layout_hash(), kLayoutHash);
   EXPECT_NE(layout_hash(), 0U);
 }

@@ -14,6 +14,8 @@
 namespace s4tp::wire {
 namespace {
 
+constexpr std::uint8_t kRevision = 1;  // of all records
+
 /// Frames of a map as an inconsistent sender might send it, header and all.
 class InconsistentMap : public LaneMapTest {
  protected:
@@ -25,12 +27,13 @@ class InconsistentMap : public LaneMapTest {
     MapSlots slots[2];
     slots[0].in_use = (1U << lane_count) - 1U;
     slots[1].half = 1;
+    RevisionDigest revisions[2];
     std::vector<Frame> frames;
     std::uint16_t digest = 0;
     const auto add_record = [&](const auto& record, int slot) {
       for (int part = 0; part < part_count(record); ++part) {
         Frame frame;
-        ASSERT_TRUE(encode_part(record, slot, 1, part, frame));
+        ASSERT_TRUE(encode_part(record, slot, kRevision, part, frame));
         frames.push_back(frame);
         digest = static_cast<std::uint16_t>(digest + frame_check(frame));
       }
@@ -38,6 +41,8 @@ class InconsistentMap : public LaneMapTest {
     for (int slot = 0; slot < lane_count; ++slot) add_record(map.lanes[slot], slot);
     add_record(map.conflicts[0], 0);
     header.digest = digest;
+    for (int record = 0; record < lane_count + header.conflict_count; ++record) revisions[0].add(kRevision);
+    for (MapSlots& half : slots) half.revisions = revisions[half.half].value();
     for (int round = 0; round < 2; ++round) {  // the first header is not trusted yet
       Frame frame;
       ASSERT_TRUE(encode(header, frame));
