@@ -78,8 +78,8 @@ bool Guard::is_on_way_over(const scene::EgoPath& path, int agent, trajectory::On
   // From the strip to where our front or rear is.
   const float sine = sin(wrap_angle(scene_->ego.rear_axle.heading_rad - path.frenet.heading_rad));
   const float front_d_m = path.frenet.d_m + front_m_ * sine;
-  const float right_m = min(0.0F, min(path.frenet.d_m, front_d_m));
-  const float left_m = max(0.0F, max(path.frenet.d_m, front_d_m));
+  const float right_m = min(path.lateral_offset_m, min(path.frenet.d_m, front_d_m));
+  const float left_m = max(path.lateral_offset_m, max(path.frenet.d_m, front_d_m));
   if (left_m - right_m < kInStripM) return false;
   bool known = false;
   seen = trajectory::see_on_path(*scene_, path, scene_->agents[agent], *parameters_, true, known);

@@ -237,6 +237,23 @@ TEST(Guard, WhoStandsTooNearBesideAnotherMayOnlyLeaveIt) {
   EXPECT_EQ(cause(1.6F), Cause::kLeader);
 }
 
+// GUARD-004 One stands across our way, its front 0.5 m right of our lane's centre, and our way leads 0.7 m left of the centre past it:
+// 0.3 m beside our box, and 0.4 m into it where we are on the centre yet. At 10 m/s, which takes 12.6 m to stop, we pass from the
+// offset way; on the centre we may still stop from 16 m away, and from 10 m away not.
+TEST(Guard, WhoIsNotYetOnItsWayPastAnotherStopsForIt) {
+  const auto cause = [](float gap_m, float from_m) {
+    Change change;
+    change.scene.ego_paths[0].lateral_offset_m = 0.7F;
+    scene::Agent& across = add_vehicle(change.scene, change.map, path_of(change.map, {0}), 103.4F + gap_m, 0.0F);
+    across.track.centre.heading_rad = 0.5F * kPi;
+    across.track.centre.y_m = -0.5F - 0.5F * across.track.length_m;
+    return change.cause_across(10.0F, 0.0F, 0, from_m, from_m);
+  };
+  EXPECT_EQ(cause(10.0F, 0.7F), Cause::kNone);
+  EXPECT_EQ(cause(16.0F, 0.0F), Cause::kNone);
+  EXPECT_EQ(cause(10.0F, 0.0F), Cause::kLeader);
+}
+
 // GUARD-009 From rest, 1.2 m on our way over, beside one whose front is as far as our middle: 0.2 m are between us. While it stands
 // we may go on past it at that distance, and not into it; one that rolls is a follower like any other, and has no room.
 TEST(Guard, WhoStandsBesideUsIsPassedAsItStands) {
