@@ -166,6 +166,11 @@ class MapReceiver {
   [[nodiscard]] bool accept_lane_part(const Frame& frame);
   template <typename Message>
   [[nodiscard]] bool accept_conflict_part(const Frame& frame);
+  // A part's way in: what does not depend on its message.
+  void open_lane(int slot, std::uint8_t revision);
+  [[nodiscard]] std::uint16_t open_conflict(int slot, std::uint8_t revision);
+  [[nodiscard]] bool note_lane_part(int slot, int part, const Frame& frame);
+  [[nodiscard]] bool note_conflict_part(int slot, int part, std::uint16_t before, const Frame& frame);
   // Records that come into use or go out of it change the digest.
   void announce(const Announced& announced);
   void use_lanes(int half, std::uint32_t lanes);

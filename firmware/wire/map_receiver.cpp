@@ -183,15 +183,9 @@ bool MapReceiver::accept_lane_part(const Frame& frame) {
     reject();
     return false;
   }
-  Lane& lane = assembling_.lanes[message.lane];
-  auto& progress = lane_progress_[message.lane];
-  const std::uint16_t before = lane_checks_[message.lane];
-  if (progress.open(message.revision, lane)) revised_ = true;
-  fill(message, lane);
-  progress.note(part_of(message), frame);
-  lane_checks_[message.lane] = progress.check(part_count(lane));
-  if (contains(in_use_, message.lane)) change_digest(before, lane_checks_[message.lane]);
-  return finish_if_whole();
+  open_lane(message.lane, message.revision);
+  fill(message, assembling_.lanes[message.lane]);
+  return note_lane_part(message.lane, part_of(message), frame);
 }
 
 template <typename Message>
@@ -201,13 +195,33 @@ bool MapReceiver::accept_conflict_part(const Frame& frame) {
     reject();
     return false;
   }
-  Conflict& conflict = assembling_.conflicts[message.conflict];
-  auto& progress = conflict_progress_[message.conflict];
-  const std::uint16_t before = conflict_check(message.conflict);
-  if (progress.open(message.revision, conflict)) revised_ = true;
-  fill(message, conflict);
-  progress.note(part_of(message), frame);
-  if (message.conflict < announced_.conflict_count) change_digest(before, conflict_check(message.conflict));
+  const std::uint16_t before = open_conflict(message.conflict, message.revision);
+  fill(message, assembling_.conflicts[message.conflict]);
+  return note_conflict_part(message.conflict, part_of(message), before, frame);
+}
+
+void MapReceiver::open_lane(int slot, std::uint8_t revision) {
+  if (lane_progress_[slot].open(revision, assembling_.lanes[slot])) revised_ = true;
+}
+
+/// \return what the record added to the digest before
+std::uint16_t MapReceiver::open_conflict(int slot, std::uint8_t revision) {
+  const std::uint16_t before = conflict_check(slot);
+  if (conflict_progress_[slot].open(revision, assembling_.conflicts[slot])) revised_ = true;
+  return before;
+}
+
+bool MapReceiver::note_lane_part(int slot, int part, const Frame& frame) {
+  const std::uint16_t before = lane_checks_[slot];
+  lane_progress_[slot].note(part, frame);
+  lane_checks_[slot] = lane_progress_[slot].check(part_count(assembling_.lanes[slot]));
+  if (contains(in_use_, slot)) change_digest(before, lane_checks_[slot]);
+  return finish_if_whole();
+}
+
+bool MapReceiver::note_conflict_part(int slot, int part, std::uint16_t before, const Frame& frame) {
+  conflict_progress_[slot].note(part, frame);
+  if (slot < announced_.conflict_count) change_digest(before, conflict_check(slot));
   return finish_if_whole();
 }
 
@@ -254,7 +268,10 @@ bool MapReceiver::complete() const {
   for (int slot = 0; slot < announced_.conflict_count; ++slot) {
     if (!conflict_progress_[slot].has(kConflictParts)) return false;
   }
-  return revisions(0) == revisions_[0] && revisions(1) == revisions_[1];
+  for (int half = 0; half < 2; ++half) {
+    if (revisions(half) != revisions_[half]) return false;
+  }
+  return true;
 }
 
 std::uint16_t MapReceiver::revisions(int half) const {
