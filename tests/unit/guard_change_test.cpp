@@ -244,7 +244,8 @@ TEST(Guard, WhoIsNotYetOnItsWayPastAnotherStopsForIt) {
   const auto cause = [](float gap_m, float from_m) {
     Change change;
     change.scene.ego_paths[0].lateral_offset_m = 0.7F;
-    scene::Agent& across = add_vehicle(change.scene, change.map, path_of(change.map, {0}), 103.4F + gap_m, 0.0F);
+    scene::Agent& across =
+        add_vehicle(change.scene, change.map, path_of(change.map, {0}), 103.4F + gap_m, 0.0F);
     across.track.centre.heading_rad = 0.5F * kPi;
     across.track.centre.y_m = -0.5F - 0.5F * across.track.length_m;
     return change.cause_across(10.0F, 0.0F, 0, from_m, from_m);
