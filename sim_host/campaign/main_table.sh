@@ -40,6 +40,7 @@ tool=${S4TP_TOOL:-build/host/sim_host/s4tp_tool}
 command -v sumo >/dev/null || { echo "main_table.sh: sumo is missing: apt-get install sumo" >&2; exit 2; }
 
 all=s4tp,static_drf,drf_controller,predictive_decision,idm_lane,constant_speed
+twins=s4tp_kinematic,predictive_decision_kinematic # the same without the learned predictor
 mapfile -t networks < <(ls tests/networks/*.toml)
 mapfile -t for_sumo < <(printf '%s\n' "${networks[@]}" | grep -v strange_names)  # it takes its edges' names apart
 every_road=(--scenarios left_turn,left_turn_t,merge,cruise,overtake,cut_in --flavours smarts,social)
@@ -61,7 +62,7 @@ part() {
 }
 
 number=0
-part builtin 100 $all --guard on,off "${every_road[@]}"
+part builtin 100 $all,$twins --guard on,off "${every_road[@]}"
 part sumo 40 $all,sumo_driver --traffic sumo --guard on,off "${every_road[@]}"
 part long 500 s4tp,static_drf,predictive_decision,idm_lane --scenarios left_turn,merge --flavours smarts,social
 part raw 100 s4tp --guard on,off --scenarios left_turn --flavours smarts_raw

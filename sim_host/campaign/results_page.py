@@ -34,6 +34,9 @@ rates, gaps, comfort, the competition's own metrics) are in the JSON beside this
 A comparison is of the same episodes, driven by both: `3 : 11` are the episodes in which only s4tp failed and only the other did.
 Better and worse: McNemar's exact test, p < 0.05; no worse: the failure rates differ by less than 1 % (upper end of the 95 % interval); without a word none of
 them is shown.
+
+The other files here are blocks driven for one question each: `roads*.json` and `fresh.json` (generated roads, a line a road: [safety_record.md](../safety_record.md)),
+`closed_loop*.json` (beside the kinematic predictor: [training.md](../training.md)), `parameter_screen.json` (all parameters changed by 30 %: [sensitivity.md](../sensitivity.md)).
 """
 
 
