@@ -75,7 +75,7 @@ float Guard::Passing::least_s_m(float time_s) const {
 }
 
 bool Guard::is_on_way_over(const scene::EgoPath& path, int agent, trajectory::OnPath& seen) {
-  // From the strip to where our front or rear is.
+  // From the line that the path is driven on to where our front or rear is.
   const float sine = sin(wrap_angle(scene_->ego.rear_axle.heading_rad - path.frenet.heading_rad));
   const float front_d_m = path.frenet.d_m + front_m_ * sine;
   const float right_m = min(path.lateral_offset_m, min(path.frenet.d_m, front_d_m));

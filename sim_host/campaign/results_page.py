@@ -25,8 +25,8 @@ MOST_COLUMNS = 10  # a wider table is turned on its side
 
 PAGE = """# Results
 
-`sim_host/campaign/main_table.sh --jobs 2 out/main` drives all of this and goes on where it was stopped; `out/main/report/index.html`
-then shows every table, plots, and replays of failures, `out/main/docs` is this folder. Seeds {first_seed:,} and on, on which
+`sim_host/campaign/main_table.sh --jobs 2 --first-seed {first_seed} out/main` drives all of this, with as many episodes a cell as each section says
+(`--episodes`, `--parts`), and goes on where it was stopped; `out/main/report/index.html` then shows every table, plots, and replays of failures, `out/main/docs` is this folder. Seeds {first_seed:,} and on, on which
 nothing was tuned; commit {commit}. Each cell is **goals in `smarts` / in `social`**; ours: collisions through our own fault. Bare: with the
 command gate alone; guarded: with the guard and the fail-safe, whoever plans. The other numbers of each run (intervals,
 rates, gaps, comfort, the competition's own metrics) are in the JSON beside this page, a line a run.
@@ -35,7 +35,7 @@ A comparison is of the same episodes, driven by both: `3 : 11` are the episodes 
 Better and worse: McNemar's exact test, p < 0.05; no worse: the failure rates differ by less than 1 % (upper end of the 95 % interval); without a word none of
 them is shown.
 
-The other files here are blocks driven for one question each: `roads*.json` and `fresh.json` (generated roads, a line a road: [safety_record.md](../safety_record.md)),
+The other files here are blocks driven for one question each: `fresh.json` (seeds and roads 20,000 on) and `roads*.json` (generated roads, a line a road): [safety_record.md](../safety_record.md),
 `closed_loop*.json` (beside the kinematic predictor: [training.md](../training.md)), `parameter_screen.json` (all parameters changed by 30 %: [sensitivity.md](../sensitivity.md)).
 """
 

@@ -65,7 +65,8 @@ class PlainReceiver {
   std::uint16_t revisions(int half, const LaneSet& lanes, int conflicts) const {
     RevisionDigest digest;
     for (const auto& [slot, record] : records_) {
-      const int half_of_slot = slot < kMaxLanes ? slot / 32 : (slot - kMaxLanes) / 64;
+      const int half_of_slot =
+          slot < kMaxLanes ? slot / RevisionDigest::kLanes : (slot - kMaxLanes) / RevisionDigest::kConflicts;
       if (half_of_slot == half && in_use(slot, lanes, conflicts))
         digest.add(static_cast<std::uint8_t>(record.revision));
     }

@@ -191,7 +191,7 @@ TEST(Codec, NamesItsMessages) {
   EXPECT_STREQ(message_name(0x7FF), "?");
 }
 
-// WIRE-050: VERSION "5" of the DBC; that the hash follows the layout is shown where the generator is tested.
+// WIRE-050: VERSION of the DBC; that the hash follows the layout is shown where the generator is tested.
 TEST(Version, IsWhatTheGeneratorFound) {
   EXPECT_EQ(wire_version(), 8);
   EXPECT_EQ(layout_hash(), kLayoutHash);
