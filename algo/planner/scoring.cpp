@@ -164,7 +164,7 @@ CostBreakdown score_motion(const scene::Scene& scene, const LaneCostToGo& cost_t
   float jerk_sum = 0.0F;
   float lateral_sum = 0.0F;
   float offset_sum = 0.0F;
-  float wanted_mps = 0.0F;  // at the last place looked at
+  float straight_mps = 0.0F;  // wanted at the last place looked at but for the bend there, which ends
   int offset_count = 0;
   const scene::EgoPath& own = scene.ego_paths[0];
   const float width_m = scene::path_point(*scene.map, path.path, path.frenet.s_m).width_m;
@@ -183,14 +183,15 @@ CostBreakdown score_motion(const scene::Scene& scene, const LaneCostToGo& cost_t
     scene::PathPoint centre;
     const scene::Frenet frenet =
         scene::project(*scene.map, path.path, position(point.rear_axle), s_m, 5.0F, centre, work);
-    wanted_mps = centre.speed_limit_mps;
+    straight_mps = centre.speed_limit_mps;
+    straight_mps = min(straight_mps,
+                       cost_to_go.closing_up_mps(path_index, start_s_m, s_m, static_cast<float>(i) * kStepS));
+    if (careful) straight_mps = min(straight_mps, kCarefulSpeedShare * centre.speed_limit_mps);
+    float wanted_mps = straight_mps;
     const float bend = abs(centre.curvature_1pm);
     if (bend * wanted_mps * wanted_mps > parameters.comfort.lateral_mps2) {
       wanted_mps = sqrt(parameters.comfort.lateral_mps2 / bend);
     }
-    wanted_mps = min(wanted_mps,
-                     cost_to_go.closing_up_mps(path_index, start_s_m, s_m, static_cast<float>(i) * kStepS));
-    if (careful) wanted_mps = min(wanted_mps, kCarefulSpeedShare * centre.speed_limit_mps);
     const float excess_mps = point.speed_mps - wanted_mps;
     // Too fast is worse than too slow by as much: the limit is a limit.
     speed_sum = speed_sum + (excess_mps > 0.0F ? 4.0F * excess_mps : -excess_mps);
@@ -208,7 +209,7 @@ CostBreakdown score_motion(const scene::Scene& scene, const LaneCostToGo& cost_t
   cost.lateral = parameters.scoring.lateral_acceleration * (lateral_sum / steps);
   const float end_mps = trajectory.points[kHorizonSteps].speed_mps;
   // Way lost from the horizon's end on until we are as fast as wanted.
-  const float slower_mps = max(0.0F, wanted_mps - end_mps);
+  const float slower_mps = max(0.0F, straight_mps - end_mps);
   cost.progress = cost.progress + parameters.scoring.progress * 0.5F * square(slower_mps) /
                                       parameters.comfort.acceleration_mps2;
   const float lane =

@@ -131,6 +131,28 @@ TEST(Scoring, ProgressCountsUntilWeAreAsFastAsWanted) {
   EXPECT_NEAR(Road(250.0F).progress(), -15.0F + 6.25F, 0.1F);
 }
 
+// In a bend of 5 m radius, where 3.5 m/s are wanted, a stand loses what it loses anywhere: 100 / (2 * 2) = 25 m until we drive the limit,
+// 10 m/s. Drives stood for ever in the kink at a ramp's end: with 3.5 m/s to make up instead, standing there was worth more than leaving.
+TEST(Scoring, AStandInABendIsWorthNoMoreThanElsewhere) {
+  LaneMap map = curved_road(5.0F, 1.0F);
+  for (LaneIndex lane = 0; lane < 3; ++lane) map.lanes[lane].speed_limit_mps = 10.0F;
+  Parameters parameters;
+  for (const float s_m : {20.0F, 52.0F}) {
+    scene::Scene scene;
+    (void)add_ego_path(scene, map, path_of(map, {0, 1, 2}));
+    put_ego(scene, state_on(map, scene.ego_paths[0].path, s_m, 0.0F));
+    LaneCostToGo cost_to_go;
+    cost_to_go.look(scene, {}, 0.0F, parameters);
+    Trajectory trajectory;
+    for (TrajectoryPoint& point : trajectory.points)
+      point = state_on(map, scene.ego_paths[0].path, s_m, 0.0F);
+    int work = 0;
+    EXPECT_NEAR(score_motion(scene, cost_to_go, 0, s_m, trajectory, false, false, parameters, work).progress,
+                25.0F, 0.1F)
+        << s_m;
+  }
+}
+
 // We stand in our lane behind one that stands: where that leaves 2.5 m to it, nothing asks us on; with 3 m more, something
 // does.
 TEST(Scoring, NobodyIsAskedIntoTheGapItKeepsAtAStand) {
