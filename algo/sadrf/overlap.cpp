@@ -8,6 +8,7 @@ namespace {
 
 constexpr float kDeeperM = 0.3F;       // boxes that touch from the start count once this much deeper
 constexpr float kRoundingM = 0.01F;    // more than what rounding can change in a distance within reach
+constexpr float kAlongRad = 0.8F;      // one that follows heads so much like us
 constexpr std::int32_t kLookWork = 2;  // WorkMeter's units
 
 /// Our boxes along a trajectory, made as they are needed, for looks at many futures.
@@ -136,6 +137,17 @@ float touch_likelihood(OwnBoxes& own, const satp::Mode& mode, const Track& track
   return likeliest;
 }
 
+/// Whether it is in our track behind us, heading as we do, where the trajectory begins.
+bool follows_us(const Trajectory& trajectory, const Track& track, const Parameters& parameters) {
+  const Pose& rear_axle = trajectory.points[0].rear_axle;
+  const auto& vehicle = parameters.vehicle;
+  const Point behind =
+      to_local(shift_ahead(rear_axle, trajectory::rear_axle_to_centre_m(parameters)), position(track.centre));
+  return behind.x_m < -0.5F * (vehicle.length_m + track.length_m) &&
+         abs(behind.y_m) < 0.5F * (vehicle.width_m + track.width_m) &&
+         abs(wrap_angle(track.centre.heading_rad - rear_axle.heading_rad)) < kAlongRad;
+}
+
 }  // namespace
 
 float touch_likelihood(const Trajectory& trajectory, const satp::Mode& mode, const Track& track,
@@ -152,6 +164,7 @@ float expected_collisions(const scene::Scene& scene, const satp::PredictionSet& 
   int looks = 0;
   for (const satp::AgentPrediction& predicted : prediction.agents) {
     const Track& track = scene.agents[predicted.agent].track;
+    if (!prediction.conditioned && follows_us(trajectory, track, parameters)) continue;
     for (const satp::Mode& mode : predicted.modes) {
       expected = expected + mode.probability * touch_likelihood(own, mode, track, parameters, looks);
     }

@@ -17,7 +17,8 @@ namespace s4tp::sadrf {
 [[nodiscard]] float touch_likelihood(const Trajectory& trajectory, const satp::Mode& mode, const Track& track,
                                      const Parameters& parameters);
 
-/// Expected number of vehicles the trajectory touches within the horizon, over all their futures.
+/// Expected number of vehicles the trajectory touches within the horizon, over all their futures. A prediction without our
+/// plan knows whoever follows us as it drives if we go on: that touch is counted on our plan only.
 /// \param work  what it takes is charged; it ends in any case
 [[nodiscard]] float expected_collisions(const scene::Scene& scene, const satp::PredictionSet& prediction,
                                         const Trajectory& trajectory, const Parameters& parameters,

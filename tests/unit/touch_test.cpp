@@ -34,6 +34,27 @@ struct Meeting {
       return Pose{0.0F, y_m - 2.0F * left_s * left_s, kUp};
     });
   }
+  /// Touches expected of one that drives through us at 10 m/s, from 15 m behind our middle and `left_m` beside it, and comes over to
+  /// our way in 3 s.
+  float expected(float left_m, bool conditioned) {
+    const float behind_m = trajectory.points[0].rear_axle.x_m + 1.5F - 15.0F;
+    scene::Scene scene;
+    track.centre = {behind_m, left_m, 0.0F};
+    scene::Agent agent;
+    agent.track = track;
+    (void)scene.agents.push(agent);
+    (void)with([&](float time_s) {
+      return Pose{behind_m + 10.0F * time_s, left_m * (1.0F - time_s / 3.0F), 0.0F};
+    });
+    satp::PredictionSet prediction;
+    prediction.conditioned = conditioned;
+    satp::AgentPrediction future;
+    mode.probability = 0.5F;
+    (void)future.modes.push(mode);
+    (void)prediction.agents.push(future);
+    WorkMeter work;
+    return expected_collisions(scene, prediction, trajectory, parameters, work);
+  }
   /// Along our way, ahead by `gap_m` between the bumpers.
   float ahead(float gap_m, float y_m, float speed_mps) {
     return with([&](float time_s) { return Pose{-20.0F + 4.5F + gap_m + speed_mps * time_s, y_m, 0.0F}; });
@@ -92,6 +113,15 @@ TEST(Touch, WhoTouchesAlreadyCountsWhenDeeper) {
   EXPECT_EQ(meeting.ahead(-0.2F, 0.0F, 10.0F), 0.0F);
   EXPECT_EQ(meeting.ahead(-0.2F, 0.0F, 9.95F), 0.0F);
   EXPECT_EQ(meeting.ahead(-0.2F, 0.0F, 9.8F), 1.0F);
+}
+
+// Without our plan in it, a prediction has whoever follows us drive on as if we did, through us where we stand: with a probability of 0.5
+// half a touch, and it counts only in a prediction on our plan. Drives fled from it past the last place for a lane change. One that
+// comes over from the lane beside, 2.5 m from our middle and 1.6 m when it is here, half widths of 0.9 and 1 m, follows nobody.
+TEST(Touch, WhoFollowsIsAskedOnlyWithOurPlan) {
+  EXPECT_EQ(Meeting(0.0F).expected(0.0F, true), 0.5F);
+  EXPECT_EQ(Meeting(0.0F).expected(0.0F, false), 0.0F);
+  EXPECT_EQ(Meeting(0.0F).expected(2.5F, false), 0.5F);
 }
 
 }  // namespace
