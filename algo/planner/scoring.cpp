@@ -183,8 +183,7 @@ CostBreakdown score_motion(const scene::Scene& scene, const LaneCostToGo& cost_t
     scene::PathPoint centre;
     const scene::Frenet frenet =
         scene::project(*scene.map, path.path, position(point.rear_axle), s_m, 5.0F, centre, work);
-    straight_mps = centre.speed_limit_mps;
-    straight_mps = min(straight_mps,
+    straight_mps = min(centre.speed_limit_mps,
                        cost_to_go.closing_up_mps(path_index, start_s_m, s_m, static_cast<float>(i) * kStepS));
     if (careful) straight_mps = min(straight_mps, kCarefulSpeedShare * centre.speed_limit_mps);
     float wanted_mps = straight_mps;
