@@ -63,6 +63,7 @@ bool Guard::is_bound(int path) const {
 void Guard::commit(int path, const Verdict& verdict) {
   // Who is bound to go on keeps to the time its licences were taken for.
   if (!(goes_through_ && verdict.clears && is_bound(path))) {
+    free_ms_ = scene_->time_ms;
     clear_by_ms_ = scene_->time_ms +
                    static_cast<std::uint32_t>(to_int(1e3F * (lead_s_ + verdict.clear_s), 0, 1'000'000));
   }

@@ -11,9 +11,9 @@
 /// path, behind whoever leads where it still is; behind a cut-in, and beside one that stands askew, it only must not get worse. A
 /// vehicle ahead of its plan is judged from there. GUARD-005 What is safe only by hard braking says so. GUARD-006 A licence used
 /// holds, for the ground it was given for, until we stand, for a plan that leaves that in time; used it is once we cannot stop
-/// before it any more.
-/// GUARD-007 Who cannot stay out of a zone any more leaves it no later than it was to. GUARD-008 Merging
-/// leaves room, in both orders. GUARD-009 A lane change leaves who is behind, who may gain speed until we are over
+/// before the group any more. Whoever comes in sight after that and can stop finds the ground taken.
+/// GUARD-007 Who cannot stay out of a zone any more leaves it no later than it was to. Who has come to a stand in a group may stand on,
+/// and where lanes merge sets off beside nobody: only before, or behind, all of whoever is there. GUARD-008 Merging leaves room, in both orders. GUARD-009 A lane change leaves who is behind, who may gain speed until we are over
 /// the line, room to brake, and begins only when who is ahead is ahead of all of us by then, braking as hard as can
 /// be. Whoever stands there needs no such room: our box keeps off its. Once our box is in there, one behind it that lacks
 /// room however we stop, driving on as we do, has broken the law or come out of nowhere: no plan leaves it less.
@@ -222,6 +222,8 @@ class Guard {
   /// Whether the next group on it cannot be stopped before any more.
   [[nodiscard]] bool is_bound(int path) const;
   [[nodiscard]] bool is_latched(std::uint8_t track, LaneIndex lane) const;
+  /// Whether it came in sight when we could not stay out of the group any more.
+  [[nodiscard]] bool has_come_since(const scene::Agent& agent) const;
   [[nodiscard]] bool passes_group(const scene::EgoPath& path, const PathContext& context,
                                   const ZoneGroup& group, const Own& own, Verdict& verdict) const;
   [[nodiscard]] float half_length_m(const Threat& threat) const;
@@ -278,6 +280,7 @@ class Guard {
   BoundedVector<Latch, 2 * kMaxTracks> latched_;
   bool goes_through_ = false;      ///< the plan in force, a group of zones
   bool stops_short_ = false;       ///< ... but stops in it, short of somebody
+  std::uint32_t free_ms_ = 0;      ///< when we could stay out of it last
   std::uint32_t clear_by_ms_ = 0;  ///< when it was to have left it, as we were bound to go on
   FailSafe fail_safe_;             ///< of the plan in force, from ...
   std::uint32_t start_ms_ = 0;     ///< ... its start

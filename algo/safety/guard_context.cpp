@@ -245,13 +245,16 @@ void Guard::find_threats(const scene::EgoPath& path, const occupancy::LaneReach 
       if (!context.threats.push(threat)) context.too_many = true;
     };
     // Two who set off at once have both seen the other stand: who can still stop has not used its licence.
-    const bool bound = context.stop_s_m > path.zones[z].entry_s_m;
+    bool bound = false;
+    for (const ZoneGroup& group : context.groups)
+      bound = bound || (z >= group.first && z < group.end && context.stop_s_m > group.entry_s_m);
     for (int i = 0; i < count; ++i) {
       const scene::Agent& agent = scene_->agents[i];
       when[i] = zone_occupancy(*scene_, agent, path.zones[z].merging ? straight_on[i] : reach[i],
                                path.zones[z], lead_s_, *parameters_);
-      const bool latched =
-          bound && when[i].to_entry_m > 0.0F && is_latched(agent.track.id, path.zones[z].other_lane);
+      const bool latched = bound && when[i].to_entry_m > 0.0F &&
+                           (is_latched(agent.track.id, path.zones[z].other_lane) ||
+                            (when[i].can_stop && has_come_since(agent)));
       if (when[i].claim == Claim::kMayCome && latched) {
         expect(i, true);
         when[i].claim = Claim::kStands;
@@ -264,6 +267,11 @@ void Guard::find_threats(const scene::EgoPath& path, const occupancy::LaneReach 
       expect(i, false);
     }
   }
+}
+
+bool Guard::has_come_since(const scene::Agent& agent) const {
+  const auto bound_ms = static_cast<std::int32_t>(scene_->time_ms - free_ms_);
+  return goes_through_ && static_cast<std::int32_t>(agent.known_ms) < bound_ms;
 }
 
 bool Guard::is_behind(const ZoneOccupancy (&when)[kMaxTracks], int index) const {

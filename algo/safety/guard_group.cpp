@@ -10,6 +10,7 @@ namespace {
 using occupancy::Pace;
 
 constexpr float kRoundingS = 0.5F * kStepS;  // plans are looked at in steps
+constexpr float kGoesOnM = 0.05F;            // who comes no further goes on standing
 constexpr float kLateS = 0.3F;               // so much later, who has let us go still waits
 
 }  // namespace
@@ -116,6 +117,10 @@ bool Guard::passes_group(const scene::EgoPath& path, const PathContext& context,
       return false;
     }
   }
+  if (inside && own.speed_mps[0] < kStandingMps && own.end_s_m() - own.s_m[0] < kGoesOnM) {
+    verdict.stops_short = true;  // nothing is safer
+    return true;
+  }
   if (context.too_many && !inside) {
     verdict = {Cause::kZone};
     return false;
@@ -130,7 +135,12 @@ bool Guard::passes_group(const scene::EgoPath& path, const PathContext& context,
     if (passes_threat(path, context, threat, own, refused)) continue;
     // Who cannot stay out any more leaves it as soon as it was to.
     const bool bound = bound_s_m > zone.entry_s_m;
-    const bool behind_it = zone.merging && threat.when.to_entry_m <= 0.0F;
+    // Who stands beside one that merges lets it pass.
+    const bool is_before =
+        zone.exit_s_m - own.s_m[0] + 0.5F * parameters_->vehicle.length_m + half_length_m(threat) <=
+        to_common_end_m(threat);
+    const bool behind_it =
+        zone.merging && threat.when.to_entry_m <= 0.0F && (own.speed_mps[0] >= kStandingMps || is_before);
     if (bound && (behind_it || own.blocked || leaves_in_time(group, own, kRoundingS))) continue;
     // Who entered by right stops short of one that comes after all: before we were to be gone.
     const float left_s = time_left_s();

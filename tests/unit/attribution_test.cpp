@@ -73,6 +73,24 @@ TEST(Attribution, ALicenceLostTooLateToStopHolds) {
   EXPECT_EQ(pair(both_set_off(-0.1, 1.2)), std::pair(Fault::kEgo, Cause::kEntered));
 }
 
+/// The ego goes on at 8 m/s, from x = 90 (t = -1.75) on unable to stop (8 + 8 m), and enters at t = 0.25. The other comes into the world
+/// at `from_s`, 2 m/s fast, and is at its zone at t = 0.4 and in the ego's side at t = 1.2.
+Verdict it_comes_into_the_world(double from_s) {
+  return judged(test::judged_road(Rule::kFirstYields), -5.0, 1.2, [&](double t) {
+    std::vector<CarState> cars{eastbound(0, 104.0 + 8.0 * t, 0.0, 8.0)};
+    if (t >= from_s) cars.push_back(northbound(7, -4.8 + 2.0 * t, 2.0));
+    return cars;
+  });
+}
+
+// LAW-005 One that comes into the world when we cannot stop any more finds the ground taken, 3.8 m before it, where 2.5 do (2 + 0.5 m);
+// one that was there half a second before that is entered before; so is one that could not stop, 1.8 m before it.
+TEST(Attribution, WhoComesIntoTheWorldFindsTheGroundTaken) {
+  EXPECT_EQ(pair(it_comes_into_the_world(-1.5)), std::pair(Fault::kOther, Cause::kIntoRightful));
+  EXPECT_EQ(pair(it_comes_into_the_world(-2.25)), std::pair(Fault::kEgo, Cause::kEntered));
+  EXPECT_EQ(pair(it_comes_into_the_world(-0.5)), std::pair(Fault::kEgo, Cause::kEntered));
+}
+
 // LAW-022 Licensed, as 1.5 s and 8^2 / 4 are 28 m: the other should have stopped, although we had to yield.
 TEST(Attribution, DrivingIntoOneThereByRight) {
   const Network network = slow_road(Rule::kFirstYields);

@@ -83,6 +83,19 @@ TEST(Guard, WhoStandsWhereLanesMergeIsNotDrivenThrough) {
   }
 }
 
+// GUARD-007 Who has come to a stand where lanes merge, later than it was to be gone, beside one that passes, stands on, and sets
+// off when that is behind all of it: centres 5 m apart. Moving, it goes on: it cannot stay out any more.
+TEST(Guard, WhoStandsWhereLanesMergeLetsTheOneBesideItPass) {
+  for (const float other_s_m : {96.5F, 98.5F, 100.5F}) {
+    SharedGround road(Priority::kFirstYields, true);
+    road.guard.commit(0, road.judge(94.0F, 8.0F, 0.0F));
+    road.other(other_s_m, 2.0F);
+    EXPECT_TRUE(road.safe(102.0F, 0.0F, 0.0F)) << other_s_m;
+    EXPECT_EQ(road.safe(102.0F, 0.0F, 1.5F), other_s_m < 97.0F) << other_s_m;
+    EXPECT_TRUE(road.safe(102.0F, 2.0F, 1.5F)) << other_s_m;
+  }
+}
+
 /// A change from the right lane to the left one, over within 3 s; our box centre is at 100.
 struct Change : LaneChangeRoad {
   scene::Agent& in_left_lane(float s_m, float speed_mps) {

@@ -113,6 +113,27 @@ TEST(Guard, WhoWasLetGoDoesNotBreakOff) {
   EXPECT_FALSE(road.safe(95.5F, 5.0F, -6.0F));
 }
 
+// GUARD-006 Going through with nobody about, the fail-safe unable to stop before the zone any more: one comes in sight that can be
+// there after 1.9 s, and we are gone after 2.2. 18 m off at 8 m/s it finds the ground taken and can stop (8 + 8 m); at 12 m/s it
+// cannot, nor is one that was there before bound.
+TEST(Guard, WhoComesInSightFindsTheGroundTaken) {
+  struct Case {
+    float their_mps;
+    std::uint16_t known_ms;
+    bool passes;
+  };
+  for (const Case& one : {Case{8.0F, 0, true}, Case{12.0F, 0, false}, Case{8.0F, 500, false}}) {
+    SharedGround road(Priority::kFirstYields);
+    road.scene.time_ms = 10'000;
+    road.guard.commit(0, road.judge(92.0F, 5.0F, 0.0F));
+    road.scene.time_ms = 10'100;
+    road.guard.commit(0, road.judge(92.5F, 5.0F, 0.0F));
+    road.scene.time_ms = 10'200;
+    road.other(96.0F - 18.0F, one.their_mps).known_ms = one.known_ms;
+    EXPECT_EQ(road.safe(93.0F, 5.0F, 0.0F), one.passes) << one.their_mps << ' ' << one.known_ms;
+  }
+}
+
 // GUARD-011 Gone in as nobody was near, to be out in 1.8 s. Who can be there after 2.4 s (20 m at 6 m/s, 2 m/s^2) is no
 // reason to stop; who is there after 1.4 s (6 m at 3 m/s), and can still stop for us, is.
 TEST(Guard, NobodyStopsShortOfWhoComesWhenWeAreGone) {

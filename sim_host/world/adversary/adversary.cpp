@@ -143,12 +143,16 @@ void Traffic::bind(const judge::ZoneGroup& group, const traffic::TrafficView& ot
   taken_entered_ = group.entry_m <= 0.0;
   taken_until_m_ = ego_driven_m_ + group.exit_m;
   for (const Actor& other : others.actors()) {
-    Mind& mind = minds_[other.id];
+    const auto [found, fresh] = minds_.try_emplace(other.id);
+    Mind& mind = found->second;
     if (another) mind.owes_zone = false;
     if (mind.owes_zone) continue;
-    mind.owes_zone = std::all_of(group.zones.begin(), group.zones.end(), [&](const judge::ZoneOnWay& zone) {
-      return zone.meeting.rule != map::Rule::kFirstYields || ego_is_licensed(zone, other, mind);
-    });
+    const bool finds_it_taken = fresh && !another;
+    mind.owes_zone =
+        finds_it_taken ||
+        std::all_of(group.zones.begin(), group.zones.end(), [&](const judge::ZoneOnWay& zone) {
+          return zone.meeting.rule != map::Rule::kFirstYields || ego_is_licensed(zone, other, mind);
+        });
     mind.owes_since_s = time_s();
   }
 }

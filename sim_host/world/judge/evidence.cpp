@@ -135,6 +135,11 @@ Entry Evidence::entry_of(const Law& law, const Journey& entering, const ZoneGrou
   return entry;
 }
 
+bool Evidence::could_stop_when_it_came(const Law& law, const ZoneOnWay& zone, const Journey& other) const {
+  const JourneyPoint& first = other.points.front();
+  return can_stop(law, first.speed_mps, other_entry_m(zone, other).value_or(0.0) - first.odometer_m);
+}
+
 bool Evidence::entered_by_licence(const Law& law, const Journey& entering, const ZoneGroup& group,
                                   const ZoneOnWay& zone, const Journey& other, double entered_s) const {
   const auto licensed_at = [&](double time_s) {
@@ -147,8 +152,11 @@ bool Evidence::entered_by_licence(const Law& law, const Journey& entering, const
     if (point->time_s > entered_s) {
       continue;
     }
-    if (!other.seen_at(point->time_s) || can_stop(law, point->speed_mps, group.entry_m - point->odometer_m)) {
+    if (can_stop(law, point->speed_mps, group.entry_m - point->odometer_m)) {
       return false;
+    }
+    if (!other.seen_at(point->time_s)) {
+      return could_stop_when_it_came(law, zone, other);
     }
     if (licensed_at(point->time_s)) {
       return true;

@@ -22,7 +22,7 @@
 /// |         |       | both have stood for `deadlock_s` any one may                                  |
 ///
 /// LAW-005 The duty begins anew when a licence is lost, as when the other sets off: whoever cannot stop any more then goes in
-/// by the licence it had, and the other is bound by it.
+/// by the licence it had, and the other is bound by it; so is whoever comes into the world after that and can stop.
 ///
 /// A zone is ground that two lanes share (map::Conflict); a group is all zones between two places where a
 /// car can stand without being on any (standing.hpp). At first-come zones nothing is owed before somebody is
