@@ -177,6 +177,43 @@ TEST(Adversary, NobodyComesOverBeforeAnEgoThatMay) {
   EXPECT_GT(all.far, 0);
 }
 
+/// Who comes into the world in 120 s on the lanes beside an ego that is always `ahead_m` beyond their beginning, at 5 m/s: how many,
+/// and how many of them without the RSS gap.
+std::pair<int, int> come_in_beside(double ahead_m) {
+  const scenario::Scenario scenario = test::shipped("cut_in");
+  traffic::EgoSeen ego;
+  ego.actor.lane = ego.car.lane = scenario.mission.start_lane;
+  ego.actor.s_m = ahead_m;
+  ego.actor.speed_mps = 5.0;
+  ego.actor.length_m = 5.0;
+  const std::string edge = scenario.network.lanes[static_cast<std::size_t>(ego.actor.lane)].edge;
+  Traffic traffic(scenario, 0, 3);
+  std::pair<int, int> count;
+  std::set<int> known;
+  for (int i = 0; i < 12'000; ++i) {
+    traffic.step(&ego);
+    for (const traffic::Car& car : traffic.details()) {
+      const bool beside = car.lane != ego.actor.lane &&
+                          scenario.network.lanes[static_cast<std::size_t>(car.lane)].edge == edge;
+      if (!known.insert(car.id).second || !beside || car.s_m > 10.0) continue;
+      const double gap_m = ahead_m - car.s_m - 0.5 * (5.0 + car.length_m);
+      ++count.first;
+      count.second += gap_m < judge::rss_gap_m(promised_law().rss, car.speed_mps, 5.0) - 0.5 ? 1 : 0;
+    }
+  }
+  return count;
+}
+
+// LAW-043 Nobody comes into the world beside an ego, which may come over, without the RSS gap: at 14 m/s behind 5 28 m. 20 m beyond the
+// lanes' beginning it keeps them waiting, 80 m beyond it does not.
+TEST(Adversary, NobodyAppearsBesideAnEgoThatMayComeOver) {
+  const std::pair<int, int> near = come_in_beside(20.0);
+  const std::pair<int, int> far = come_in_beside(80.0);
+  EXPECT_EQ(near.second, 0) << near.first;
+  EXPECT_EQ(far.second, 0);
+  EXPECT_GT(far.first, 20);
+}
+
 /// The first group of the way of an ego that stands 0.5 m before it.
 struct AtTheLine {
   explicit AtTheLine(const scenario::Scenario& scenario)

@@ -9,14 +9,10 @@ namespace {
 
 using traffic::Actor;
 
-constexpr double kGain_mps2 = 2.0;           // law.gain_mps2 of the firmware's defaults
-constexpr double kOverLimit = 1.1;           // law.over_limit
-constexpr double kEgoMayGain_mps2 = 2.0;     // meanwhile, either way
-constexpr double kRoom_m = 0.1;              // a line is kept off by
-constexpr double kAtLine_m = 0.3;            // who waits for a licence of those who stand is so near
-constexpr double kUsualChange_s = 3.0;       // as Traffic changes lanes: ...
-constexpr double kSlowChange_mps = 15.0;     // ... below 5 m/s in proportion
-constexpr double kChangesAtLeast_mps = 1.0;  // slower ones are reckoned with as this
+constexpr double kGain_mps2 = 2.0;  // law.gain_mps2 of the firmware's defaults
+constexpr double kOverLimit = 1.1;  // law.over_limit
+constexpr double kRoom_m = 0.1;     // a line is kept off by
+constexpr double kAtLine_m = 0.3;   // who waits for a licence of those who stand is so near
 
 std::vector<judge::Stretch> stretches_of(const traffic::RoadIndex& road,
                                          const std::vector<traffic::WayPart>& way) {
@@ -265,45 +261,6 @@ bool Traffic::may_enter(const Actor& self, const Mind& mind, double to_group_m, 
   entry.other_stood_s = to_group_m < kAtLine_m ? ego_stood_s_ : 0.0;
   entry.both_stood_s = to_group_m < kAtLine_m ? std::min(mind.stood_s, ego_stood_s_) : 0.0;
   return judge::licence_of(law_, entry) != judge::Licence::kNone;
-}
-
-bool Traffic::may_change(const traffic::Car& car, const traffic::WayPart& beside) const {
-  if (!ego_) return true;
-  Actor self;
-  self.id = car.id;
-  self.lane = beside.lane;
-  self.s_m = -beside.start_m;
-  self.speed_mps = car.speed_mps;
-  self.length_m = car.length_m;
-  self.guide = &plan_->ways[car.way].guide;
-  const double rate =
-      std::min(1.0 / kUsualChange_s, std::max(car.speed_mps, kChangesAtLeast_mps) / kSlowChange_mps);
-  const double to_line_s = 0.5 / rate;
-  const double slack_m = 0.5 * kEgoMayGain_mps2 * to_line_s * to_line_s;
-  const double gained_mps = kEgoMayGain_mps2 * to_line_s;
-  const auto left = [&](const traffic::Leader& found, double rear_mps, double front_mps) {
-    const double gap_m = found.gap_m - (rear_mps - front_mps) * to_line_s - slack_m;
-    return gap_m >= judge::rss_gap_m(law_.rss, rear_mps, front_mps);
-  };
-  const auto leaves_gaps = [&](map::LaneId ego_lane) {
-    Actor ego = ego_->actor;
-    ego.lane = ego_lane;
-    const traffic::TrafficView two(*road_, {ego, self});
-    const traffic::Leader ahead = two.leader(two.actors()[1].way, car.id, car.length_m);
-    if (ahead.actor != nullptr &&
-        !left(ahead, car.speed_mps, std::max(0.0, ahead.actor->speed_mps - gained_mps))) {
-      return false;
-    }
-    const traffic::Leader behind = two.follower(beside.lane, self.s_m, car.id, car.length_m);
-    return behind.actor == nullptr || left(behind, behind.actor->speed_mps + gained_mps, car.speed_mps);
-  };
-  // Where the ego may be by then: it may come over, too, and a change begun is not given up.
-  map::LaneId ego_lane = ego_->actor.lane;
-  while (lane(ego_lane).right != map::kNoLane) ego_lane = lane(ego_lane).right;
-  for (; ego_lane != map::kNoLane; ego_lane = lane(ego_lane).left) {
-    if (!leaves_gaps(ego_lane)) return false;
-  }
-  return true;
 }
 
 }  // namespace s4tp::adversary

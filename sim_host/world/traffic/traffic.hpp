@@ -83,6 +83,8 @@ class Traffic : public TrafficEngine {
   virtual void decide(const Actor* ego);
   /// Whether a driver who wants to change into a lane does. \param beside  the lane, from the car's place on
   [[nodiscard]] virtual bool may_change(const Car& /*car*/, const WayPart& /*beside*/) const { return true; }
+  /// Whether a car for which there is room comes into the world now.
+  [[nodiscard]] virtual bool may_come_in(const Car& /*car*/) const { return true; }
   [[nodiscard]] std::vector<Actor> actors(const Actor* ego) const;
   /// As the driver would like it, everybody in `view` considered.
   [[nodiscard]] double acceleration(Car& car, const Actor& self, const TrafficView& view);

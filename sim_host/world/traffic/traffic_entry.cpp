@@ -80,6 +80,9 @@ void Traffic::insert_waiting(const Actor* ego) {
       continue;
     }
     car.speed_mps = *speed_mps;
+    if (!may_come_in(car)) {
+      continue;
+    }
     car.known_leader = car.hazard = Car::kLooking;  // nothing there at the start is a surprise
     car.next_change_s = time_s() + 1.0;
     const auto place =
