@@ -245,9 +245,13 @@ void Guard::find_threats(const scene::EgoPath& path, const occupancy::LaneReach 
       if (!context.threats.push(threat)) context.too_many = true;
     };
     // Two who set off at once have both seen the other stand: who can still stop has not used its licence.
-    bool bound = false;
-    for (const ZoneGroup& group : context.groups)
-      bound = bound || (z >= group.first && z < group.end && context.stop_s_m > group.entry_s_m);
+    // Where the first comes nobody owes anything before somebody is there.
+    float used_from_s_m = path.zones[z].entry_s_m;
+    for (const ZoneGroup& group : context.groups) {
+      const bool in_it = z >= group.first && z < group.end;
+      if (in_it && path.zones[z].priority != Priority::kFirstCome) used_from_s_m = group.entry_s_m;
+    }
+    const bool bound = context.stop_s_m > used_from_s_m;
     for (int i = 0; i < count; ++i) {
       const scene::Agent& agent = scene_->agents[i];
       when[i] = zone_occupancy(*scene_, agent, path.zones[z].merging ? straight_on[i] : reach[i],

@@ -113,6 +113,26 @@ TEST(Guard, WhoWasLetGoDoesNotBreakOff) {
   EXPECT_FALSE(road.safe(95.5F, 5.0F, -6.0F));
 }
 
+// GUARD-006 A licence is used for all of a group at once, but for ground where the first comes: 40 m off at 6 m/s it can stop gently
+// before the second of two zones; when the fail-safe stops at 97.1, in the first one, it is 8 m off. Bound to leave the second to us
+// too, it does; where the first comes it is bound to nothing, and we stop short of it.
+TEST(Guard, ALicenceIsUsedForAllOfItsGroup) {
+  for (const Priority priority : {Priority::kFirstYields, Priority::kFirstCome}) {
+    SharedGround road(Priority::kFirstYields);
+    const scene::LanePath beside = add_second_zone(road, 104.5F, 110.0F);
+    road.scene.ego_paths[0].zones[1].priority = priority;
+    add_vehicle(road.scene, road.map, beside, 96.0F - 40.0F, 6.0F);
+    const Verdict begun = road.judge(94.0F, 3.0F, 1.0F);
+    ASSERT_TRUE(begun.safe() && begun.clears);
+    road.guard.commit(0, begun);
+    road.scene.agents.clear();
+    add_vehicle(road.scene, road.map, beside, 96.0F - 8.0F, 6.0F);
+    const Verdict verdict = road.judge(95.2F, 3.0F, 1.0F);
+    EXPECT_TRUE(verdict.safe());
+    EXPECT_EQ(verdict.stops_short, priority == Priority::kFirstCome);
+  }
+}
+
 // GUARD-006 Going through with nobody about, the fail-safe unable to stop before the zone any more: one comes in sight that can be
 // there after 1.9 s, and we are gone after 2.2. 18 m off at 8 m/s it finds the ground taken and can stop (8 + 8 m); at 12 m/s it
 // cannot, nor is one that was there before bound.
