@@ -95,12 +95,9 @@ ZoneOccupancy zone_occupancy(const scene::Scene& scene, const scene::Agent& agen
   result.until_s =
       occupancy::latest_time_s(seen_mps(agent), parameters.law.braking_max_mps2, exit_m) - unseen_s - lead_s;
   if (result.to_entry_m <= 0.0F) {
-    // Where it stands it is an obstacle like any other. Whoever owes us nothing may go on: past the middle that is away.
-    // Before it two may wait for each other.
-    const bool may_go_on =
-        zone.priority != Priority::kFirstHasPriority && result.to_entry_m + result.to_exit_m > 0.0F;
-    if (stands_in_sight(scene, agent, may_go_on ? kStandOffS : parameters.law.seen_s))
-      result.claim = Claim::kStands;
+    // Where it stands it is an obstacle like any other, and may go on, until all have stood so long that any one may. Where lanes
+    // merge its way on is ours.
+    if (!zone.merging && stands_in_sight(scene, agent, kStandOffS)) result.claim = Claim::kStands;
     result.from_s = -lead_s;
     return result;
   }

@@ -5,8 +5,8 @@
 /// left at the latest, its own length counted; who gains speed faster than the law lets it may go on doing so.
 /// LEGAL-002 D1: who owes us the way stops before the zone if the duty's braking does it; its response runs
 /// once. LEGAL-003 L1: who has priority and gains no speed stays out if it can stop gently from as fast as it
-/// may be. LEGAL-004 L2: so does who stands before the zone, or past its middle, and has seen us stand; in
-/// its first half once all have stood for 2 s.
+/// may be. LEGAL-004 L2: so does who stands before the zone and has seen us stand; in one
+/// that is crossed once all have stood for 2 s; where lanes merge, never.
 /// LEGAL-005 Whoever is not seen any more can be all that the law allows from its last sight on.
 ///
 /// \code

@@ -82,12 +82,12 @@ TEST(Guard, NobodyDrivesThroughTheOneAhead) {
 }
 
 // GUARD-002 One that stands at the zone's far end, its rear 0.4 m beside our box, lets the next one drive up
-// to it: 2.8 m into the zone.
+// to it once both have stood for 2 s: 2.8 m into the zone.
 TEST(Guard, WhoStandsInTheZoneLetsTheNextOneIn) {
   SharedGround road(Priority::kFirstYields);
   scene::Agent& ahead = road.other(103.8F, 0.0F);
-  ahead.stood_ms = 1000;
-  road.scene.waited_s = 1.0F;
+  ahead.stood_ms = 2000;
+  road.scene.waited_s = 2.0F;
   EXPECT_TRUE(road.safe(95.3F, 0.0F, 2.0F));
   road.other(96.0F - 12.0F, 8.0F);
   EXPECT_FALSE(road.safe(95.3F, 0.0F, 2.0F));

@@ -153,13 +153,13 @@ TEST(LegalOccupancy, WhoStandsInSightMayBePassed) {
   EXPECT_EQ(standing(700, 0.7F, 0.1F, 1.0F), Claim::kMayCome);
 }
 
-// LEGAL-004 One that stands in the zone of 8 m past its middle is an obstacle where it stands, and leaves the rest to us. Before the middle
-// it may go on into our way (drives entered before one that stood 0.2 m in, and set off), until all have stood for 2 s: else one that
-// waits for us as we for it stands there for ever.
+// LEGAL-004 One that stands in the zone of 8 m is an obstacle where it stands, and may go on into our way (drives entered before one
+// that stood 0.2 m in, and set off), until all have stood for 2 s: else one that waits for us as we for it stands there for ever.
+// Where lanes merge its way on is ours: drives set off beside one that did a second later.
 TEST(LegalOccupancy, WhoStandsInTheZoneIsAnObstacle) {
-  EXPECT_EQ(Approach(Priority::kFirstYields, -4.1F, 0.0F).claim(), Claim::kMayCome);  // has not stood yet
-  const auto standing = [](float entry_m, std::uint16_t stood_ms, float waited_s) {
+  const auto standing = [](float entry_m, std::uint16_t stood_ms, float waited_s, bool merging = false) {
     Approach approach(Priority::kFirstYields, entry_m, 0.0F);
+    approach.zone().merging = merging;
     approach.agent().stood_ms = stood_ms;
     approach.scene.waited_s = waited_s;
     const Claim claim = approach.claim();
@@ -167,10 +167,12 @@ TEST(LegalOccupancy, WhoStandsInTheZoneIsAnObstacle) {
     EXPECT_EQ(approach.claim(), Claim::kMayCome) << "sets off";
     return claim;
   };
-  EXPECT_EQ(standing(-4.1F, 700, 0.7F), Claim::kStands);
-  EXPECT_EQ(standing(-3.9F, 60'000, 1.9F), Claim::kMayCome);
-  EXPECT_EQ(standing(-3.9F, 1900, 60.0F), Claim::kMayCome);
-  EXPECT_EQ(standing(-3.9F, 2000, 2.0F), Claim::kStands);
+  for (const float entry_m : {-1.0F, -6.0F}) {
+    EXPECT_EQ(standing(entry_m, 60'000, 1.9F), Claim::kMayCome);
+    EXPECT_EQ(standing(entry_m, 1900, 60.0F), Claim::kMayCome);
+    EXPECT_EQ(standing(entry_m, 2000, 2.0F), Claim::kStands);
+    EXPECT_EQ(standing(entry_m, 60'000, 60.0F, true), Claim::kMayCome);
+  }
 }
 
 // LEGAL-004 So does one that owes us the way; but who drives up to it may see it move on and clear the zone.
