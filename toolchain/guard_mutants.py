@@ -81,7 +81,7 @@ MUTANTS = {
     "endless_latch": Mutant("a licence is never used up: not by a stand, nor by going too late, nor unused", {
         "guard_context.cpp": [("  if (start.speed_mps < kStandingMps) latched_.clear();\n", ""),
                               ("const bool bound = context.stop_s_m > used_from_s_m;",
-                               "const bool bound = true;")],
+                               "const bool bound = used_from_s_m > 0.0F || true;")],
         "guard.cpp": [("  latched_.clear();\n  if (!verdict.clears ||", "  if (!verdict.clears ||")],
         "guard_group.cpp": [("if (threat.kind == ThreatKind::kLicensed && (own.blocked || leaves_in_time(group, own, kLateS))) continue;",
                              "if (threat.kind == ThreatKind::kLicensed) continue;")]}),
