@@ -79,7 +79,7 @@ MUTANTS = {
         "}")),
     # Without any latch the guard is no less careful, see below: the fault is one that never ends.
     "endless_latch": Mutant("a licence is never used up: not by a stand, nor by going too late, nor unused", {
-        "guard_context.cpp": [("  if (start.speed_mps < kStandingMps) latched_.clear();\n", ""),
+        "guard_context.cpp": [("    latched_.clear();\n    free_ms_", "    free_ms_"),
                               ("const bool bound = context.stop_s_m > used_from_s_m;",
                                "const bool bound = used_from_s_m > 0.0F || true;")],
         "guard.cpp": [("  latched_.clear();\n  if (!verdict.clears ||", "  if (!verdict.clears ||")],

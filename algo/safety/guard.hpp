@@ -281,7 +281,7 @@ class Guard {
   BoundedVector<Latch, 2 * kMaxTracks> latched_;
   bool goes_through_ = false;      ///< the plan in force, a group of zones
   bool stops_short_ = false;       ///< ... but stops in it, short of somebody
-  std::uint32_t free_ms_ = 0;      ///< when we could stay out of it last
+  std::uint32_t free_ms_ = 0;      ///< when we could stay out of it last, or stood
   std::uint32_t clear_by_ms_ = 0;  ///< when it was to have left it, as we were bound to go on
   FailSafe fail_safe_;             ///< of the plan in force, from ...
   std::uint32_t start_ms_ = 0;     ///< ... its start

@@ -39,7 +39,10 @@ int Guard::look(const scene::Scene& scene, const TrajectoryPoint& start, float l
   lead_s_ = lead_s;
   looked_ = false;
   // A licence is used by going: who has come to a stand asks anew.
-  if (start.speed_mps < kStandingMps) latched_.clear();
+  if (start.speed_mps < kStandingMps) {
+    latched_.clear();
+    free_ms_ = scene.time_ms;
+  }
   centre_m_ = trajectory::rear_axle_to_centre_m(parameters);
   front_m_ = trajectory::rear_axle_to_front_m(parameters);
   const float driven_m =

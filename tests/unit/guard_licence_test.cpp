@@ -151,6 +151,8 @@ TEST(Guard, WhoComesInSightFindsTheGroundTaken) {
     road.scene.time_ms = 10'200;
     road.other(96.0F - 18.0F, one.their_mps).known_ms = one.known_ms;
     EXPECT_EQ(road.safe(93.0F, 5.0F, 0.0F), one.passes) << one.their_mps << ' ' << one.known_ms;
+    // Once we have come to a stand in the zone it is like anybody else: one that can stop for us may be stopped short of.
+    EXPECT_EQ(road.judge(97.0F, 0.0F, 0.5F).stops_short, one.their_mps < 10.0F);
   }
 }
 

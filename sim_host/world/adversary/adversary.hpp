@@ -10,17 +10,18 @@
 /// | the ego that has just come into the lane    | answers after the whole reaction time, with the duty's |
 /// |                                             | braking (D2), or not at all where that does not do     |
 /// | the ego on a zone by right, or bound for it | the same before the zone (D2), having let it, or come  |
-/// |                                             | into the world, since (LAW-005)                        |
+/// |                                             | into the world since                                   |
 /// | the ego on a zone, gone in without          | drives on                                              |
 /// | a zone where the ego has priority           | goes in by licence (D1), and takes every one; in its   |
 /// |                                             | group already, stops before it where it still can      |
 /// | a zone where the first comes                | goes in unless the ego is there                        |
 /// | a lane beside the ego                       | changes into it where RSS gaps are left (D3)           |
 ///
-/// LAW-043 Nobody comes into the world where that leaves less than the RSS gap behind an ego, in whatever lane beside.
 /// What a driver does within these bounds: driver_choice.hpp.
+/// LAW-043 Nobody comes into the world where that leaves less than the RSS gap behind an ego, in whatever lane beside.
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -62,8 +63,10 @@ class Traffic final : public traffic::Traffic {
   void decide(const traffic::Actor* ego) override;
   [[nodiscard]] bool may_change(const traffic::Car& car, const traffic::WayPart& beside) const override;
   [[nodiscard]] bool may_come_in(const traffic::Car& car) const override;
-  /// All lanes where the ego may be soon: it may come over, and a change begun is not given up.
-  [[nodiscard]] std::vector<map::LaneId> lanes_of_ego() const;
+  /// Whether one leaves the ego what it owes in all lanes where that may be by then: it may come over, and a change begun is not
+  /// given up. \param leaves  asked of the two alone on the road, the ego first
+  [[nodiscard]] bool leaves_wherever(const traffic::Actor& self,
+                                     const std::function<bool(const traffic::TrafficView&)>& leaves) const;
 
   void watch(const traffic::Actor& ego, const traffic::TrafficView& others);
   /// Who is bound by the ego's taking a group: whose licence it has, until it is on it.

@@ -18,13 +18,9 @@ constexpr double kChangesAtLeast_mps = 1.0;  // slower ones are reckoned with as
 
 bool Traffic::may_change(const traffic::Car& car, const traffic::WayPart& beside) const {
   if (!ego_) return true;
-  Actor self;
-  self.id = car.id;
+  Actor self = actor_of(car);
   self.lane = beside.lane;
   self.s_m = -beside.start_m;
-  self.speed_mps = car.speed_mps;
-  self.length_m = car.length_m;
-  self.guide = &plan_->ways[car.way].guide;
   const double rate =
       std::min(1.0 / kUsualChange_s, std::max(car.speed_mps, kChangesAtLeast_mps) / kSlowChange_mps);
   const double to_line_s = 0.5 / rate;
@@ -34,10 +30,7 @@ bool Traffic::may_change(const traffic::Car& car, const traffic::WayPart& beside
     const double gap_m = found.gap_m - (rear_mps - front_mps) * to_line_s - slack_m;
     return gap_m >= judge::rss_gap_m(law_.rss, rear_mps, front_mps);
   };
-  const auto leaves_gaps = [&](map::LaneId ego_lane) {
-    Actor ego = ego_->actor;
-    ego.lane = ego_lane;
-    const traffic::TrafficView two(*road_, {ego, self});
+  return leaves_wherever(self, [&](const traffic::TrafficView& two) {
     const traffic::Leader ahead = two.leader(two.actors()[1].way, car.id, car.length_m);
     if (ahead.actor != nullptr &&
         !left(ahead, car.speed_mps, std::max(0.0, ahead.actor->speed_mps - gained_mps))) {
@@ -45,37 +38,26 @@ bool Traffic::may_change(const traffic::Car& car, const traffic::WayPart& beside
     }
     const traffic::Leader behind = two.follower(beside.lane, self.s_m, car.id, car.length_m);
     return behind.actor == nullptr || left(behind, behind.actor->speed_mps + gained_mps, car.speed_mps);
-  };
-  const std::vector<map::LaneId> lanes = lanes_of_ego();
-  return std::all_of(lanes.begin(), lanes.end(), leaves_gaps);
+  });
 }
 
 bool Traffic::may_come_in(const traffic::Car& car) const {
   if (!ego_) return true;
-  Actor self;
-  self.id = car.id;
-  self.lane = car.lane;
-  self.s_m = car.s_m;
-  self.speed_mps = car.speed_mps;
-  self.length_m = car.length_m;
-  self.guide = &plan_->ways[car.way].guide;
-  const std::vector<map::LaneId> lanes = lanes_of_ego();
-  return std::all_of(lanes.begin(), lanes.end(), [&](map::LaneId ego_lane) {
-    Actor ego = ego_->actor;
-    ego.lane = ego_lane;
-    const traffic::TrafficView two(*road_, {ego, self});
+  return leaves_wherever(actor_of(car), [&](const traffic::TrafficView& two) {
     const traffic::Leader ahead = two.leader(two.actors()[1].way, car.id, car.length_m);
     return ahead.actor == nullptr || ahead.merging ||
            ahead.gap_m >= judge::rss_gap_m(law_.rss, car.speed_mps, ahead.actor->speed_mps);
   });
 }
 
-std::vector<map::LaneId> Traffic::lanes_of_ego() const {
-  map::LaneId id = ego_->actor.lane;
-  while (lane(id).right != map::kNoLane) id = lane(id).right;
-  std::vector<map::LaneId> lanes;
-  for (; id != map::kNoLane; id = lane(id).left) lanes.push_back(id);
-  return lanes;
+bool Traffic::leaves_wherever(const Actor& self,
+                              const std::function<bool(const traffic::TrafficView&)>& leaves) const {
+  Actor ego = ego_->actor;
+  while (lane(ego.lane).right != map::kNoLane) ego.lane = lane(ego.lane).right;
+  for (; ego.lane != map::kNoLane; ego.lane = lane(ego.lane).left) {
+    if (!leaves(traffic::TrafficView(*road_, {ego, self}))) return false;
+  }
+  return true;
 }
 
 }  // namespace s4tp::adversary

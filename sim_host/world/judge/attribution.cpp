@@ -92,12 +92,8 @@ Verdict by_priority(const Law& law, const Evidence& evidence, const Party& yield
   const double entered_s = std::min(yields.journey->time_at(shared.group.entry_m), time_s);
   const Journey& creditor = *priority.journey;
   const double to_zone_m = evidence.other_entry_m(shared.zone, creditor).value_or(0.0);
-  // Who came into the world later found the ground taken.
   const bool licensed =
-      creditor.seen_at(entered_s)
-          ? evidence.entered_by_licence(law, *yields.journey, shared.group, shared.zone, creditor, entered_s)
-          : creditor.points.front().time_s > entered_s &&
-                evidence.could_stop_when_it_came(law, shared.zone, creditor);
+      evidence.entered_by_licence(law, *yields.journey, shared.group, shared.zone, creditor, entered_s);
   if (!licensed || creditor.time_at(to_zone_m) < yields.journey->time_at(shared.zone.entry_m)) {
     return blame(yields, Cause::kEntered);
   }

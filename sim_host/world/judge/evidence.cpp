@@ -135,16 +135,19 @@ Entry Evidence::entry_of(const Law& law, const Journey& entering, const ZoneGrou
   return entry;
 }
 
-bool Evidence::could_stop_when_it_came(const Law& law, const ZoneOnWay& zone, const Journey& other) const {
-  const JourneyPoint& first = other.points.front();
-  return can_stop(law, first.speed_mps, other_entry_m(zone, other).value_or(0.0) - first.odometer_m);
-}
-
 bool Evidence::entered_by_licence(const Law& law, const Journey& entering, const ZoneGroup& group,
                                   const ZoneOnWay& zone, const Journey& other, double entered_s) const {
   const auto licensed_at = [&](double time_s) {
     return licence_of(law, entry_of(law, entering, group, zone, other, time_s)) != Licence::kNone;
   };
+  // Who comes into the world later finds the ground taken.
+  const JourneyPoint& first = other.points.front();
+  const auto could_stop_when_it_came = [&] {
+    return can_stop(law, first.speed_mps, other_entry_m(zone, other).value_or(0.0) - first.odometer_m);
+  };
+  if (!other.seen_at(entered_s)) {
+    return first.time_s > entered_s && could_stop_when_it_came();
+  }
   if (licensed_at(entered_s)) {
     return true;
   }
@@ -156,7 +159,7 @@ bool Evidence::entered_by_licence(const Law& law, const Journey& entering, const
       return false;
     }
     if (!other.seen_at(point->time_s)) {
-      return could_stop_when_it_came(law, zone, other);
+      return could_stop_when_it_came();
     }
     if (licensed_at(point->time_s)) {
       return true;

@@ -39,11 +39,8 @@ class Evidence {
   /// came. \pre both were there at `time_s`
   [[nodiscard]] Entry entry_of(const Law& law, const Journey& entering, const ZoneGroup& group,
                                const ZoneOnWay& zone, const Journey& other, double time_s) const;
-  /// Whether one that has just come into the world can still stop before the zone.
-  [[nodiscard]] bool could_stop_when_it_came(const Law& law, const ZoneOnWay& zone,
-                                             const Journey& other) const;
   /// Whether one entered the group by licence of the other, at `entered_s` or at any time before from which on it could not
-  /// have stopped as D1 asks (LAW-005). \pre the other one was there at `entered_s`
+  /// have stopped as D1 asks; or before the other one came into the world, able to stop (LAW-005).
   [[nodiscard]] bool entered_by_licence(const Law& law, const Journey& entering, const ZoneGroup& group,
                                         const ZoneOnWay& zone, const Journey& other, double entered_s) const;
   /// The other one's way to the zone. \return none: not on its way

@@ -85,6 +85,7 @@ class Traffic : public TrafficEngine {
   [[nodiscard]] virtual bool may_change(const Car& /*car*/, const WayPart& /*beside*/) const { return true; }
   /// Whether a car for which there is room comes into the world now.
   [[nodiscard]] virtual bool may_come_in(const Car& /*car*/) const { return true; }
+  [[nodiscard]] Actor actor_of(const Car& car) const;
   [[nodiscard]] std::vector<Actor> actors(const Actor* ego) const;
   /// As the driver would like it, everybody in `view` considered.
   [[nodiscard]] double acceleration(Car& car, const Actor& self, const TrafficView& view);
@@ -98,7 +99,6 @@ class Traffic : public TrafficEngine {
   std::vector<Car> cars_;  ///< by id
 
  private:
-  [[nodiscard]] Actor actor_of(const Car& car) const;
   [[nodiscard]] double wanted_speed_mps(const Car& car, const std::vector<WayPart>& way) const;
   [[nodiscard]] double follow(Car& car, const Actor& self, const TrafficView& view, const Leader& leader,
                               double wanted_mps);
