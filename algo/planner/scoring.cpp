@@ -17,6 +17,7 @@ constexpr float kLookS = static_cast<float>(kHorizonSteps) * kStepS;
 constexpr float kInLaneShare = 0.4F;   // of its width from a lane's centre, a change counts as made
 constexpr float kMissedRoute = 80.0F;  // times lane_route: driving past the last place to change lanes
 constexpr float kLateShare = 4.0F;     // of what progress is worth, each metre past it costs
+constexpr float kEndlessM = 1e6F;
 
 /// Price of being in the right lane so late: all of a missed route where that takes another change's way, and beyond
 /// that more than the way driven gains. \param changes  left to make
@@ -141,6 +142,32 @@ struct LastPlace {
   }
 };
 
+/// Way that gaining speed costs from `s_m` on, beside one who drives at the limits of the path: in each lane as much as is
+/// not driven there in the time it takes. Before a faster lane, too: else who stands before it had nothing to lose,
+/// and who drives into it slowly all. \param share  of the limits that is wanted  \param most_mps  wanted at most
+float way_lost_m(const scene::Scene& scene, const scene::LanePath& path, float s_m, float speed_mps,
+                 float share, float most_mps, float gain_mps2) {
+  float lost_m = 0.0F;
+  for (int i = 0; i < path.lanes.size(); ++i) {
+    const bool last = i + 1 >= path.lanes.size();
+    const float left_m = last ? kEndlessM : path.lanes[i + 1].start_s_m - s_m;
+    if (left_m <= 0.0F) continue;
+    const float wanted_mps = min(most_mps, share * scene.map->lanes[path.lanes[i].lane].speed_limit_mps);
+    const float to_gain_mps = wanted_mps - speed_mps;
+    s_m = s_m + left_m;
+    if (to_gain_mps <= 0.0F) {
+      speed_mps = wanted_mps;
+      continue;
+    }
+    const float way_m = min(left_m, 0.5F * (speed_mps + wanted_mps) * to_gain_mps / gain_mps2);
+    const occupancy::Pace pace = {speed_mps, gain_mps2, wanted_mps};
+    const float time_s = occupancy::time_to_cover_s(pace, way_m);
+    lost_m = lost_m + max(0.0F, wanted_mps * time_s - way_m);
+    speed_mps = occupancy::speed_after_mps(pace, time_s);
+  }
+  return lost_m;
+}
+
 }  // namespace
 
 trajectory::MergeTarget merge_target_of(const scene::Scene& scene, const LaneCostToGo& cost_to_go,
@@ -164,8 +191,9 @@ CostBreakdown score_motion(const scene::Scene& scene, const LaneCostToGo& cost_t
   float jerk_sum = 0.0F;
   float lateral_sum = 0.0F;
   float offset_sum = 0.0F;
-  float straight_mps = 0.0F;  // wanted at the last place looked at but for the bend there, which ends
+  float behind_mps = 0.0F;  // wanted at the last place looked at for whoever is ahead there
   int offset_count = 0;
+  const float limit_share = careful ? kCarefulSpeedShare : 1.0F;
   const scene::EgoPath& own = scene.ego_paths[0];
   const float width_m = scene::path_point(*scene.map, path.path, path.frenet.s_m).width_m;
   LastPlace last{
@@ -183,10 +211,8 @@ CostBreakdown score_motion(const scene::Scene& scene, const LaneCostToGo& cost_t
     scene::PathPoint centre;
     const scene::Frenet frenet =
         scene::project(*scene.map, path.path, position(point.rear_axle), s_m, 5.0F, centre, work);
-    straight_mps = min(centre.speed_limit_mps,
-                       cost_to_go.closing_up_mps(path_index, start_s_m, s_m, static_cast<float>(i) * kStepS));
-    if (careful) straight_mps = min(straight_mps, kCarefulSpeedShare * centre.speed_limit_mps);
-    float wanted_mps = straight_mps;
+    behind_mps = cost_to_go.closing_up_mps(path_index, start_s_m, s_m, static_cast<float>(i) * kStepS);
+    float wanted_mps = min(limit_share * centre.speed_limit_mps, behind_mps);
     const float bend = abs(centre.curvature_1pm);
     if (bend * wanted_mps * wanted_mps > parameters.comfort.lateral_mps2) {
       wanted_mps = sqrt(parameters.comfort.lateral_mps2 / bend);
@@ -207,10 +233,10 @@ CostBreakdown score_motion(const scene::Scene& scene, const LaneCostToGo& cost_t
   cost.jerk = parameters.scoring.jerk * (jerk_sum / steps);
   cost.lateral = parameters.scoring.lateral_acceleration * (lateral_sum / steps);
   const float end_mps = trajectory.points[kHorizonSteps].speed_mps;
-  // Way lost from the horizon's end on until we are as fast as wanted.
-  const float slower_mps = max(0.0F, straight_mps - end_mps);
-  cost.progress = cost.progress + parameters.scoring.progress * 0.5F * square(slower_mps) /
-                                      parameters.comfort.acceleration_mps2;
+  // Way lost from the horizon's end on until we are as fast as wanted. A bend there is left out: it ends.
+  cost.progress = cost.progress +
+                  parameters.scoring.progress * way_lost_m(scene, path.path, s_m, end_mps, limit_share,
+                                                           behind_mps, parameters.comfort.acceleration_mps2);
   const float lane =
       lane_cost_between(scene, cost_to_go, path_index, s_m, abs(last.at_d_m), width_m, end_mps, parameters);
   cost.lane = parameters.scoring.lane_offset * (offset_sum / samples) + lane;

@@ -9,17 +9,19 @@ namespace {
 
 constexpr float kBehind = 16.0F;             // samples behind the start: a corner is smoothed as a whole
 constexpr float kSpacingPerSpeed = 0.0625F;  // s: 68 samples ahead are then 4.2 s of way
-constexpr float kGentle = 0.8F;      // share of comfortable braking used to arrive at a curve or limit
-constexpr float kTinyM = 0.01F;      // no division by less
-constexpr float kFlat = 1e-3F;       // the same, radian of steering per metre
-constexpr float kStraight = 1e-4F;   // sine of a turn between samples that counts as none
-constexpr float kSlowestMps = 1.0F;  // a cap never asks for standstill: stops are intents of their own
-constexpr float kRateShare = 0.85F;  // of the steering rate: some is left to follow with
-constexpr int kMostPasses = 16;      // to widen a bend
-constexpr int kEdgeSamples = 4;      // at the ends, which widening leaves as they are
-constexpr int kWidenedSamples = 8;   // each way around what is too tight
-constexpr float kSwingOut = 0.5F;    // of what a pass cuts is given back outside
-constexpr int kBeyondSamples = 16;   // for bends and limits beyond the line
+constexpr float kGentle = 0.8F;          // share of comfortable braking used to arrive at a curve or limit
+constexpr float kTinyM = 0.01F;          // no division by less
+constexpr float kFlat = 1e-3F;           // the same, radian of steering per metre
+constexpr float kStraight = 1e-4F;       // sine of a turn between samples that counts as none
+constexpr float kSlowestMps = 1.0F;      // a cap never asks for standstill: stops are intents of their own
+constexpr float kRateShare = 0.85F;      // of the steering rate: some is left to follow with
+constexpr int kMostPasses = 16;          // to widen a bend
+constexpr int kEdgeSamples = 4;          // at the ends, which widening leaves as they are
+constexpr int kWidenedSamples = 8;       // each way around what is too tight
+constexpr float kSwingOut = 0.5F;        // of what a pass cuts is given back outside
+constexpr float kBeyondSpacingM = 5.0F;  // of samples for bends beyond the line: a junction's are 6 m long
+constexpr int kBeyondSamples = 32;
+constexpr float kHorizonS = static_cast<float>(kHorizonSteps) * kStepS;
 
 // Work (WorkMeter's units), beside scene::kSeekWork.
 constexpr int kLineWork = 400;
@@ -131,25 +133,40 @@ float bend_speed_mps(float curvature_1pm, const Parameters& parameters) {
   return sqrt(parameters.comfort.lateral_mps2 / max(abs(curvature_1pm), kFlat));
 }
 
+/// How fast a plan from `speed_mps` on may be at its end, where it gains speed as long as the limits along the line let it.
+float fastest_end_mps(const ReferenceLine& line, float speed_mps, const Parameters& parameters) {
+  float limit_mps = 0.0F;
+  for (const ReferenceLine::Sample& sample : line.samples) limit_mps = max(limit_mps, sample.speed_cap_mps);
+  return max(speed_mps, min(limit_mps, speed_mps + parameters.vehicle.acceleration_max_mps2 * kHorizonS));
+}
+
 /// Speed at the line's end with which the bends and limits further on are met in time: a plan ends 3 s ahead, and from there
-/// on we may have to brake for longer than the line is. \param work  what it took is added [WorkMeter's units]
+/// on we may have to brake for longer than the line is. \pre the line's caps are its limits
+/// \param work  what it took is added [WorkMeter's units]
 float speed_at_end_mps(const LaneMap& map, const scene::LanePath& path, const ReferenceLine& line,
                        float speed_mps, const Parameters& parameters, int& work) {
   const float braking_mps2 = kGentle * parameters.comfort.braking_mps2;
   const float end_s_m = line.start_s_m + static_cast<float>(kReferenceSamples - 1) * line.spacing_m;
-  const float planned_m = static_cast<float>(kHorizonSteps) * kStepS * speed_mps;
+  const float plan_end_mps = fastest_end_mps(line, speed_mps, parameters);
+  const float planned_m = kHorizonS * 0.5F * (speed_mps + plan_end_mps);
   const float ahead_m = (static_cast<float>(kReferenceSamples - 1) - kBehind) * line.spacing_m;
-  const float reach_m = planned_m + occupancy::stopping_way_m(speed_mps, braking_mps2) - ahead_m;
+  const float needed_m = planned_m + occupancy::stopping_way_m(plan_end_mps, braking_mps2) - ahead_m;
+  const float reach_m = min(needed_m, path.length_m - end_s_m);
   float end_mps = line.samples[kReferenceSamples - 1].speed_cap_mps;
   if (reach_m <= 0.0F) return end_mps;
-  scene::PathCursor cursor(map, path);
-  for (int i = 1; i <= kBeyondSamples; ++i) {
-    const float beyond_m = reach_m * static_cast<float>(i) / static_cast<float>(kBeyondSamples);
-    const scene::PathPoint there = cursor.at(end_s_m + beyond_m);
-    const float cap_mps = min(there.speed_limit_mps, bend_speed_mps(there.curvature_1pm, parameters));
+  const auto meet = [&](float cap_mps, float beyond_m) {
     end_mps = min(end_mps, sqrt(square(cap_mps) + 2.0F * braking_mps2 * beyond_m));
+  };
+  for (const scene::PathLane& part : path.lanes) {
+    if (part.start_s_m > end_s_m) meet(map.lanes[part.lane].speed_limit_mps, part.start_s_m - end_s_m);
   }
-  work += kBeyondWork * kBeyondSamples + scene::kSeekWork * cursor.seeks();
+  scene::PathCursor cursor(map, path);
+  const int count = to_int(reach_m / kBeyondSpacingM, 0, kBeyondSamples - 1) + 1;
+  for (int i = 1; i <= count; ++i) {
+    const float beyond_m = reach_m * static_cast<float>(i) / static_cast<float>(count);
+    meet(bend_speed_mps(cursor.at(end_s_m + beyond_m).curvature_1pm, parameters), beyond_m);
+  }
+  work += kBeyondWork * count + scene::kSeekWork * cursor.seeks();
   return end_mps;
 }
 

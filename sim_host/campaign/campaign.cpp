@@ -35,6 +35,15 @@ bool is_sumo(const std::string& traffic) {
   return scenario::engine_of(traffic) == scenario::Engine::kSumo;
 }
 
+/// An episode that ended for a reason of neither driver nor world, and why.
+struct NotDriven : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+// So many may fail, and so large a share of those driven: more have one cause, and waste the time.
+constexpr double kFewFailures = 3.0;
+constexpr double kFailureShare = 0.05;
+
 using ByFlavourAndArgument =
     std::map<std::pair<std::string, std::string>, std::shared_ptr<const CampaignScenario>>;
 
@@ -120,6 +129,8 @@ std::vector<EpisodeRow> run_campaign(const Campaign& campaign, const std::vector
   std::atomic<std::size_t> next{0};
   std::mutex report_mutex;
   std::exception_ptr failure;
+  double done = 0.0;
+  double failed = 0.0;
   const auto drive = [&](const Job& job) {
     const CampaignCell& cell = campaign.cells[job.cell];
     EpisodeOptions episode;
@@ -133,8 +144,12 @@ std::vector<EpisodeRow> run_campaign(const Campaign& campaign, const std::vector
     try {
       return run_episode(cell.scenario->scenario, episode);
     } catch (const std::exception& error) {
-      throw std::runtime_error(words(cell.cell) + ", seed " + std::to_string(job.seed) + ": " + error.what());
+      throw NotDriven(words(cell.cell) + ", seed " + std::to_string(job.seed) + ": " + error.what());
     }
+  };
+  const auto give_up = [&] {
+    if (!failure) failure = std::current_exception();
+    next = jobs.size();
   };
   const auto work = [&] {
     for (std::size_t i = next++; i < jobs.size(); i = next++) {
@@ -145,10 +160,15 @@ std::vector<EpisodeRow> run_campaign(const Campaign& campaign, const std::vector
         rows[i] = {cell.cell, metrics::evaluate(result.recording, cell.scenario->scenario)};
         const std::lock_guard lock(report_mutex);
         if (options.on_episode) options.on_episode(cell, *rows[i], result);
+        done += 1.0;
+      } catch (const NotDriven& error) {
+        const std::lock_guard lock(report_mutex);
+        if (options.on_failure) options.on_failure(error.what());
+        failed += 1.0;
+        if (!options.on_failure || failed > kFewFailures + kFailureShare * done) give_up();
       } catch (...) {
         const std::lock_guard lock(report_mutex);
-        if (!failure) failure = std::current_exception();
-        next = jobs.size();
+        give_up();
       }
     }
   };

@@ -73,6 +73,9 @@ struct CampaignOptions {
   const std::atomic<bool>* stop = nullptr;  ///< once true, no further episode begins
   /// Called after each episode, one call at a time.
   std::function<void(const CampaignCell&, const EpisodeRow&, const EpisodeResult&)> on_episode;
+  /// Called for each episode that could not be driven, as when SUMO ends in the middle of it; the others are driven
+  /// all the same, unless these become many. Empty: the first one ends the campaign.
+  std::function<void(const std::string& why)> on_failure;
 };
 
 /// Drives the jobs. The rows are those that were driven, in the jobs' order, whatever the threads did.

@@ -142,14 +142,17 @@ int run_eval(EvalOptions& options) {
     progress.done(words(row.cell) + ", seed " + std::to_string(row.metrics.seed) + ": " +
                   metrics::ending_name(row.metrics.ending));
   };
+  std::vector<std::string> not_driven;
+  run.on_failure = [&](const std::string& why) { not_driven.push_back(why); };
   const std::vector<campaign::EpisodeRow> fresh = run_campaign(campaign, jobs, run);
   progress.end();
   rows.insert(rows.end(), fresh.begin(), fresh.end());
-  if (rows.size() < total) {
+  if (rows.size() + not_driven.size() < total) {
     std::cerr << "stopped; " << rows.size() << " of " << total << " episodes are done and kept in "
               << file.string() << ". The same command goes on.\n";
     return kInterrupted;
   }
+  if (rows.empty()) throw std::runtime_error("no episode could be driven: " + not_driven.front());
   if (shard.count == 1) {
     report(header, rows, options.json.empty() ? out / "results.json" : options.json);
   } else {
@@ -163,7 +166,11 @@ int run_eval(EvalOptions& options) {
               << static_cast<int>(driven_s / wall_s) << " times real time\n";
   }
   std::cout << "as a page, with replays of failures: ./s4tp eval report " << out.string() << '\n';
-  return kDone;
+  if (not_driven.empty()) return kDone;
+  std::cerr << not_driven.size() << " of " << total
+            << " episodes could not be driven and are in no number; the same command tries them again:\n";
+  for (const std::string& why : not_driven) std::cerr << "  " << why << '\n';
+  return kNotGoodEnough;
 }
 
 int merge(const MergeOptions& options) {

@@ -69,6 +69,7 @@ struct World::Impl {
   int entry_tick;
   int tick_number = 0;
   traffic::LanePlace place;
+  bool was_on_last_edge = false;  ///< a tick before
   traffic::CarState ego;
   std::vector<traffic::CarState> others;
   traffic::Recording recording;
@@ -177,7 +178,10 @@ void World::Impl::judge() {
                             network.lanes[static_cast<std::size_t>(place.lane)].edge == mission.edges.back();
   const map::PolylineProjection at_goal =
       network.lanes[static_cast<std::size_t>(goal_lane)].centre.project(ego.centre);
-  if (on_last_edge && at_goal.s_m >= mission.goal_s_m) {
+  // Whoever passes the end of a lane that leads on is on the next lane by then.
+  const bool comes_from_last_edge = on_last_edge || was_on_last_edge;
+  was_on_last_edge = on_last_edge;
+  if (comes_from_last_edge && at_goal.s_m >= mission.goal_s_m) {
     const double half_lane_m = 0.5 * network.lanes[static_cast<std::size_t>(goal_lane)].width_m;
     end(std::abs(at_goal.d_m) <= half_lane_m ? traffic::Ending::kGoal : traffic::Ending::kTimeOut);
   } else if (locator.off_road(ego.centre)) {

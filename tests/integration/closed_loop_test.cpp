@@ -93,6 +93,31 @@ TEST(Campaign, RowsDoNotDependOnThreads) {
   }
 }
 
+// An episode that cannot be driven ends the campaign, unless somebody is told of it: then the others are driven, and what is
+// left out is said by name. Where most fail the campaign ends all the same.
+TEST(Campaign, GoesOnPastAnEpisodeThatCannotBeDriven) {
+  CampaignPlan plan;
+  plan.planners = {"constant_speed"};
+  plan.scenarios = {"overtake"};
+  plan.episodes = 3;
+  Campaign campaign = load_campaign(plan, std::filesystem::path(S4TP_SOURCE_DIR) / "sim_host" / "scenarios");
+  Campaign broken = campaign;
+  broken.cells[0].cell.planner = "nobody";
+  campaign.cells.push_back(broken.cells[0]);
+  std::vector<Job> jobs = jobs_of(campaign);
+  ASSERT_EQ(jobs.size(), 6U);
+  jobs.resize(4);  // one of the broken cell
+  CampaignOptions options;
+  EXPECT_THROW(static_cast<void>(run_campaign(campaign, jobs, options)), std::runtime_error);
+  std::vector<std::string> failures;
+  options.on_failure = [&](const std::string& why) { failures.push_back(why); };
+  EXPECT_EQ(run_campaign(campaign, jobs, options).size(), 3U);
+  ASSERT_EQ(failures.size(), 1U);
+  EXPECT_NE(failures[0].find("nobody"), std::string::npos) << failures[0];
+  broken.plan.episodes = 10;
+  EXPECT_THROW(static_cast<void>(run_campaign(broken, jobs_of(broken), options)), std::runtime_error);
+}
+
 // The parts of a campaign have every episode once, and each part some of every cell.
 TEST(Campaign, ShardsShareEveryCell) {
   CampaignPlan plan;

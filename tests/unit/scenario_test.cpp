@@ -80,6 +80,16 @@ TEST(Scenario, MinusOneIsWhatTheLaneHas) {
   EXPECT_DOUBLE_EQ(mission.start_speed_mps, 10.0);
 }
 
+// At the end of a lane that leads on (40 m into the crossing) one may have to wait: there the goal is 5 m before it, and as written
+// where it is written.
+TEST(Scenario, AGoalAtAJunctionIsBeforeIt) {
+  const std::string before = replaced(kScenario, "goal_lane = \"east_out_0\"", "goal_lane = \"west_in_0\"");
+  EXPECT_DOUBLE_EQ(scenario_of(replaced(before, "goal_pos_m = 30.0", "goal_pos_m = -1.0")).mission.goal_s_m,
+                   35.0);
+  EXPECT_DOUBLE_EQ(scenario_of(replaced(before, "goal_pos_m = 30.0", "goal_pos_m = 40.0")).mission.goal_s_m,
+                   40.0);
+}
+
 // A flavour's tables are put over the file's; what it does not name stays; without a name the file holds as
 // written.
 TEST(Scenario, AFlavourOverrides) {

@@ -153,6 +153,36 @@ TEST(Scoring, AStandInABendIsWorthNoMoreThanElsewhere) {
   }
 }
 
+// A lane of 5 m/s ends 4 m ahead, and one of 20 m/s begins. Standing before it: 4 m take 2 s at 2 m/s^2, 6 m less than at
+// 5 m/s, and from 4 m/s on 16^2 / 4 = 64 m are lost. Driven into it at 5 m/s, as soon as it begins: 15^2 / 4 = 56.25 m. Drives stood for ever
+// at the end of slow bends, as in the slow lane there was nothing to lose.
+TEST(Scoring, WhoStandsBeforeAFasterLaneLosesWhatItsSpeedCosts) {
+  LaneMap map;
+  const LaneIndex slow = add_lane(map, {{0.0F, 0.0F}, {50.0F, 0.0F}});
+  const LaneIndex fast = add_lane(map, {{50.0F, 0.0F}, {250.0F, 0.0F}});
+  link(map, slow, fast);
+  map.lanes[slow].speed_limit_mps = 5.0F;
+  map.lanes[fast].speed_limit_mps = 20.0F;
+  Parameters parameters;
+  const auto lost_m = [&](float s_m, float speed_mps) {
+    scene::Scene scene;
+    (void)add_ego_path(scene, map, path_of(map, {slow, fast}));
+    put_ego(scene, state_on(map, scene.ego_paths[0].path, s_m, speed_mps));
+    LaneCostToGo cost_to_go;
+    cost_to_go.look(scene, {}, 0.0F, parameters);
+    Trajectory trajectory;
+    for (TrajectoryPoint& point : trajectory.points)
+      point = state_on(map, scene.ego_paths[0].path, s_m, 0.0F);
+    trajectory.points[kHorizonSteps].speed_mps = speed_mps;
+    int work = 0;
+    const float end_m = 0.5F * kStepS * speed_mps;
+    return end_m + score_motion(scene, cost_to_go, 0, s_m - end_m, trajectory, false, false, parameters, work)
+                       .progress;
+  };
+  EXPECT_NEAR(lost_m(46.0F, 0.0F), 6.0F + 64.0F, 0.5F);
+  EXPECT_NEAR(lost_m(50.1F, 5.0F), 56.25F, 0.5F);
+}
+
 // We stand in our lane behind one that stands: where that leaves 2.5 m to it, nothing asks us on; with 3 m more, something
 // does.
 TEST(Scoring, NobodyIsAskedIntoTheGapItKeepsAtAStand) {

@@ -50,6 +50,38 @@ TEST(TightCorner, IsBrakedForFromAPlansEnd) {
   EXPECT_FLOAT_EQ(trajectory::speed_cap_at(line, 90.0F), 16.7F);
 }
 
+/// Speed that may be driven 60 m ahead of `before_m` before a junction's lane of 8 m length and 6 m/s, on a road of 28 m/s.
+float cap_before_short_lane_mps(float before_m, float speed_mps) {
+  LaneMap map;
+  const LaneIndex before = add_lane(map, {{-200.0F, 0.0F}, {0.0F, 0.0F}});
+  const LaneIndex within = add_lane(map, {{0.0F, 0.0F}, {8.0F, 0.0F}});
+  const LaneIndex after = add_lane(map, {{8.0F, 0.0F}, {150.0F, 0.0F}});
+  link(map, before, within);
+  link(map, within, after);
+  map.lanes[before].speed_limit_mps = map.lanes[after].speed_limit_mps = 28.0F;
+  map.lanes[within].speed_limit_mps = 6.0F;
+  const scene::LanePath path = path_of(map, {before, within, after});
+  trajectory::ReferenceLine line;
+  trajectory::build_reference(map, path, 200.0F - before_m, speed_mps, Parameters{}, line);
+  return trajectory::speed_cap_at(line, 260.0F - before_m);
+}
+
+// CAND-024 At 14 m/s a plan may be at 23 m/s in 3 s, 57 m on, and from there 6 m/s take 124 m at 2 m/s^2: 110 m before such a lane
+// 50 m are left at the end of the line's first 60, where sqrt(6^2 + 4 * 50) = 15.4 m/s may be driven. By the speed now alone a plan
+// gained speed until 5 m/s^2 did not do any more, and ran off the road.
+TEST(TightCorner, IsBrakedForByAPlanThatGainsSpeed) {
+  EXPECT_NEAR(cap_before_short_lane_mps(110.0F, 14.0F), 15.4F, 0.5F);
+}
+
+// CAND-024 Wherever we are before it, so short a lane is not overlooked.
+TEST(TightCorner, AShortLaneIsNotOverlooked) {
+  for (float before_m = 75.0F; before_m < 140.0F; before_m += 1.0F) {
+    EXPECT_NEAR(cap_before_short_lane_mps(before_m, 18.0F), std::sqrt(36.0F + 4.0F * (before_m - 60.0F)),
+                0.7F)
+        << before_m;
+  }
+}
+
 float sharpest_1pm(const trajectory::ReferenceLine& line) {
   float most = 0.0F;
   for (const trajectory::ReferenceLine::Sample& sample : line.samples)

@@ -83,6 +83,21 @@ TEST(World, EndsAtTheGoal) {
   EXPECT_LT(world.recording().goal_distance_m, 0.2);
 }
 
+// The same where the lane leads on: past its end the ego is on the next lane.
+TEST(World, EndsAtAGoalWhereTheLaneLeadsOn) {
+  Scenario scenario = two_lanes();
+  map::Lane next;
+  next.name = "next_0";
+  next.edge = "next";
+  next.centre = map::Polyline({{200.0, 0.0}, {400.0, 0.0}});
+  next.predecessors = {0};
+  scenario.network.lanes.push_back(next);
+  scenario.network.lanes[0].successors = {2};
+  World world(scenario, {});
+  EXPECT_EQ(drive(world, hold), traffic::Ending::kGoal);
+  EXPECT_NEAR(world.time_s(), 19.0, 0.2);
+}
+
 // WORLD-034 Holding 10 m/s behind cars of 3 m/s in one's lane ends in the tail of one of them, by own fault;
 // both box sizes touch.
 TEST(World, EndsWithACollision) {

@@ -20,6 +20,7 @@ namespace {
 constexpr double kReach_m = 1300.0;  ///< of Pose on the bus, with something to spare
 constexpr double kEnd = std::numeric_limits<double>::infinity();  ///< of a lane
 constexpr double kAsTheLane = -1.0;                               ///< the lane's end, the lane's limit
+constexpr double kBeforeJunction_m = 5.0;  ///< the middle of a car that waits before it
 
 /// Lane by SUMO's name.
 map::LaneId read_lane(TomlTable& table, const std::string& key, const map::Network& network) {
@@ -92,7 +93,12 @@ Mission read_mission(TomlTable table, const map::Network& network) {
   mission.start_speed_mps = read_or(table, "entry_speed_mps", kAsTheLane, 60.0, start.speed_limit_mps);
   table.no_other_keys();
   mission.start_s_m = along_shape(table, "start_pos_m", start, mission.start_s_m);
+  const bool at_end = mission.goal_s_m == kEnd;
   mission.goal_s_m = along_shape(table, "goal_pos_m", goal, mission.goal_s_m);
+  // A lane that leads on ends where one has to give way: who waits there has arrived.
+  if (at_end && !goal.successors.empty()) {
+    mission.goal_s_m = std::max(0.5 * mission.goal_s_m, mission.goal_s_m - kBeforeJunction_m);
+  }
   try {
     mission.edges =
         map::find_route(network, mission.start_lane, mission.start_s_m, mission.goal_lane, mission.goal_s_m);
