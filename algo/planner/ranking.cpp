@@ -68,8 +68,9 @@ class PlanningCycle::Ranking final : public trajectory::CandidateVisitor {
     DecisionList& decisions = planner_.decisions_;
     CostBreakdown& cost = planner_.costs_[index];
     int took = work::kVisit;
-    cost = score_motion(scene, cost_to_go_, candidate.path, planner_.guard_.start_s_m(candidate.path),
-                        rolled_out, !goes_on(candidate), careful_, parameters, took);
+    cost = score_motion(scene, cost_to_go_, candidate.path, planner_.lines_[candidate.path],
+                        planner_.guard_.start_s_m(candidate.path), rolled_out, !goes_on(candidate), careful_,
+                        parameters, took);
     planner_.work_.spend(Stage::kRank, took);
     count(explanation_, Stage::kRank, 1);
     const DecisionKey key = decision_key(scene, candidate.path, rolled_out, planner_.marginal_);

@@ -182,7 +182,8 @@ trajectory::MergeTarget merge_target_of(const scene::Scene& scene, const LaneCos
 }
 
 CostBreakdown score_motion(const scene::Scene& scene, const LaneCostToGo& cost_to_go, int path_index,
-                           float start_s_m, const Trajectory& trajectory, bool leaves, bool careful,
+                           const trajectory::ReferenceLine& line, float start_s_m,
+                           const Trajectory& trajectory, bool leaves, bool careful,
                            const Parameters& parameters, int& work) {
   work += kMotionWork + cost_to_go.asking_work();
   const scene::EgoPath& path = scene.ego_paths[path_index];
@@ -212,14 +213,12 @@ CostBreakdown score_motion(const scene::Scene& scene, const LaneCostToGo& cost_t
     const scene::Frenet frenet =
         scene::project(*scene.map, path.path, position(point.rear_axle), s_m, 5.0F, centre, work);
     behind_mps = cost_to_go.closing_up_mps(path_index, start_s_m, s_m, static_cast<float>(i) * kStepS);
-    float wanted_mps = min(limit_share * centre.speed_limit_mps, behind_mps);
-    const float bend = abs(centre.curvature_1pm);
-    if (bend * wanted_mps * wanted_mps > parameters.comfort.lateral_mps2) {
-      wanted_mps = sqrt(parameters.comfort.lateral_mps2 / bend);
-    }
+    // What may be driven there so that bends and limits further on are met in time, too.
+    const float may_mps = min(limit_share * centre.speed_limit_mps, trajectory::speed_cap_at(line, s_m));
+    const float wanted_mps = min(may_mps, behind_mps);
     const float excess_mps = point.speed_mps - wanted_mps;
-    // Too fast is worse than too slow by as much: the limit is a limit.
-    speed_sum = speed_sum + (excess_mps > 0.0F ? 4.0F * excess_mps : -excess_mps);
+    // Too fast is worse than too slow by as much, and the more of it the harder it is to lose before what it is too fast for.
+    speed_sum = speed_sum + (excess_mps > 0.0F ? (4.0F + excess_mps) * excess_mps : -excess_mps);
     offset_sum = offset_sum + square(frenet.d_m);
     last.go_on(s_m, frenet.d_m);
     ++offset_count;

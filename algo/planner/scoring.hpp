@@ -6,6 +6,7 @@
 #include "algo/planner/explanation.hpp"
 #include "algo/planner/lane_cost_to_go.hpp"
 #include "algo/scene/scene.hpp"
+#include "algo/trajectory/reference_line.hpp"
 
 namespace s4tp::planner {
 
@@ -16,11 +17,12 @@ namespace s4tp::planner {
 
 /// All terms but risk. From the lane we are in, one we had rather be in also asks how soon the end leads into
 /// a gap there: a driver who has to merge looks for a gap before signalling. \param path  index of the ego
-/// path the trajectory follows \param start_s_m  of its start, along it \param leaves  the manoeuvre in force:
+/// path the trajectory follows \param line  of that path: the speeds that may be driven there \param start_s_m  of its start, along it \param leaves  the manoeuvre in force:
 /// starting a lane change has its price, and so has dropping one \param careful  degraded driving:
 /// the speed wanted is lower \param work  what it took is added [WorkMeter's units]
 [[nodiscard]] CostBreakdown score_motion(const scene::Scene& scene, const LaneCostToGo& cost_to_go, int path,
-                                         float start_s_m, const Trajectory& trajectory, bool leaves,
-                                         bool careful, const Parameters& parameters, int& work);
+                                         const trajectory::ReferenceLine& line, float start_s_m,
+                                         const Trajectory& trajectory, bool leaves, bool careful,
+                                         const Parameters& parameters, int& work);
 
 }  // namespace s4tp::planner

@@ -6,7 +6,9 @@
 namespace s4tp::scene {
 namespace {
 
-constexpr float kBesideM = 1.0F;           // a vehicle this far over the lane's edge still belongs to it
+constexpr float kBesideM = 1.0F;  // a vehicle this far over the lane's edge still belongs to it
+constexpr float kSwungOutM =
+    2.5F;  // the ego, over that of the lane it comes along: a sharp turn may lead so far
 constexpr float kHeadingLimitRad = 1.05F;  // 60 degrees
 constexpr float kAheadM = 40.0F;           // before a lane's start it still is our way
 constexpr float kAheadRad = 0.2F;
@@ -85,7 +87,11 @@ void LaneTable::fit(const Pose& pose, const LaneHint& hint, Fits& fits) const {
     const LaneFacts& facts = facts_[i];
     if (!facts.usable) continue;
     const Lane& lane = map_->lanes[i];
-    const float limit_m = 0.5F * lane.width_m + kBesideM;
+    const bool stays = i == hint.previous;
+    const bool goes_on =
+        valid(hint.previous) && follows(map_->lanes[hint.previous], static_cast<LaneIndex>(i));
+    const bool may_swing_out = hint.follows_route && (stays || goes_on);
+    const float limit_m = 0.5F * lane.width_m + (may_swing_out ? kSwungOutM : kBesideM);
     if (pose.x_m < facts.low.x_m - limit_m || pose.x_m > facts.high.x_m + limit_m ||
         pose.y_m < facts.low.y_m - limit_m || pose.y_m > facts.high.y_m + limit_m) {
       continue;
@@ -97,9 +103,9 @@ void LaneTable::fit(const Pose& pose, const LaneHint& hint, Fits& fits) const {
     found.turn_rad = wrap_angle(pose.heading_rad - found.fix.heading_rad);
     if (found.fix.distance_m > limit_m || abs(found.turn_rad) > kHeadingLimitRad) continue;
     found.score = found.fix.distance_m + kHeadingWeight * abs(found.turn_rad);
-    if (found.lane == hint.previous) {
+    if (stays) {
       found.score -= kStayM;
-    } else if (valid(hint.previous) && follows(map_->lanes[hint.previous], found.lane)) {
+    } else if (goes_on) {
       found.score -= kGoOnM;
     }
     if (hint.follows_route && !lane.on_route) found.score += kOffRouteM;

@@ -53,7 +53,8 @@ class LaneTable {
   /// Whether an index from outside names a lane that can be used.
   [[nodiscard]] bool valid(LaneIndex index) const;
 
-  /// Lanes within half their width + 1 m of the pose and 60 degrees of its heading, best first.
+  /// Lanes within half their width + 1 m of the pose and 60 degrees of its heading, best first. For us + 2.5 m of the one we
+  /// come along: turns sharper than we can be steered lead out of their lane, and there it still is our way.
   void fit(const Pose& pose, const LaneHint& hint, Fits& fits) const;
 
   /// The lane that begins at most 40 m straight ahead of a pose that is on none, or kNoLaneIndex: lanes go on

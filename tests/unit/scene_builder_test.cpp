@@ -137,6 +137,24 @@ TEST(SceneBuilder, EgoLaneHasHysteresis) {
   EXPECT_EQ(lane_at(1.2F), 0);
 }
 
+// 3.5 m beside the lane it came along (half of 3.2 m and 1.9 m more) the ego still is on its way; one that was never there is not, nor
+// is anybody 4.5 m beside it. Drives that a sharp turn had led out of their lane stood there for ever.
+TEST(SceneBuilder, WhoHasSwungOutOfItsLaneStillIsOnItsWay) {
+  const LaneMap map = test::straight_road(1, 200.0F);
+  const Parameters parameters;
+  scene::Scene scene;
+  const auto at = [&](scene::SceneBuilder& builder, std::uint32_t now_ms, float y_m) {
+    return builder.build(now_ms, test::ego_at(50.0F, y_m, 0.0F, 3.0F), TrackList{}, now_ms, &map, parameters,
+                         scene);
+  };
+  scene::SceneBuilder builder;
+  EXPECT_EQ(at(builder, 100, 0.0F), Status::kOk);
+  EXPECT_EQ(at(builder, 200, 3.5F), Status::kOk);
+  EXPECT_EQ(at(builder, 300, 4.5F), Status::kNoLane);
+  scene::SceneBuilder fresh;
+  EXPECT_EQ(at(fresh, 100, 3.5F), Status::kNoLane);
+}
+
 // Two lanes leave from where ours ends, 20 m of the same ground: on it we are on the one that needs fewer lane changes, whichever
 // the map names first.
 TEST(SceneBuilder, WhereLanesPartTakesTheOneThatNeedsFewerChanges) {

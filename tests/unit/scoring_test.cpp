@@ -15,6 +15,12 @@ using namespace test;  // NOLINT: the map builders are the language of these tes
 constexpr float kMissed = 480.0F;  // 80 times scoring.lane_route
 
 /// We are at s = 40 m of the right of two lanes; to the goal we have to be in the left one, from `route_end_m` on.
+trajectory::ReferenceLine line_of(const LaneMap& map, const scene::LanePath& path) {
+  trajectory::ReferenceLine line;
+  trajectory::build_reference(map, path, 40.0F, 5.0F, Parameters{}, line);
+  return line;
+}
+
 struct Road {
   LaneMap map = straight_road(2, 300.0F, 10.0F);
   scene::Scene scene;
@@ -46,7 +52,8 @@ struct Road {
       point.rear_axle.y_m += over_m * u * u * u * (10.0F - 15.0F * u + 6.0F * u * u);
     }
     int work = 0;
-    return score_motion(scene, cost_to_go, path, 40.0F, trajectory, false, false, parameters, work);
+    return score_motion(scene, cost_to_go, path, line_of(map, scene.ego_paths[path].path), 40.0F, trajectory,
+                        false, false, parameters, work);
   }
 };
 
@@ -147,7 +154,9 @@ TEST(Scoring, AStandInABendIsWorthNoMoreThanElsewhere) {
     for (TrajectoryPoint& point : trajectory.points)
       point = state_on(map, scene.ego_paths[0].path, s_m, 0.0F);
     int work = 0;
-    EXPECT_NEAR(score_motion(scene, cost_to_go, 0, s_m, trajectory, false, false, parameters, work).progress,
+    EXPECT_NEAR(score_motion(scene, cost_to_go, 0, line_of(map, scene.ego_paths[0].path), s_m, trajectory,
+                             false, false, parameters, work)
+                    .progress,
                 25.0F, 0.1F)
         << s_m;
   }
@@ -176,11 +185,45 @@ TEST(Scoring, WhoStandsBeforeAFasterLaneLosesWhatItsSpeedCosts) {
     trajectory.points[kHorizonSteps].speed_mps = speed_mps;
     int work = 0;
     const float end_m = 0.5F * kStepS * speed_mps;
-    return end_m + score_motion(scene, cost_to_go, 0, s_m - end_m, trajectory, false, false, parameters, work)
+    return end_m + score_motion(scene, cost_to_go, 0, line_of(map, scene.ego_paths[0].path), s_m - end_m,
+                                trajectory, false, false, parameters, work)
                        .progress;
   };
   EXPECT_NEAR(lost_m(46.0F, 0.0F), 6.0F + 64.0F, 0.5F);
   EXPECT_NEAR(lost_m(50.1F, 5.0F), 56.25F, 0.5F);
+}
+
+// A lane of 5 m/s begins 30 m ahead: 20 m/s there and 13 m/s (sqrt(25 + 4 * 36)) where one is 6 m on, to brake with 2 m/s^2. At
+// 18 m/s each sample is charged four times what it is too fast by, and its square; at 5 m/s and less nobody is. Plans made before the limit was known went on
+// gaining speed towards it.
+TEST(Scoring, TooFastForALimitAheadCosts) {
+  LaneMap map;
+  const LaneIndex fast = add_lane(map, {{0.0F, 0.0F}, {70.0F, 0.0F}});
+  const LaneIndex slow = add_lane(map, {{70.0F, 0.0F}, {250.0F, 0.0F}});
+  link(map, fast, slow);
+  map.lanes[fast].speed_limit_mps = 20.0F;
+  map.lanes[slow].speed_limit_mps = 5.0F;
+  Parameters parameters;
+  const auto speed_cost = [&](float speed_mps) {
+    scene::Scene scene;
+    (void)add_ego_path(scene, map, path_of(map, {fast, slow}));
+    put_ego(scene, state_on(map, scene.ego_paths[0].path, 40.0F, speed_mps));
+    LaneCostToGo cost_to_go;
+    cost_to_go.look(scene, {}, 0.0F, parameters);
+    Trajectory trajectory;
+    for (int i = 0; i < kTrajectoryPoints; ++i) {
+      const float s_m = 40.0F + kStepS * static_cast<float>(i) * speed_mps;
+      trajectory.points[i] = state_on(map, scene.ego_paths[0].path, s_m, speed_mps);
+    }
+    int work = 0;
+    return score_motion(scene, cost_to_go, 0, line_of(map, scene.ego_paths[0].path), 40.0F, trajectory, false,
+                        false, parameters, work)
+               .speed /
+           parameters.scoring.speed;
+  };
+  // At 9, 18 and 27 m: sqrt(25 + 4 * 21) = 10.4, 8.5 and 6.1 m/s, then 5: 3 s * (4 * 68 + 797) / 6.
+  EXPECT_NEAR(speed_cost(18.0F), 535.0F, 25.0F);
+  EXPECT_LT(speed_cost(5.0F), 20.0F);
 }
 
 // We stand in our lane behind one that stands: where that leaves 2.5 m to it, nothing asks us on; with 3 m more, something
@@ -201,7 +244,8 @@ TEST(Scoring, NobodyIsAskedIntoTheGapItKeepsAtAStand) {
       point = state_on(road.map, road.scene.ego_paths[0].path, 40.0F, 0.0F);
     int work = 0;
     speed_costs[i] =
-        score_motion(road.scene, road.cost_to_go, 0, 40.0F, trajectory, false, false, road.parameters, work)
+        score_motion(road.scene, road.cost_to_go, 0, line_of(road.map, road.scene.ego_paths[0].path), 40.0F,
+                     trajectory, false, false, road.parameters, work)
             .speed;
   }
   EXPECT_NEAR(speed_costs[0], 0.0F, 0.05F);
