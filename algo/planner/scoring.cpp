@@ -152,18 +152,13 @@ float way_lost_m(const scene::Scene& scene, const scene::LanePath& path, float s
     const bool last = i + 1 >= path.lanes.size();
     const float left_m = last ? kEndlessM : path.lanes[i + 1].start_s_m - s_m;
     if (left_m <= 0.0F) continue;
-    const float wanted_mps = min(most_mps, share * scene.map->lanes[path.lanes[i].lane].speed_limit_mps);
-    const float to_gain_mps = wanted_mps - speed_mps;
     s_m = s_m + left_m;
-    if (to_gain_mps <= 0.0F) {
-      speed_mps = wanted_mps;
-      continue;
-    }
-    const float way_m = min(left_m, 0.5F * (speed_mps + wanted_mps) * to_gain_mps / gain_mps2);
-    const occupancy::Pace pace = {speed_mps, gain_mps2, wanted_mps};
-    const float time_s = occupancy::time_to_cover_s(pace, way_m);
-    lost_m = lost_m + max(0.0F, wanted_mps * time_s - way_m);
-    speed_mps = occupancy::speed_after_mps(pace, time_s);
+    const float wanted_mps = min(most_mps, share * scene.map->lanes[path.lanes[i].lane].speed_limit_mps);
+    speed_mps = min(speed_mps, wanted_mps);
+    const float gained_mps = min(wanted_mps, sqrt(square(speed_mps) + 2.0F * gain_mps2 * left_m));
+    const float mean_mps = 0.5F * (speed_mps + gained_mps);
+    lost_m = lost_m + (wanted_mps - mean_mps) * (gained_mps - speed_mps) / gain_mps2;
+    speed_mps = gained_mps;
   }
   return lost_m;
 }

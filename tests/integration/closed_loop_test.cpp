@@ -31,6 +31,17 @@ TEST(ClosedLoop, CruiseReachesTheGoal) {
   EXPECT_TRUE(result.recording.collisions.empty());
 }
 
+// A road of 28 m/s that ends in a turn by 119 degrees, 7.4 m/s, and the goal where the next lane leads on into a junction. Before limits
+// were foreseen as far as a plan comes that gains speed, the drive ended off the road.
+TEST(ClosedLoop, ASharpTurnOfAFastRoadIsDriven) {
+  EpisodeOptions options;
+  options.seed = 1;
+  const auto file = std::filesystem::path(S4TP_SOURCE_DIR) / "tests" / "networks" / "sharp_fast.toml";
+  const EpisodeResult result = run_episode(scenario::load_scenario(file), options);
+  EXPECT_EQ(result.recording.ending, traffic::Ending::kGoal);
+  EXPECT_TRUE(result.recording.collisions.empty());
+}
+
 // The ECU is engaged at take-over and drives all the way: no other mode than driving once it has begun.
 TEST(ClosedLoop, DrivesFromTakeOverToTheGoal) {
   const EpisodeResult result = drive("cruise", 2);

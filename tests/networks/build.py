@@ -134,6 +134,17 @@ def signals():
     return (*arms([90, 0, 270, 180], 80, "traffic_light", priorities=[1, 5, 1, 5]), [], {})
 
 
+def sharp_fast():
+    """Roads of 28 m/s with a turn by 119 degrees; the goal lane leads on into the next junction."""
+    nodes = {"a": (-200, 60, "dead_end"), "b": (0, 0, "priority"), "c": (190, 110, "priority"), "d": (0, 230, "priority"),
+             "e": (-150, 330, "dead_end"), "x": (120, -120, "dead_end"), "y": (330, 80, "dead_end"), "z": (120, 330, "dead_end")}
+    edges = {}
+    for near, far in (("a", "b"), ("b", "c"), ("c", "d"), ("d", "e"), ("b", "x"), ("c", "y"), ("d", "z")):
+        edges[f"{near}_{far}"] = (near, far, 1, 27.78, {})
+        edges[f"{far}_{near}"] = (far, near, 1, 27.78, {})
+    return nodes, edges, [], {}
+
+
 # What is driven there: (start lane, goal lane), further missions as flavours, and who else drives: (from, to, cars/h).
 SCENARIOS = {
     "skewed": ("s_in_0", "w_out_0", {}, [("e_in", "w_out", 300), ("n_in", "s_out", 150), ("w_in", "e_out", 300)]),
@@ -156,11 +167,12 @@ SCENARIOS = {
     "no_inner_lanes": ("s_in_0", "w_out_0", {}, [("e_in", "w_out", 300), ("w_in", "e_out", 300)]),
     "unregulated": ("s_in_0", "w_out_0", {}, [("e_in", "w_out", 150), ("w_in", "e_out", 150)]),
     "stop_signs": ("s_in_0", "w_out_0", {}, [("e_in", "w_out", 300), ("w_in", "e_out", 300)]),
+    "sharp_fast": ("a_b_0", "c_d_0", {}, [("y_c", "c_b", 60), ("e_d", "d_z", 60)]),
     "signals": ("s_in_0", "w_out_0", {}, [("e_in", "w_out", 300), ("w_in", "e_out", 300)]),
 }
 
 NETWORKS = [skewed, all_way_stop, right_before_left, zipper, roundabout, tee, four_lanes, short_ramp, curve,
-            late_changes, far_away, strange_names, no_inner_lanes, unregulated, stop_signs, signals]
+            late_changes, far_away, strange_names, no_inner_lanes, unregulated, stop_signs, signals, sharp_fast]
 
 
 def build_network(path, nodes, edges, connections, options):

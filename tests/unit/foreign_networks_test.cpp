@@ -259,7 +259,7 @@ INSTANTIATE_TEST_SUITE_P(All, ForeignMaps,
                          testing::Values("skewed", "all_way_stop", "right_before_left", "zipper",
                                          "roundabout", "tee", "four_lanes", "short_ramp", "curve",
                                          "late_changes", "far_away", "strange_names", "no_inner_lanes",
-                                         "unregulated", "stop_signs", "signals"),
+                                         "unregulated", "stop_signs", "signals", "sharp_fast"),
                          [](const auto& each) { return each.param; });
 
 }  // namespace
