@@ -17,9 +17,10 @@ namespace s4tp::planner {
 
 /// All terms but risk. From the lane we are in, one we had rather be in also asks how soon the end leads into
 /// a gap there: a driver who has to merge looks for a gap before signalling. \param path  index of the ego
-/// path the trajectory follows \param line  of that path: the speeds that may be driven there \param start_s_m  of its start, along it \param leaves  the manoeuvre in force:
-/// starting a lane change has its price, and so has dropping one \param careful  degraded driving:
-/// the speed wanted is lower \param work  what it took is added [WorkMeter's units]
+/// path the trajectory follows \param line  of that path: the speeds that may be driven there \param start_s_m  of the
+/// trajectory's start, along the path \param leaves  the manoeuvre in force: starting a lane change has its price, and so
+/// has dropping one \param careful  degraded driving: the speed wanted is lower \param work  what it took is added [WorkMeter's
+/// units]
 [[nodiscard]] CostBreakdown score_motion(const scene::Scene& scene, const LaneCostToGo& cost_to_go, int path,
                                          const trajectory::ReferenceLine& line, float start_s_m,
                                          const Trajectory& trajectory, bool leaves, bool careful,

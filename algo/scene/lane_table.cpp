@@ -6,9 +6,8 @@
 namespace s4tp::scene {
 namespace {
 
-constexpr float kBesideM = 1.0F;  // a vehicle this far over the lane's edge still belongs to it
-constexpr float kSwungOutM =
-    2.5F;  // the ego, over that of the lane it comes along: a sharp turn may lead so far
+constexpr float kBesideM = 1.0F;    // a vehicle this far over the lane's edge still belongs to it
+constexpr float kSwungOutM = 2.5F;  // the ego, over that of the lane it comes along: as far as a turn leads
 constexpr float kHeadingLimitRad = 1.05F;  // 60 degrees
 constexpr float kAheadM = 40.0F;           // before a lane's start it still is our way
 constexpr float kAheadRad = 0.2F;
