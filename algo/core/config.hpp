@@ -7,6 +7,7 @@ namespace s4tp {
 inline constexpr float kStepS = 0.1F;     ///< dt, step of every horizon and history [s]
 inline constexpr int kStepMs = 100;       ///< the same in vehicle time [ms]; also the planning period
 inline constexpr int kHorizonSteps = 30;  ///< T, future steps: 3 s
+inline constexpr float kHorizonS = static_cast<float>(kHorizonSteps) * kStepS;
 inline constexpr int kTrajectoryPoints =
     kHorizonSteps + 1;                      ///< index 0 is the start, index i is i * dt later
 inline constexpr int kHistorySamples = 11;  ///< T_h past steps and the present one

@@ -9,8 +9,7 @@
 namespace s4tp::planner {
 namespace {
 
-constexpr float kFarM = 150.0F;  // the map's horizon
-constexpr float kHorizonS = static_cast<float>(kHorizonSteps) * kStepS;
+constexpr float kFarM = 150.0F;        // the map's horizon
 constexpr float kFastestMps = 100.0F;  // wanted where nobody is ahead
 constexpr float kCrawlMps = 3.0F;      // who stands or crawls will not do so all the way
 constexpr float kRoomM = 60.0F;        // for each lane change left to do; with no more, nothing else counts

@@ -13,7 +13,6 @@ namespace {
 using occupancy::kNeverS;
 using occupancy::stopping_way_m;
 
-constexpr float kHorizonS = static_cast<float>(kHorizonSteps) * kStepS;
 constexpr float kPatienceS = 8.0F;
 constexpr float kDuePatienceS = 20.0F;
 constexpr float kInsetM = 0.2F;    // from both ends of a gap: vehicles do not keep their speeds exactly

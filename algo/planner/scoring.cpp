@@ -13,11 +13,9 @@ constexpr float kCarefulSpeedShare = 0.6F;  // of the limit, while a source of o
 constexpr float kChangeRoomM = 60.0F;  // a lane change left to do starts to press when its room is this short
 constexpr float kGapShare = 0.5F;      // of what the lane beside gains, for each second until its gap is met
 constexpr float kLongestS = 8.0F;
-constexpr float kLookS = static_cast<float>(kHorizonSteps) * kStepS;
 constexpr float kInLaneShare = 0.4F;   // of its width from a lane's centre, a change counts as made
 constexpr float kMissedRoute = 80.0F;  // times lane_route: driving past the last place to change lanes
 constexpr float kLateShare = 4.0F;     // of what progress is worth, each metre past it costs
-constexpr float kEndlessM = 1e6F;
 
 /// Price of being in the right lane so late: all of a missed route where that takes another change's way, and beyond
 /// that more than the way driven gains. \param changes  left to make
@@ -150,7 +148,7 @@ float way_lost_m(const scene::Scene& scene, const scene::LanePath& path, float s
   float lost_m = 0.0F;
   for (int i = 0; i < path.lanes.size(); ++i) {
     const bool last = i + 1 >= path.lanes.size();
-    const float left_m = last ? kEndlessM : path.lanes[i + 1].start_s_m - s_m;
+    const float left_m = last ? trajectory::kNoDeadEndM : path.lanes[i + 1].start_s_m - s_m;
     if (left_m <= 0.0F) continue;
     s_m = s_m + left_m;
     const float wanted_mps = min(most_mps, share * scene.map->lanes[path.lanes[i].lane].speed_limit_mps);
@@ -169,7 +167,7 @@ trajectory::MergeTarget merge_target_of(const scene::Scene& scene, const LaneCos
                                         const Parameters& parameters) {
   if (scene.ego_paths.empty()) return {};
   const float speed_mps = scene.ego.speed_mps;
-  const float s_m = scene.ego_paths[0].frenet.s_m + kLookS * speed_mps;
+  const float s_m = scene.ego_paths[0].frenet.s_m + kHorizonS * speed_mps;
   const float here = lane_cost(scene, cost_to_go, 0, s_m, speed_mps, parameters);
   float gain = 0.0F;
   const int lane = better_lane(scene, cost_to_go, 0, s_m, speed_mps, here, parameters, gain);

@@ -7,7 +7,6 @@
 
 namespace s4tp::safety {
 
-inline constexpr float kHorizonS = static_cast<float>(kHorizonSteps) * kStepS;
 inline constexpr float kGoesOnMps2 = 1.5F;  // how a plan is driven on beyond its horizon
 
 /// A plan seen along its path.

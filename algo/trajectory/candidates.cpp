@@ -47,7 +47,6 @@ constexpr float kStopBeforeZoneM = 1.0F;  // waiting beyond a stop line, before 
 constexpr float kPassedM = 0.5F;          // a stopping place this far behind us is passed
 constexpr float kOnPlanM = 0.01F;         // from where we start exactly on it
 
-constexpr float kHorizonS = static_cast<float>(kHorizonSteps) * kStepS;
 constexpr float kMaxLeadS = 0.5F;  // plan start after the scene's time
 
 /// One path with all that its candidates share.

@@ -21,7 +21,6 @@ constexpr int kWidenedSamples = 8;       // each way around what is too tight
 constexpr float kSwingOut = 0.5F;        // of what a pass cuts is given back outside
 constexpr float kBeyondSpacingM = 5.0F;  // of samples for bends beyond the line: a junction's are 6 m long
 constexpr int kBeyondSamples = 32;
-constexpr float kHorizonS = static_cast<float>(kHorizonSteps) * kStepS;
 
 // Work (WorkMeter's units), beside scene::kSeekWork.
 constexpr int kLineWork = 400;

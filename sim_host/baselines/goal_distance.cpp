@@ -10,7 +10,6 @@
 namespace s4tp::baselines {
 namespace {
 
-constexpr float kHorizonS = kHorizonSteps * kStepS;
 constexpr float kReachM = 15.0F;  // of a projection onto the path, from where a motion should be
 
 /// Where a motion along an ego path is at one of its points.

@@ -213,6 +213,7 @@ def draw_motorway(rng: random.Random, folder: pathlib.Path, _sharpest_deg: float
 
 
 DRAW = {"random": draw_town, "motorway": draw_motorway}
+TOOL = {"random": "netgenerate", "motorway": "netconvert"}
 MOST_TRIES = 100
 
 
@@ -225,6 +226,9 @@ def main() -> int:
     parser.add_argument("--mix", action="store_true", help="lorries, buses, motorcycles, too")
     parser.add_argument("out", type=pathlib.Path)
     args = parser.parse_args()
+    if shutil.which(TOOL[args.kind]) is None:
+        print(f"other_networks: there is no {TOOL[args.kind]} here; it comes with Debian's package sumo", file=sys.stderr)
+        return 2
     for number in range(args.first, args.first + args.count):
         folder = args.out / f"{args.kind}_{number:05d}"
         for attempt in range(MOST_TRIES):

@@ -152,7 +152,8 @@ int run_eval(EvalOptions& options) {
               << file.string() << ". The same command goes on.\n";
     return kInterrupted;
   }
-  if (rows.empty()) throw std::runtime_error("no episode could be driven: " + not_driven.front());
+  if (rows.empty() && !not_driven.empty())
+    throw std::runtime_error("no episode could be driven: " + not_driven.front());
   if (shard.count == 1) {
     report(header, rows, options.json.empty() ? out / "results.json" : options.json);
   } else {

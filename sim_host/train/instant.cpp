@@ -15,7 +15,6 @@ constexpr double kSame_m = 3.0;  // from a track to the car it is
 constexpr double kGoesWithin_s = 4.0;
 constexpr double kStands_mps = 0.5;
 constexpr float kOnPathM = 2.0F;
-constexpr float kHorizonS = static_cast<float>(kHorizonSteps) * kStepS;
 
 Pose odometry(const traffic::CarState& car, map::Vec2 origin) {
   return {static_cast<float>(car.centre.x - origin.x), static_cast<float>(car.centre.y - origin.y),

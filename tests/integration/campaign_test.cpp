@@ -232,6 +232,13 @@ TEST(Campaign, RoadsByFamily) {
   EXPECT_EQ(eval(with((folder / "nothing").string(), "no"), folder / "said"), 2);
 }
 
+// More parts than episodes: the last one has none, and is done.
+TEST(Campaign, APartMayBeEmpty) {
+  const fs::path folder = scratch();
+  ASSERT_EQ(eval(campaign(folder / "out", {"--shard", "999/999"}), folder / "said"), 0);
+  EXPECT_NE(content(folder / "said").find("part 999/999: 0 episodes"), std::string::npos);
+}
+
 // Wrong use is code 2, with what is accepted.
 TEST(Campaign, WrongUse) {
   const fs::path folder = scratch();

@@ -162,66 +162,61 @@ TEST(Scoring, AStandInABendIsWorthNoMoreThanElsewhere) {
   }
 }
 
+/// A straight road of 250 m whose limit changes at `at_m`.
+struct TwoLimits {
+  LaneMap map;
+  scene::LanePath path;
+  Parameters parameters;
+
+  TwoLimits(float at_m, float first_mps, float second_mps) {
+    const LaneIndex first = add_lane(map, {{0.0F, 0.0F}, {at_m, 0.0F}});
+    const LaneIndex second = add_lane(map, {{at_m, 0.0F}, {250.0F, 0.0F}});
+    link(map, first, second);
+    map.lanes[first].speed_limit_mps = first_mps;
+    map.lanes[second].speed_limit_mps = second_mps;
+    path = path_of(map, {first, second});
+  }
+  /// Of a motion from `start_s_m` on, the ego at its first point.
+  [[nodiscard]] CostBreakdown cost(float start_s_m, const Trajectory& trajectory) const {
+    scene::Scene scene;
+    (void)add_ego_path(scene, map, path);
+    put_ego(scene, trajectory.points[0]);
+    LaneCostToGo cost_to_go;
+    cost_to_go.look(scene, {}, 0.0F, parameters);
+    int work = 0;
+    return score_motion(scene, cost_to_go, 0, line_of(map, path), start_s_m, trajectory, false, false,
+                        parameters, work);
+  }
+};
+
 // A lane of 5 m/s ends 4 m ahead, and one of 20 m/s begins. Standing before it: 4 m take 2 s at 2 m/s^2, 6 m less than at
 // 5 m/s, and from 4 m/s on 16^2 / 4 = 64 m are lost. Driven into it at 5 m/s, as soon as it begins: 15^2 / 4 = 56.25 m. Drives stood for ever
 // at the end of slow bends, as in the slow lane there was nothing to lose.
 TEST(Scoring, WhoStandsBeforeAFasterLaneLosesWhatItsSpeedCosts) {
-  LaneMap map;
-  const LaneIndex slow = add_lane(map, {{0.0F, 0.0F}, {50.0F, 0.0F}});
-  const LaneIndex fast = add_lane(map, {{50.0F, 0.0F}, {250.0F, 0.0F}});
-  link(map, slow, fast);
-  map.lanes[slow].speed_limit_mps = 5.0F;
-  map.lanes[fast].speed_limit_mps = 20.0F;
-  Parameters parameters;
+  const TwoLimits road(50.0F, 5.0F, 20.0F);
   const auto lost_m = [&](float s_m, float speed_mps) {
-    scene::Scene scene;
-    (void)add_ego_path(scene, map, path_of(map, {slow, fast}));
-    put_ego(scene, state_on(map, scene.ego_paths[0].path, s_m, speed_mps));
-    LaneCostToGo cost_to_go;
-    cost_to_go.look(scene, {}, 0.0F, parameters);
     Trajectory trajectory;
-    for (TrajectoryPoint& point : trajectory.points)
-      point = state_on(map, scene.ego_paths[0].path, s_m, 0.0F);
+    for (TrajectoryPoint& point : trajectory.points) point = state_on(road.map, road.path, s_m, 0.0F);
     trajectory.points[kHorizonSteps].speed_mps = speed_mps;
-    int work = 0;
-    const float end_m = 0.5F * kStepS * speed_mps;
-    return end_m + score_motion(scene, cost_to_go, 0, line_of(map, scene.ego_paths[0].path), s_m - end_m,
-                                trajectory, false, false, parameters, work)
-                       .progress;
+    const float last_step_m = 0.5F * kStepS * speed_mps;
+    return last_step_m + road.cost(s_m - last_step_m, trajectory).progress;
   };
   EXPECT_NEAR(lost_m(46.0F, 0.0F), 6.0F + 64.0F, 0.5F);
   EXPECT_NEAR(lost_m(50.1F, 5.0F), 56.25F, 0.5F);
 }
 
-// A lane of 5 m/s begins 30 m ahead: 20 m/s there and 13 m/s (sqrt(25 + 4 * 36)) where one is 6 m on, to brake with 2 m/s^2. At
-// 18 m/s each sample is charged four times what it is too fast by, and its square; at 5 m/s and less nobody is. Plans made before the limit was known went on
-// gaining speed towards it.
+// A lane of 5 m/s begins 30 m ahead of a road of 20 m/s, and 2 m/s^2 brake for it: sqrt(25 + 4 * left) may be driven. At 18 m/s each
+// sample is charged four times what it is too fast by, and its square: at 9, 18 and 27 m, where 10.4, 8.5 and 6.1 m/s may be driven, then
+// 5, that is 3 s * (4 * 68 + 797) / 6. At 5 m/s nothing is too fast. Plans made before the limit was known went on gaining speed towards it.
 TEST(Scoring, TooFastForALimitAheadCosts) {
-  LaneMap map;
-  const LaneIndex fast = add_lane(map, {{0.0F, 0.0F}, {70.0F, 0.0F}});
-  const LaneIndex slow = add_lane(map, {{70.0F, 0.0F}, {250.0F, 0.0F}});
-  link(map, fast, slow);
-  map.lanes[fast].speed_limit_mps = 20.0F;
-  map.lanes[slow].speed_limit_mps = 5.0F;
-  Parameters parameters;
+  const TwoLimits road(70.0F, 20.0F, 5.0F);
   const auto speed_cost = [&](float speed_mps) {
-    scene::Scene scene;
-    (void)add_ego_path(scene, map, path_of(map, {fast, slow}));
-    put_ego(scene, state_on(map, scene.ego_paths[0].path, 40.0F, speed_mps));
-    LaneCostToGo cost_to_go;
-    cost_to_go.look(scene, {}, 0.0F, parameters);
     Trajectory trajectory;
-    for (int i = 0; i < kTrajectoryPoints; ++i) {
-      const float s_m = 40.0F + kStepS * static_cast<float>(i) * speed_mps;
-      trajectory.points[i] = state_on(map, scene.ego_paths[0].path, s_m, speed_mps);
-    }
-    int work = 0;
-    return score_motion(scene, cost_to_go, 0, line_of(map, scene.ego_paths[0].path), 40.0F, trajectory, false,
-                        false, parameters, work)
-               .speed /
-           parameters.scoring.speed;
+    for (int i = 0; i < kTrajectoryPoints; ++i)
+      trajectory.points[i] =
+          state_on(road.map, road.path, 40.0F + kStepS * static_cast<float>(i) * speed_mps, speed_mps);
+    return road.cost(40.0F, trajectory).speed / road.parameters.scoring.speed;
   };
-  // At 9, 18 and 27 m: sqrt(25 + 4 * 21) = 10.4, 8.5 and 6.1 m/s, then 5: 3 s * (4 * 68 + 797) / 6.
   EXPECT_NEAR(speed_cost(18.0F), 535.0F, 25.0F);
   EXPECT_LT(speed_cost(5.0F), 20.0F);
 }
