@@ -33,7 +33,8 @@ float changes_from_s_m(const scene::EgoPath& path, float end_s_m) {
 /// What whoever is in the lane of `path` at the horizon's end with no room left for the changes it needs pays, as one
 /// does who changes late: else it stood for ever where a change would be. In the lane we are in we may have to wait for
 /// one, and then change from rest; on the way to another one, or to where there is one, what comes next is one or the other.
-float no_room_cost(const scene::Scene& scene, int path_index, float end_s_m, float end_mps,
+/// \param unmade  share of the change into that lane that comes first
+float no_room_cost(const scene::Scene& scene, int path_index, float end_s_m, float end_mps, float unmade,
                    const Parameters& parameters) {
   const scene::EgoPath& path = scene.ego_paths[path_index];
   const float from_s_m = changes_from_s_m(path, end_s_m);
@@ -44,7 +45,7 @@ float no_room_cost(const scene::Scene& scene, int path_index, float end_s_m, flo
   float count = 0.0F;
   for (const float by_s_m : path.change_by_s_m) {
     count = count + 1.0F;
-    const float changes_m = scene::kChangeWayM * count;
+    const float changes_m = scene::kChangeWayM * (count + unmade);
     const float needed_m = waits ? changes_m + stop_m : max(changes_m, stop_m);
     cost = max(cost, late_cost(max(0.0F, needed_m - (by_s_m - front_s_m)), count, parameters));
   }
@@ -71,7 +72,7 @@ float driving_on_cost(const scene::Scene& scene, const LaneCostToGo& cost_to_go,
 float lane_cost(const scene::Scene& scene, const LaneCostToGo& cost_to_go, int path, float s_m,
                 float speed_mps, const Parameters& parameters) {
   return driving_on_cost(scene, cost_to_go, path, s_m, speed_mps, parameters) +
-         no_room_cost(scene, path, s_m, speed_mps, parameters);
+         no_room_cost(scene, path, s_m, speed_mps, 0.0F, parameters);
 }
 
 /// The lane beside that we had rather be in, or -1. \param gain  receives what it saves, 0: nothing
@@ -106,11 +107,12 @@ float gap_cost(const scene::Scene& scene, const LaneCostToGo& cost_to_go, int pa
 float lane_cost_between(const scene::Scene& scene, const LaneCostToGo& cost_to_go, int path, float s_m,
                         float beside_m, float width_m, float speed_mps, const Parameters& parameters) {
   const float there = driving_on_cost(scene, cost_to_go, path, s_m, speed_mps, parameters);
-  const float cost = there + no_room_cost(scene, path, s_m, speed_mps, parameters);
-  const float unmade = clamp((beside_m / width_m - kInLaneShare) / (1.0F - kInLaneShare), 0.0F, 1.0F);
-  if (path == 0 || unmade <= 0.0F) return cost;
+  const float unmade = path == 0 ? 0.0F : min(beside_m / width_m, 1.0F);
+  const float cost = there + no_room_cost(scene, path, s_m, speed_mps, unmade, parameters);
+  const float in_ours = (unmade - kInLaneShare) / (1.0F - kInLaneShare);
+  if (in_ours <= 0.0F) return cost;
   const float own_s_m = s_m + scene.ego_paths[0].frenet.s_m - scene.ego_paths[path].frenet.s_m;
-  return cost + unmade * (driving_on_cost(scene, cost_to_go, 0, own_s_m, speed_mps, parameters) - there);
+  return cost + in_ours * (driving_on_cost(scene, cost_to_go, 0, own_s_m, speed_mps, parameters) - there);
 }
 
 /// The last place at which a lane change that is due may still be between the lanes: where ours ends. Followed

@@ -109,6 +109,19 @@ TEST(Scoring, OneChangeAfterTheOtherNeedsNoStandBetween) {
   EXPECT_LT(road.lane_cost(1, 3.2F), 0.1F * kMissed);
 }
 
+// Half way over at 55 m, 1.6 m of 3.2 are left: another 7.5 m, before the 15 m of the second change: with 20 m that is 2.5 m late, 2.5 / 15
+// of a missed route and 4 a metre, and with 23 m in time. Drives stood between two lanes for ever: a stand there paid nothing for
+// what driving on could not make up for.
+TEST(Scoring, WhatIsLeftOfAChangeComesBeforeTheNextOne) {
+  const auto cost = [](float room_m) {
+    Road road(150.0F);
+    need_changes(road.scene.ego_paths[1], 1, 55.0F + 4.0F + room_m);
+    return road.lane_cost(1, 1.6F);
+  };
+  EXPECT_NEAR(cost(20.0F) - cost(23.0F), 2.5F * (kMissed / 15.0F + 4.0F), 15.0F);
+  EXPECT_NEAR(cost(23.0F), cost(24.0F), 3.0F);
+}
+
 // Two changes are due, the first by 85 m and the second by 115: at 55 m our front has 26 m to the first place, and 56 to the second. The
 // first takes 15 m from a stand 5 m on, both take 35: in time. With both due by 85 m it lacks 9 m: 9 / 15 of a missed route and 4 a
 // metre are 324, and the second change that presses is 6 + 6 * 120 / 40 = 24 more.
