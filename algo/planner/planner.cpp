@@ -11,7 +11,7 @@
 #include "algo/satp/shipped_weights.hpp"
 #include "algo/trajectory/along_path.hpp"
 #include "algo/trajectory/bicycle.hpp"
-#include "algo/trajectory/lateral_offset.hpp"
+#include "algo/trajectory/driven_lines.hpp"
 
 namespace s4tp::planner {
 namespace {
@@ -91,20 +91,24 @@ Status PlanningCycle::plan(const PlannerInput& input, Plan& plan, Explanation& e
                                     parameters_, scene_);
       believe(scene_);
       const int drivable_work = sadrf::build_drivable(input.map, drivable_);
-      const int lateral_offset_work = trajectory::set_lateral_offsets(parameters_, scene_);
       explanation.id_clashes = scene_.id_clashes;
       explanation.tracks_left_out = scene_.known.left_out;
       explanation.lanes_left_out = input.map != nullptr ? input.map->lanes_left_out : std::uint8_t{0};
       count(explanation, Stage::kScene, scene_.agents.size());
-      work_.spend(Stage::kScene, scene_.work + drivable_work + lateral_offset_work);
+      work_.spend(Stage::kScene, scene_.work + drivable_work);
     }
     start_ = trajectory::plan_start(input.ego, input.now_ms, running_, start_ms_, parameters_);
+    const float lead_s = 0.001F * static_cast<float>(start_ms_ - scene_.time_ms);
+    {
+      const StageScope scope(probe, Stage::kCandidates);
+      line_work_ = trajectory::build_lines(start_, lead_s, parameters_, scene_, lines_);
+      work_.spend(Stage::kCandidates, line_work_);
+    }
     reserved_ = {};
     reserved_.goes_on = static_cast<std::int8_t>(behavior::leads_to(running_.manoeuvre, scene_));
     if (status == Status::kOk) {
       const StageScope scope(probe, Stage::kCheck);
-      const int look_work =
-          guard_.look(scene_, start_, 0.001F * static_cast<float>(start_ms_ - scene_.time_ms), parameters_);
+      const int look_work = guard_.look(scene_, start_, lead_s, parameters_);
       // What comes last is paid for first.
       work_.spend(Stage::kCheck, look_work + judge_work() + guard_.commit_work() + behavior::kAdvanceWork);
       work_.spend(Stage::kExplain, work::kExplain);

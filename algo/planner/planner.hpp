@@ -167,6 +167,7 @@ class PlanningCycle {
   satp::PredictionSet marginal_;
   satp::KinematicSet constant_velocity_;
   trajectory::ReferenceLines lines_;
+  std::int32_t line_work_ = 0;  ///< that they took
   trajectory::CandidateList candidates_;
   trajectory::Leader leaders_[decltype(scene::Scene::ego_paths)::kCapacity];  ///< along each path
   CostBreakdown costs_[kMaxCandidates];

@@ -97,11 +97,13 @@ ZoneOccupancy zone_occupancy(const scene::Scene& scene, const scene::Agent& agen
   if (result.to_entry_m <= 0.0F) {
     // Where it stands it is an obstacle like any other, and may go on, until all have stood so long that any one may. Where lanes
     // merge its way on is ours.
-    if (!zone.merging && stands_in_sight(scene, agent, kStandOffS)) result.claim = Claim::kStands;
+    if (!zone.merging && !zone.beside && stands_in_sight(scene, agent, kStandOffS))
+      result.claim = Claim::kStands;
     result.from_s = -lead_s;
     return result;
   }
   result.from_s = occupancy::time_to_cover_s(fastest, entry_m) - unseen_s - lead_s;
+  if (zone.beside) return result;
   // A bend is driven no faster than grip lets it; braking for it is not counted on.
   const float grip_mps = grip_speed_mps(scene.map->lanes[zone.other_lane]);
   if (grip_mps < fastest.top_mps) {

@@ -72,10 +72,13 @@ bool matters_more(const ConflictZone& a, const ConflictZone& b) {
   return a.entry_s_m < b.entry_s_m;
 }
 
-void add_zone(EgoPath& ego_path, const ConflictZone& zone) {
+}  // namespace
+
+void add_zone(const ConflictZone& zone, EgoPath& ego_path) {
   // The end of a lane and the lane after it meet the same other lane in one stretch: one zone.
   for (ConflictZone& known : ego_path.zones) {
     if (known.other_lane != zone.other_lane || known.priority != zone.priority) continue;
+    if (known.beside != zone.beside) continue;
     if (zone.entry_s_m > known.exit_s_m + 1.0F || known.entry_s_m > zone.exit_s_m + 1.0F) continue;
     known.entry_s_m = min(known.entry_s_m, zone.entry_s_m);
     known.exit_s_m = max(known.exit_s_m, zone.exit_s_m);
@@ -91,6 +94,13 @@ void add_zone(EgoPath& ego_path, const ConflictZone& zone) {
   }
   if (matters_more(zone, ego_path.zones[least])) ego_path.zones[least] = zone;
 }
+
+void sort_zones(EgoPath& ego_path) {
+  sort(ego_path.zones,
+       [](const ConflictZone& a, const ConflictZone& b) { return a.entry_s_m < b.entry_s_m; });
+}
+
+namespace {
 
 void find_zones(const LaneTable& table, const Parameters& parameters, EgoPath& ego_path) {
   std::int8_t place[kMaxLanes];  // of each lane along the path, or -1
@@ -125,10 +135,9 @@ void find_zones(const LaneTable& table, const Parameters& parameters, EgoPath& e
     const float line_s_m = stop_line(table, path, index, zone.entry_s_m);
     const bool passed = centre_s_m + half_length_m > line_s_m + kPassedLineM;
     zone.stop_s_m = passed ? edge_s_m : min(edge_s_m, line_s_m - kShortOfLineM);
-    add_zone(ego_path, zone);
+    add_zone(zone, ego_path);
   }
-  sort(ego_path.zones,
-       [](const ConflictZone& a, const ConflictZone& b) { return a.entry_s_m < b.entry_s_m; });
+  sort_zones(ego_path);
 }
 
 LaneIndex lane_beside(const LaneTable& table, LaneIndex index, bool left) {

@@ -12,4 +12,9 @@ namespace s4tp::scene {
 /// is made before a junction begins. \pre table.valid(lane)
 void build_ego_paths(const LaneTable& table, LaneIndex lane, const Parameters& parameters, Scene& scene);
 
+/// Adds a zone, to one it continues where there is one; with no room left, in place of one that matters less. They stay in
+/// order only once sorted.
+void add_zone(const ConflictZone& zone, EgoPath& ego_path);
+void sort_zones(EgoPath& ego_path);
+
 }  // namespace s4tp::scene

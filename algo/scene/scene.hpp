@@ -8,6 +8,10 @@
 #include "algo/core/world_state.hpp"
 #include "algo/scene/lane_path.hpp"
 
+namespace s4tp::trajectory {
+struct ReferenceLine;
+}
+
 namespace s4tp::scene {
 
 /// The past of one vehicle on the dt grid, oldest first; `valid` is the mask (never x == 0).
@@ -50,6 +54,7 @@ struct ConflictZone {
   float other_exit_m = 0.0F;
   Priority priority = Priority::kFirstCome;  ///< seen from us: kFirstYields = we yield
   bool merging = false;  ///< both ways go on in one lane: the other comes after us, not across
+  bool beside = false;   ///< in a lane beside our way: nobody there expects us
 };
 
 inline constexpr int kMaxChanges = 4;  ///< more that are needed are known when the first ones are made
@@ -66,8 +71,10 @@ struct EgoPath {
   Manoeuvre manoeuvre = Manoeuvre::kKeep;
   std::int8_t changes_needed = 0;  ///< on the last lane along it that leads on, to the route's
   LanePath path;
-  Frenet frenet;                  ///< of our rear axle
-  float lateral_offset_m = 0.0F;  ///< left of the centre line it is driven, past who stand
+  Frenet frenet;  ///< of our rear axle
+  /// What of it is driven, once that is known (trajectory/reference_line.hpp): the centre line but where that is too narrow.
+  const trajectory::ReferenceLine* driven = nullptr;
+  float lateral_offset_m = 0.0F;  ///< left of that it is driven, past who stand
   float route_end_s_m = 0.0F;     ///< where a lane change must be finished, or the path's end
   /// By when each of the `changes_needed` is to be made, in their order; the first one by route_end_s_m.
   BoundedVector<float, kMaxChanges> change_by_s_m;

@@ -2,6 +2,7 @@
 
 #include "algo/core/inline.hpp"
 #include "algo/trajectory/bicycle.hpp"
+#include "algo/trajectory/reference_line.hpp"
 
 namespace s4tp::trajectory {
 namespace {
@@ -58,9 +59,9 @@ bool sweeps(const scene::Scene& scene, const scene::EgoPath& path, const scene::
     const float s_m = from_s_m + static_cast<float>(i) * kSweepM;
     if (s_m > to_s_m) break;
     seen.work += kSweepWork;
-    const Pose centre_line = cursor.at(s_m).pose;
-    const Point there = offset_point(centre_line, 0.0F, path.lateral_offset_m);
-    const Box ours = ego_box({there.x_m, there.y_m, centre_line.heading_rad}, parameters);
+    const Pose line = path.driven != nullptr ? reference_at(*path.driven, s_m).pose : cursor.at(s_m).pose;
+    const Point there = offset_point(line, 0.0F, path.lateral_offset_m);
+    const Box ours = ego_box({there.x_m, there.y_m, line.heading_rad}, parameters);
     touches = separation(ours, other) < kStripM;
   }
   seen.work += scene::kSeekWork * cursor.seeks();

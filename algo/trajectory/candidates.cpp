@@ -103,19 +103,14 @@ void find_stops(const scene::Scene& scene, const scene::EgoPath& path, const Par
 }
 
 void prepare(const scene::Scene& scene, const scene::EgoPath& path, const TrajectoryPoint& start,
-             float lead_s, const Parameters& parameters, ReferenceLine& line, Course& course,
+             float lead_s, const Parameters& parameters, const ReferenceLine& line, Course& course,
              WorkMeter& meter) {
   const float guess_s_m = path.frenet.s_m + lead_s * scene.ego.speed_mps;
-  int work = kPrepareWork;
-  const scene::Frenet frenet =
-      scene::project(*scene.map, path.path, position(start.rear_axle), guess_s_m, 10.0F, work);
-  work += build_reference(*scene.map, path.path, frenet.s_m, start.speed_mps, parameters, line);
-  line.lateral_offset_m = path.lateral_offset_m;
-  course.where = locate_on(line, position(start.rear_axle), frenet.s_m);
+  course.where = locate_on(line, position(start.rear_axle), guess_s_m);
   course.leader = find_leader(scene, path, path.frenet.s_m, parameters);
   course.leader_touch_s_m = path.frenet.s_m + course.leader.gap_m;
   find_stops(scene, path, parameters, course);
-  meter.spend(work + course.leader.work);
+  meter.spend(kPrepareWork + course.leader.work);
 }
 
 /// Whether the running plan goes on from exactly here. Where it leads, its manoeuvre says.
@@ -222,7 +217,7 @@ class NobodyLooks final : public CandidateVisitor {
 
 void generate_candidates(const scene::Scene& scene, const TrajectoryPoint& start, const Plan& running,
                          std::uint32_t start_ms, const Parameters& parameters, int most,
-                         ReferenceLines& lines, CandidateList& candidates, int& left_out,
+                         const ReferenceLines& lines, CandidateList& candidates, int& left_out,
                          const MergeTarget& aim) {
   Trajectory trajectory;
   NobodyLooks nobody(trajectory);
@@ -232,7 +227,7 @@ void generate_candidates(const scene::Scene& scene, const TrajectoryPoint& start
 
 void generate_candidates(const scene::Scene& scene, const TrajectoryPoint& start, const Plan& running,
                          std::uint32_t start_ms, const Parameters& parameters, int most,
-                         ReferenceLines& lines, CandidateList& candidates, int& left_out,
+                         const ReferenceLines& lines, CandidateList& candidates, int& left_out,
                          CandidateVisitor& visitor, const MergeTarget& aim) {
   candidates.clear();
   left_out = 0;

@@ -57,7 +57,6 @@ enum class Rejection : std::uint8_t {
 using CandidateList = BoundedVector<Candidate, kMaxCandidates>;
 
 /// One line for each of Scene::ego_paths, in their order.
-using ReferenceLines = ReferenceLine[decltype(scene::Scene::ego_paths)::kCapacity];
 
 /// Whether `time_ms` lies within the plan's validity. False for a plan of kind none.
 [[nodiscard]] bool plan_covers(const Plan& plan, std::uint32_t time_ms);
@@ -95,17 +94,17 @@ inline constexpr int kSteeredWork = 430;  ///< ... of a steered one
 /// intent) first, then progress; two that move alike count once. The keep path's hard braking and stops are
 /// always among those tried first, while `visitor.meter` lasts. To go on with the running plan's manoeuvre, and to stay in our
 /// own lane, come before all else.
-/// \param lines  receives what the candidates are rolled out on \param
-/// left_out  receives how many feasible ones did not fit, and how many `most` left untried \param aim  adds
+/// \param lines  of the scene's paths (driven_lines.hpp), which the candidates are rolled out on
+/// \param left_out  receives how many feasible ones did not fit, and how many `most` left untried \param aim  adds
 /// a candidate that settles there, and one beside it in our own lane, behind our own leader (CAND-015)
 void generate_candidates(const scene::Scene& scene, const TrajectoryPoint& start, const Plan& running,
                          std::uint32_t start_ms, const Parameters& parameters, int most,
-                         ReferenceLines& lines, CandidateList& candidates, int& left_out,
+                         const ReferenceLines& lines, CandidateList& candidates, int& left_out,
                          CandidateVisitor& visitor, const MergeTarget& aim = {});
 /// The same without a visitor.
 void generate_candidates(const scene::Scene& scene, const TrajectoryPoint& start, const Plan& running,
                          std::uint32_t start_ms, const Parameters& parameters, int most,
-                         ReferenceLines& lines, CandidateList& candidates, int& left_out,
+                         const ReferenceLines& lines, CandidateList& candidates, int& left_out,
                          const MergeTarget& aim = {});
 
 /// Rolls a candidate out on the line of its path. points[0] is `start` itself; speeds >= 0; each point lies

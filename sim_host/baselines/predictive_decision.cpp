@@ -13,6 +13,7 @@
 #include "algo/trajectory/along_path.hpp"
 #include "algo/trajectory/bicycle.hpp"
 #include "algo/trajectory/candidates.hpp"
+#include "algo/trajectory/driven_lines.hpp"
 #include "sim_host/baselines/goal_distance.hpp"
 #include "sim_host/baselines/planner_registry.hpp"
 #include "sim_host/metrics/time_to_collision.hpp"
@@ -153,7 +154,9 @@ Status PredictiveDecision::plan(const planner::PlannerInput& input, Plan& plan,
     predictor_.decode(nullptr, satp::kMaxPredictionWork, marginal_);
     if (weights_.present()) trust_.remember(scene_, marginal_, input.start_ms);
     predictor_.constant_velocity(constant_velocity_);
-    guard_.look(scene_, start, 1e-3F * static_cast<float>(input.start_ms - scene_.time_ms), parameters_);
+    const float lead_s = 1e-3F * static_cast<float>(input.start_ms - scene_.time_ms);
+    (void)trajectory::build_lines(start, lead_s, parameters_, scene_, lines_);
+    guard_.look(scene_, start, lead_s, parameters_);
     int left_out = 0;
     trajectory::generate_candidates(scene_, start, running, input.start_ms, parameters_, kMaxCandidates,
                                     lines_, candidates_, left_out);

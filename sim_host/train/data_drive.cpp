@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "algo/trajectory/candidates.hpp"
+#include "algo/trajectory/driven_lines.hpp"
 #include "firmware/ecu/map_conversion.hpp"
 #include "firmware/wire/codec.hpp"
 #include "sim_host/campaign/driver.hpp"
@@ -33,12 +34,13 @@ traffic::Snapshot snapshot_of(const world::Branch& branch) {
 }
 
 /// One of the planner's own candidates from here; false: it has none.
-bool draw_candidate(const scene::Scene& scene, const Parameters& parameters, traffic::Random& random,
+bool draw_candidate(scene::Scene scene, const Parameters& parameters, traffic::Random& random,
                     BranchPlan& plan) {
   plan.start_ms = scene.time_ms + kLeadMs;
   const TrajectoryPoint start =
       trajectory::plan_start(scene.ego, scene.time_ms, {}, plan.start_ms, parameters);
   trajectory::ReferenceLines lines;
+  (void)trajectory::build_lines(start, 1e-3F * static_cast<float>(kLeadMs), parameters, scene, lines);
   trajectory::CandidateList candidates;
   int left_out = 0;
   trajectory::generate_candidates(scene, start, {}, plan.start_ms, parameters, kMaxCandidates, lines,

@@ -8,6 +8,7 @@
 #include "algo/safety/fail_safe.hpp"
 #include "algo/trajectory/bicycle.hpp"
 #include "algo/trajectory/candidates.hpp"
+#include "tests/support/driven_lines.hpp"
 #include "tests/support/driving_scenes.hpp"
 
 namespace s4tp::safety {
@@ -77,6 +78,7 @@ TEST(MotionProperty, CandidatesAreMotions) {
     const World world;
     const Parameters parameters;
     trajectory::ReferenceLines lines;
+    test::build_lines_of(world.scene, world.start, Parameters{}, lines);
     trajectory::CandidateList list;
     int left_out = 0;
     trajectory::generate_candidates(world.scene, world.start, Plan{}, kNow, parameters, kMaxCandidates, lines,
@@ -112,6 +114,7 @@ TEST(MotionProperty, OrdinaryStatesHaveCandidates) {
         scene::path_point(world.map, world.scene.ego_paths[0].path, world.scene.ego_paths[0].frenet.s_m)
             .curvature_1pm;
     trajectory::ReferenceLines lines;
+    test::build_lines_of(world.scene, world.start, Parameters{}, lines);
     trajectory::CandidateList list;
     int left_out = 0;
     trajectory::generate_candidates(world.scene, world.start, Plan{}, kNow, Parameters{}, kMaxCandidates,
@@ -149,6 +152,7 @@ TEST(MotionProperty, StopsRestBeforeTheirPlace) {
     for (int i = 0; i < 400; ++i) {
       put_ego(scene, state);
       trajectory::ReferenceLines lines;
+      test::build_lines_of(scene, state, Parameters{}, lines);
       trajectory::CandidateList list;
       int left_out = 0;
       trajectory::generate_candidates(scene, state, Plan{}, kNow, Parameters{}, kMaxCandidates, lines, list,

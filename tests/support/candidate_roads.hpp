@@ -2,6 +2,7 @@
 /// Roads for candidates, and short words for making and rolling them out.
 
 #include "algo/trajectory/candidates.hpp"
+#include "tests/support/driven_lines.hpp"
 #include "tests/support/driving_scenes.hpp"
 
 namespace s4tp::trajectory {
@@ -43,6 +44,7 @@ struct Roads {
 inline CandidateList generate(const scene::Scene& scene, const TrajectoryPoint& start,
                               const Plan& running = {}, int* left_out = nullptr) {
   ReferenceLines lines;
+  build_lines_of(scene, start, Parameters{}, lines);
   CandidateList list;
   int missing = 0;
   generate_candidates(scene, start, running, kNow, Parameters{}, kMaxCandidates, lines, list, missing);

@@ -10,6 +10,7 @@
 #include "algo/core/math.hpp"
 #include "algo/trajectory/bicycle.hpp"
 #include "tests/support/candidate_roads.hpp"
+#include "tests/support/driven_lines.hpp"
 #include "tests/support/driving_scenes.hpp"
 
 namespace s4tp::trajectory {
@@ -244,6 +245,7 @@ TEST(Candidates, SettlesBesideAGap) {
       if (leader) add_vehicle(scene, map, scene.ego_paths[0].path, leader_s_m, 6.0F);
       put_ego(scene, state);
       ReferenceLines lines;
+      build_lines_of(scene, state, Parameters{}, lines);
       CandidateList list;
       int left_out = 0;
       generate_candidates(scene, state, Plan{}, kNow, Parameters{}, kMaxCandidates, lines, list, left_out,
@@ -290,6 +292,7 @@ TEST(Candidates, RollOutsAreCounted) {
     Onlooker onlooker(trajectory);
     onlooker.roll_outs = i == 0 ? 0 : kMaxRollOuts - 12;
     ReferenceLines lines;
+    build_lines_of(roads.scene, roads.start, Parameters{}, lines);
     CandidateList list;
     generate_candidates(roads.scene, roads.start, Plan{}, kNow, Parameters{}, kMaxCandidates, lines, list,
                         missing[i], onlooker);

@@ -1,9 +1,8 @@
-#include "algo/trajectory/lateral_offset.hpp"
-
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
 #include "algo/trajectory/along_path.hpp"
+#include "algo/trajectory/driven_lines.hpp"
 #include "tests/support/shared_ground.hpp"
 
 namespace s4tp::trajectory {
@@ -19,9 +18,11 @@ struct Bystander : SharedGround {
     other(100.0F + front_m - 2.5F, 0.0F);
   }
   float lateral_offset_m() {
-    (void)set_lateral_offsets(parameters, scene);
+    const TrajectoryPoint start = test::state_on(map, ours, scene.ego_paths[0].frenet.s_m, 5.0F);
+    (void)build_lines(start, 0.0F, parameters, scene, lines);
     return scene.ego_paths[0].lateral_offset_m;
   }
+  ReferenceLines lines;
 };
 
 // CAND-018 Our side is 0.9 m from the centre line. With its front 1.2 m to the right of it one leaves 0.3 m:

@@ -175,6 +175,21 @@ TEST(LegalOccupancy, WhoStandsInTheZoneIsAnObstacle) {
   }
 }
 
+// LEGAL-006 Beside our way nobody expects us: not who stands there in sight, nor who stands before it, nor who could stop.
+TEST(LegalOccupancy, WhoIsBesideOurWayLeavesNothingToUs) {
+  for (const float to_entry_m : {-1.0F, 5.0F, 60.0F}) {
+    for (const Priority priority : {Priority::kFirstYields, Priority::kFirstHasPriority}) {
+      Approach approach(priority, to_entry_m, to_entry_m > 50.0F ? 5.0F : 0.0F);
+      approach.agent().stood_ms = 60'000;
+      approach.scene.waited_s = 60.0F;
+      EXPECT_NE(approach.claim(), Claim::kMayCome);
+      approach.zone().beside = true;
+      EXPECT_EQ(approach.claim(), Claim::kMayCome);
+      EXPECT_FALSE(approach.when().can_stop);
+    }
+  }
+}
+
 // LEGAL-004 So does one that owes us the way; but who drives up to it may see it move on and clear the zone.
 TEST(LegalOccupancy, WhoOwesUsTheWayAndStandsInTheZoneIsAnObstacle) {
   Approach approach(Priority::kFirstHasPriority, -1.0F, 0.0F);
