@@ -7,10 +7,7 @@
 #include "algo/core/parameters.hpp"
 #include "algo/core/world_state.hpp"
 #include "algo/scene/lane_path.hpp"
-
-namespace s4tp::trajectory {
-struct ReferenceLine;
-}
+#include "algo/scene/reference_line.hpp"
 
 namespace s4tp::scene {
 
@@ -71,11 +68,10 @@ struct EgoPath {
   Manoeuvre manoeuvre = Manoeuvre::kKeep;
   std::int8_t changes_needed = 0;  ///< on the last lane along it that leads on, to the route's
   LanePath path;
-  Frenet frenet;  ///< of our rear axle
-  /// What of it is driven, once that is known (trajectory/reference_line.hpp): the centre line but where that is too narrow.
-  const trajectory::ReferenceLine* driven = nullptr;
-  float lateral_offset_m = 0.0F;  ///< left of that it is driven, past who stand
-  float route_end_s_m = 0.0F;     ///< where a lane change must be finished, or the path's end
+  Frenet frenet;                          ///< of our rear axle
+  const ReferenceLine* driven = nullptr;  ///< line it is driven on, once that is built
+  float lateral_offset_m = 0.0F;          ///< left of that it is driven, past who stand
+  float route_end_s_m = 0.0F;             ///< where a lane change must be finished, or the path's end
   /// By when each of the `changes_needed` is to be made, in their order; the first one by route_end_s_m.
   BoundedVector<float, kMaxChanges> change_by_s_m;
   float change_from_s_m = 0.0F;  ///< where a lane to change to begins

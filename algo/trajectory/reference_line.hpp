@@ -6,7 +6,7 @@
 ///   polyline      ____/\__    kinks at every vertex: no steering could follow
 ///   reference     ____/~~\__  the same, averaged over +-2 samples (a triangle): an arc of radius R moves
 ///                             inwards by 0.67 m^2 / R, 6 cm at 10.7 m, and its curvature sets in over 5 m
-///   too tight     ____|       where a lane bends more than we can steer, the corner is averaged further
+///   too tight     __--|       where a lane bends more than we can steer: out before the corner, in at it, out behind it
 /// \endcode
 
 #include "algo/core/config.hpp"
@@ -16,26 +16,8 @@
 
 namespace s4tp::trajectory {
 
-inline constexpr int kReferenceSamples = 84;
-
-/// Smoothed centre line over kReferenceSamples * spacing_m; beyond both ends it goes on straight.
-struct ReferenceLine {
-  struct Sample {
-    Pose pose;
-    float curvature_1pm = 0.0F;
-    /// Limit, curves and their onset, ahead too: braked for in time. CAND-024 As far ahead as it takes from a
-    /// plan's end on, which may be further than the line is.
-    float speed_cap_mps = 0.0F;
-  };
-  float start_s_m = 0.0F;  ///< arc length of samples[0] along the path
-  float spacing_m = 1.0F;
-  float lateral_offset_m = 0.0F;  ///< left of it motion settles: EgoPath's, past who stand
-  /// Where the lane bends more than we can steer; from > to: nowhere. Our way is wider there than the lane.
-  float tight_from_s_m = 1.0F;
-  float tight_to_s_m = 0.0F;
-  [[nodiscard]] bool is_tight() const { return tight_from_s_m <= tight_to_s_m; }
-  Sample samples[kReferenceSamples];
-};
+using scene::kReferenceSamples;
+using scene::ReferenceLine;
 
 /// Of each of our paths.
 using ReferenceLines = ReferenceLine[decltype(scene::Scene::ego_paths)::kCapacity];
