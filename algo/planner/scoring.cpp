@@ -1,6 +1,7 @@
 #include "algo/planner/scoring.hpp"
 
 #include "algo/core/inline.hpp"
+#include "algo/core/standing.hpp"
 #include "algo/occupancy/pace.hpp"
 #include "algo/trajectory/along_path.hpp"
 #include "algo/trajectory/bicycle.hpp"
@@ -108,7 +109,9 @@ float lane_cost_between(const scene::Scene& scene, const LaneCostToGo& cost_to_g
                         float beside_m, float width_m, float speed_mps, const Parameters& parameters) {
   const float there = driving_on_cost(scene, cost_to_go, path, s_m, speed_mps, parameters);
   const float unmade = path == 0 ? 0.0F : min(beside_m / width_m, 1.0F);
-  const float cost = there + no_room_cost(scene, path, s_m, speed_mps, unmade, parameters);
+  // Whoever moves makes it on the way to the next one.
+  const float first = speed_mps < kStandingMps ? unmade : 0.0F;
+  const float cost = there + no_room_cost(scene, path, s_m, speed_mps, first, parameters);
   const float in_ours = (unmade - kInLaneShare) / (1.0F - kInLaneShare);
   if (in_ours <= 0.0F) return cost;
   const float own_s_m = s_m + scene.ego_paths[0].frenet.s_m - scene.ego_paths[path].frenet.s_m;

@@ -39,6 +39,18 @@ struct Road {
   }
   /// The same of a motion on `path` that comes `over_m` to the left.
   [[nodiscard]] float lane_cost(int path, float over_m) const { return cost(path, over_m).lane; }
+  /// The same of standing there, at 55 m.
+  [[nodiscard]] float standing_cost(int path, float over_m) const {
+    Trajectory trajectory;
+    for (TrajectoryPoint& point : trajectory.points) {
+      point = state_on(map, scene.ego_paths[0].path, 55.0F, 0.0F);
+      point.rear_axle.y_m += over_m;
+    }
+    int work = 0;
+    return score_motion(scene, cost_to_go, path, line_of(map, scene.ego_paths[path].path), 55.0F, trajectory,
+                        false, false, parameters, work)
+        .lane;
+  }
   [[nodiscard]] float progress() const { return cost(0, 0.0F).progress; }
 
  private:
@@ -109,17 +121,19 @@ TEST(Scoring, OneChangeAfterTheOtherNeedsNoStandBetween) {
   EXPECT_LT(road.lane_cost(1, 3.2F), 0.1F * kMissed);
 }
 
-// Half way over at 55 m, 1.6 m of 3.2 are left: another 7.5 m, before the 15 m of the second change: with 20 m that is 2.5 m late, 2.5 / 15
+// At rest half way over, 1.6 m of 3.2 are left: another 7.5 m, before the 15 m of the second change: with 20 m that is 2.5 m late, 2.5 / 15
 // of a missed route and 4 a metre, and with 23 m in time. Drives stood between two lanes for ever: a stand there paid nothing for
-// what driving on could not make up for.
-TEST(Scoring, WhatIsLeftOfAChangeComesBeforeTheNextOne) {
-  const auto cost = [](float room_m) {
-    Road road(150.0F);
-    need_changes(road.scene.ego_paths[1], 1, 55.0F + 4.0F + room_m);
-    return road.lane_cost(1, 1.6F);
+// what driving on could not make up for. Whoever moves makes what is left on the way.
+TEST(Scoring, WhoStandsBetweenTwoLanesHasTheRestOfTheChangeToMake) {
+  const auto road = [](float room_m) {
+    Road made(150.0F);
+    need_changes(made.scene.ego_paths[1], 1, 55.0F + 4.0F + room_m);
+    return made;
   };
-  EXPECT_NEAR(cost(20.0F) - cost(23.0F), 2.5F * (kMissed / 15.0F + 4.0F), 15.0F);
-  EXPECT_NEAR(cost(23.0F), cost(24.0F), 3.0F);
+  EXPECT_NEAR(road(20.0F).standing_cost(1, 1.6F) - road(23.0F).standing_cost(1, 1.6F),
+              2.5F * (kMissed / 15.0F + 4.0F), 15.0F);
+  EXPECT_NEAR(road(23.0F).standing_cost(1, 1.6F), road(24.0F).standing_cost(1, 1.6F), 3.0F);
+  EXPECT_NEAR(road(20.0F).lane_cost(1, 1.6F), road(23.0F).lane_cost(1, 1.6F), 6.0F);
 }
 
 // Two changes are due, the first by 85 m and the second by 115: at 55 m our front has 26 m to the first place, and 56 to the second. The
