@@ -127,6 +127,36 @@ TEST(TightCorner, IsWidenedHoweverNarrow) {
   EXPECT_GT(outside_m, 0.1F);
 }
 
+// Whatever a map says, down to turns on 5 cm and kinks: every value of the line is finite, and widening ends.
+TEST(TightCorner, TheLineOfAnyRoadIsFinite) {
+  EXPECT_TRUE(rc::check([] {
+    const auto between = [](int low, int high) {
+      return 0.01F * static_cast<float>(*rc::gen::inRange(low, high));
+    };
+    LaneMap map;
+    const float turn_rad = between(-314, 315);
+    const LaneIndex before = add_lane(map, {{-60.0F, 0.0F}, {0.0F, 0.0F}});
+    std::vector<Point> points = arc({0.0F, 0.0F, 0.0F}, between(5, 600), turn_rad, *rc::gen::inRange(2, 9));
+    for (Point& point : points) point = point + Point{between(-40, 41), between(-40, 41)};
+    const LaneIndex turn = add_lane(map, points);
+    const float heading_rad = turn_rad + between(-100, 101);
+    const Point on = between(300, 3000) * Point{std::cos(heading_rad), std::sin(heading_rad)};
+    const LaneIndex after = add_lane(map, {points.back(), points.back() + on});
+    link(map, before, turn);
+    link(map, turn, after);
+    const scene::LanePath path = path_of(map, {before, turn, after});
+    trajectory::ReferenceLine line;
+    const int work =
+        trajectory::build_reference(map, path, between(0, 7500), between(0, 3600), Parameters{}, line);
+    RC_ASSERT(work < 2000);
+    for (const trajectory::ReferenceLine::Sample& sample : line.samples) {
+      RC_ASSERT(std::isfinite(sample.pose.x_m) && std::isfinite(sample.pose.y_m));
+      RC_ASSERT(std::isfinite(sample.pose.heading_rad) && std::isfinite(sample.curvature_1pm));
+      RC_ASSERT(std::isfinite(sample.speed_cap_mps));
+    }
+  }));
+}
+
 // A corner that can be steered is left alone: at 10.7 m only the usual 0.67 / 10.7 = 6 cm are cut.
 TEST(TightCorner, AWideOneIsNot) {
   const Corner corner(10.7F);
