@@ -19,10 +19,10 @@ struct ReferenceLine {
   float start_s_m = 0.0F;  ///< arc length of samples[0] along the path
   float spacing_m = 1.0F;
   float lateral_offset_m = 0.0F;  ///< left of it motion settles: EgoPath's, past who stand
-  /// Where the lane bends more than we can steer; from > to: nowhere. Our way is wider there than the lane.
-  float tight_from_s_m = 1.0F;
+  /// Where the lane bends more than we can steer, if anywhere: our way is wider there than the lane.
+  bool tight = false;
+  float tight_from_s_m = 0.0F;
   float tight_to_s_m = 0.0F;
-  [[nodiscard]] bool is_tight() const { return tight_from_s_m <= tight_to_s_m; }
   Sample samples[kReferenceSamples];
 };
 

@@ -164,8 +164,7 @@ int widen_tight_bends(const Parameters& parameters, ReferenceLine& line) {
   int moves = kMostMoves;
   int first = 0;
   int end = 2;
-  line.tight_from_s_m = 1.0F;
-  line.tight_to_s_m = 0.0F;
+  line.tight = false;
   while (moves > 0 && find_too_tight(line, limit_1pm, end, first, end)) {
     Widening stretch(line, first, end);
     bool drivable = false;
@@ -174,7 +173,8 @@ int widen_tight_bends(const Parameters& parameters, ReferenceLine& line) {
       moves -= end - first;
     }
     stretch.apply();
-    if (!line.is_tight()) line.tight_from_s_m = line.start_s_m + static_cast<float>(first) * line.spacing_m;
+    if (!line.tight) line.tight_from_s_m = line.start_s_m + static_cast<float>(first) * line.spacing_m;
+    line.tight = true;
     line.tight_to_s_m = line.start_s_m + static_cast<float>(end) * line.spacing_m;
   }
   return kMoveWork * (kMostMoves - moves);

@@ -62,7 +62,7 @@ float stop_s_m(const scene::EgoPath& path, float entry_s_m, const Parameters& pa
 
 int add_zones_beside(const scene::Scene& scene, const Parameters& parameters, scene::EgoPath& path) {
   const ReferenceLine& line = *path.driven;
-  if (!line.is_tight()) return 0;
+  if (!line.tight) return 0;
   const float from_s_m = max(line.tight_from_s_m, path.frenet.s_m);
   const float middle_s_m = 0.5F * (line.tight_from_s_m + line.tight_to_s_m);
   const Point middle = position(reference_at(line, middle_s_m).pose);

@@ -84,7 +84,7 @@ TEST(TightBends, WhatOurFrontSwingsIntoIsAZone) {
 // CAND-025 A turn that we can steer needs nothing of the lanes beside it.
 TEST(TightBends, AWideTurnNeedsNoMoreThanItsLane) {
   const Turn turn(6.5F);
-  EXPECT_FALSE(turn.lines[0].is_tight());
+  EXPECT_FALSE(turn.lines[0].tight);
   EXPECT_EQ(turn.scene.ego_paths[0].zones.size(), 1);
 }
 
