@@ -99,7 +99,7 @@ Status PlanningCycle::plan(const PlannerInput& input, Plan& plan, Explanation& e
     }
     start_ = trajectory::plan_start(input.ego, input.now_ms, running_, start_ms_, parameters_);
     const float lead_s = 0.001F * static_cast<float>(start_ms_ - scene_.time_ms);
-    {
+    if (status == Status::kOk) {
       const StageScope scope(probe, Stage::kCandidates);
       line_work_ = trajectory::build_lines(start_, lead_s, parameters_, scene_, lines_);
       work_.spend(Stage::kCandidates, line_work_);

@@ -210,6 +210,13 @@ Frenet project(const LaneMap& map, const LanePath& path, Point point, float gues
   return {best_s_m, local.y_m, foot.pose.heading_rad};
 }
 
+bool is_along(const LanePath& path, LaneIndex lane) {
+  for (const PathLane& part : path.lanes) {
+    if (part.lane == lane) return true;
+  }
+  return false;
+}
+
 float centre_line_length(const Lane& lane) {
   float length_m = 0.0F;
   for (int i = 0; i + 1 < lane.point_count && i + 1 < kMaxLanePoints; ++i) {

@@ -98,6 +98,9 @@ class PathCursor {
 [[nodiscard]] Frenet project(const LaneMap& map, const LanePath& path, Point point, float guess_s_m,
                              float reach_m, PathPoint& foot, int& work);
 
+/// Whether the path leads along the lane.
+[[nodiscard]] bool is_along(const LanePath& path, LaneIndex lane);
+
 /// Sum of the chords of a centre line [m].
 [[nodiscard]] float centre_line_length(const Lane& lane);
 

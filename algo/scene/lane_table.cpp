@@ -131,10 +131,7 @@ LaneIndex LaneTable::lane_ahead(const Pose& pose) const {
 }
 
 bool LaneTable::append(LanePath& path, LaneIndex lane) const {
-  for (const PathLane& part : path.lanes) {
-    if (part.lane == lane) return false;
-  }
-  if (!path.lanes.push({lane, path.length_m})) return false;
+  if (is_along(path, lane) || !path.lanes.push({lane, path.length_m})) return false;
   path.length_m += facts_[lane].length_m;
   return true;
 }

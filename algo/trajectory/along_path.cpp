@@ -19,14 +19,6 @@ constexpr float kAtGoalM = 2.0F;  // a goal at the very end of a road counts as 
 constexpr int kSeeWork = 7;
 constexpr int kSweepWork = 7;
 
-/// Whether a lane is that of the path at one of its parts.
-bool on_path(const scene::LanePath& path, LaneIndex lane) {
-  for (const scene::PathLane& part : path.lanes) {
-    if (part.lane == lane) return true;
-  }
-  return false;
-}
-
 /// Where lane `lane` begins along the path, or false.
 bool lane_start(const scene::LanePath& path, LaneIndex lane, float& start_s_m) {
   for (const scene::PathLane& entry : path.lanes) {
@@ -118,12 +110,12 @@ OnPath see_on_path(const scene::Scene& scene, const scene::EgoPath& path, const 
 }
 
 bool joins(const scene::Scene& scene, const scene::EgoPath& path, const scene::Agent& agent) {
-  if (agent.lane == kNoLaneIndex || on_path(path.path, agent.lane)) return false;
+  if (agent.lane == kNoLaneIndex || scene::is_along(path.path, agent.lane)) return false;
   const Lane& own = scene.map->lanes[agent.lane];
   for (const scene::LanePath& theirs : agent.paths) {
     if (theirs.lanes.empty()) continue;
     const LaneIndex lane = theirs.lanes[0].lane;
-    if ((lane == own.left || lane == own.right) && on_path(path.path, lane)) return true;
+    if ((lane == own.left || lane == own.right) && scene::is_along(path.path, lane)) return true;
   }
   return false;
 }

@@ -71,7 +71,7 @@ unsigned passed_from(const Pose& line, Point ahead, const Bystander& other, cons
 }
 
 /// Those within the lanes of the path over the way looked at, and at which no bend is tighter than we can steer.
-unsigned drivable_from(const scene::Scene& scene, const scene::EgoPath& path, float sharpest_1pm,
+unsigned drivable_from(const scene::Scene& scene, const scene::EgoPath& path, float left_1pm, float right_1pm,
                        const Parameters& parameters) {
   float width_m = kWideM;
   for (const scene::PathLane& part : path.path.lanes) {
@@ -84,7 +84,8 @@ unsigned drivable_from(const scene::Scene& scene, const scene::EgoPath& path, fl
   for (int k = 1; k < kLateralOffsets; ++k) {
     const float lateral_offset_m = kLateralOffsetsM[k];
     const bool within = 2.0F * abs(lateral_offset_m) + parameters.vehicle.width_m <= width_m + kRoundingM;
-    const bool steerable = abs(sharpest_1pm) <= limit_1pm * (1.0F - sharpest_1pm * lateral_offset_m);
+    const bool steerable = left_1pm <= limit_1pm * (1.0F - left_1pm * lateral_offset_m) &&
+                           -right_1pm <= limit_1pm * (1.0F - right_1pm * lateral_offset_m);
     if (within && steerable) from |= 1U << k;
   }
   return from;
@@ -93,15 +94,17 @@ unsigned drivable_from(const scene::Scene& scene, const scene::EgoPath& path, fl
 float find_lateral_offset_m(const scene::Scene& scene, const scene::EgoPath& path, const ReferenceLine& line,
                             const Parameters& parameters, Bystanders& bystanders, int& work) {
   for (Bystander& other : bystanders) other.from = kAnywhere;
-  float sharpest_1pm = 0.0F;
+  float left_1pm = 0.0F;  // the sharpest bend to either side
+  float right_1pm = 0.0F;
   for (int i = 0; i < kStepsAhead; ++i) {
     const ReferenceLine::Sample point = reference_at(line, path.frenet.s_m + static_cast<float>(i) * kStepM);
-    if (abs(point.curvature_1pm) > abs(sharpest_1pm)) sharpest_1pm = point.curvature_1pm;
+    left_1pm = max(left_1pm, point.curvature_1pm);
+    right_1pm = min(right_1pm, point.curvature_1pm);
     const Point ahead = direction(point.pose.heading_rad);
     for (Bystander& other : bystanders) other.from = passed_from(point.pose, ahead, other, parameters);
   }
   work += kStepsAhead * (kTwoPointsWork + kTwoPassedWork * bystanders.size()) / 2;
-  unsigned all = drivable_from(scene, path, sharpest_1pm, parameters);
+  unsigned all = drivable_from(scene, path, left_1pm, right_1pm, parameters);
   for (const Bystander& other : bystanders) {
     if ((all & other.from) != 0) all &= other.from;
   }

@@ -19,13 +19,6 @@ constexpr float kWaitedForM = 20.0F;  // zones of the map so near are of the sam
 constexpr int kLaneWork = 5;
 constexpr int kStepWork = 22;
 
-bool is_on(const scene::LanePath& path, LaneIndex lane) {
-  for (const scene::PathLane& part : path.lanes) {
-    if (part.lane == lane) return true;
-  }
-  return false;
-}
-
 /// Extends the zone by our box at one place, where it reaches into the lane.
 void extend(const Lane& lane, const Box& ours, float centre_s_m, bool& any, scene::ConflictZone& zone) {
   const Point ahead = direction(ours.centre.heading_rad);
@@ -70,7 +63,7 @@ int add_zones_beside(const scene::Scene& scene, const Parameters& parameters, sc
   int work = 0;
   for (LaneIndex index = 0; index < kMaxLanes; ++index) {
     const Lane& lane = scene.map->lanes[index];
-    if (lane.in_junction || !scene::usable(lane) || is_on(path.path, index)) continue;
+    if (lane.in_junction || !scene::usable(lane) || scene::is_along(path.path, index)) continue;
     work += kLaneWork;
     if (scene::nearest_on_lane(lane, middle).distance_m > kNearM) continue;
     scene::ConflictZone zone;

@@ -4,6 +4,7 @@
 #include <rapidcheck.h>
 
 #include <cmath>
+#include <utility>
 
 #include "algo/core/math.hpp"
 #include "algo/trajectory/bicycle.hpp"
@@ -90,6 +91,16 @@ float sharpest_1pm(const trajectory::ReferenceLine& line) {
   return most;
 }
 
+/// The least and the greatest distance of the line from the lane's centre, left positive.
+std::pair<float, float> beside_lane_m(const Corner& corner, const trajectory::ReferenceLine& line) {
+  std::pair<float, float> beside_m;
+  for (const trajectory::ReferenceLine::Sample& sample : line.samples) {
+    const scene::Frenet at = scene::project(corner.map, corner.path, position(sample.pose), 60.0F, 60.0F);
+    beside_m = {std::min(beside_m.first, at.d_m), std::max(beside_m.second, at.d_m)};
+  }
+  return beside_m;
+}
+
 // Steering of 0.55 rad and a wheelbase of 2.9 m turn on 4.7 m, 0.211 / m. A polygon at 5 m radius bends by
 // more in its middle; it is widened to within 5 % of the limit, and leaves the lane's centre by less than 0.7
 // m.
@@ -100,10 +111,8 @@ TEST(TightCorner, IsWidenedToWhatCanBeSteered) {
   trajectory::build_reference(corner.map, corner.path, 50.0F, 4.0F, parameters, line);
   const float limit_1pm = std::tan(parameters.vehicle.steering_max_rad) / parameters.vehicle.wheelbase_m;
   EXPECT_LE(sharpest_1pm(line), 1.05F * limit_1pm);
-  for (const trajectory::ReferenceLine::Sample& sample : line.samples) {
-    const scene::Frenet at = scene::project(corner.map, corner.path, position(sample.pose), 60.0F, 60.0F);
-    EXPECT_LT(std::abs(at.d_m), 0.7F);
-  }
+  const auto [right_m, left_m] = beside_lane_m(corner, line);
+  EXPECT_LT(std::max(-right_m, left_m), 0.7F);
 }
 
 // However narrow: where the lane turns on 2.2 m, a way on 4.85 m or more (0.97 of the limit, and 5 % for how curvature is sampled) cuts 2.65 *
@@ -115,13 +124,7 @@ TEST(TightCorner, IsWidenedHoweverNarrow) {
   trajectory::build_reference(corner.map, corner.path, 50.0F, 4.0F, parameters, line);
   const float limit_1pm = std::tan(parameters.vehicle.steering_max_rad) / parameters.vehicle.wheelbase_m;
   EXPECT_LE(sharpest_1pm(line), 1.02F * limit_1pm);
-  float inside_m = 0.0F;
-  float outside_m = 0.0F;
-  for (const trajectory::ReferenceLine::Sample& sample : line.samples) {
-    const scene::Frenet at = scene::project(corner.map, corner.path, position(sample.pose), 60.0F, 60.0F);
-    inside_m = std::min(inside_m, at.d_m);
-    outside_m = std::max(outside_m, at.d_m);
-  }
+  const auto [inside_m, outside_m] = beside_lane_m(corner, line);  // a right turn
   EXPECT_GT(inside_m, -1.3F);
   EXPECT_LT(outside_m, 0.5F);
   EXPECT_GT(outside_m, 0.1F);
@@ -162,10 +165,8 @@ TEST(TightCorner, AWideOneIsNot) {
   const Corner corner(10.7F);
   trajectory::ReferenceLine line;
   trajectory::build_reference(corner.map, corner.path, 50.0F, 4.0F, Parameters{}, line);
-  for (const trajectory::ReferenceLine::Sample& sample : line.samples) {
-    const scene::Frenet at = scene::project(corner.map, corner.path, position(sample.pose), 60.0F, 60.0F);
-    EXPECT_LT(std::abs(at.d_m), 0.25F);
-  }
+  const auto [right_m, left_m] = beside_lane_m(corner, line);
+  EXPECT_LT(std::max(-right_m, left_m), 0.25F);
 }
 
 // The line must not move under the car: built from every metre on the way, it lies where the last one lay,
