@@ -15,7 +15,7 @@ using occupancy::kNeverS;
 
 constexpr float kWaitingRoomM = 1.0F;  // between two zones there is room to stand, clear of both
 constexpr float kClearOfZoneM = 0.7F;  // before it
-constexpr float kInStripM = 0.3F;      // so far our box may reach beyond the path's strip and still follow it
+constexpr float kInStripM = 0.1F;      // so far our box may reach beyond the path's strip and still follow it
 constexpr float kSwingM = 0.7F;        // room for that beside our box: a turn back swings out
 constexpr float kSoonM = 10.0F;        // further than where we can stand, a plan may yet bring us
 constexpr float kCurvesMps2 = 3.0F;

@@ -268,6 +268,20 @@ TEST(Guard, WhoIsNotYetOnItsWayPastAnotherStopsForIt) {
   EXPECT_EQ(cause(10.0F, 0.0F), Cause::kLeader);
 }
 
+// GUARD-004 One stands across from the left, its front 1.12 m left of our line: beyond the strip of 0.9 + 0.2 m that is kept clear along it.
+// 0.25 m left of the line our box reaches to 1.15 m: from 10 m/s and 10 m away that is too late to stop. On the line it passes.
+TEST(Guard, WhoIsALittleOffItsLineLooksWhereItsBoxIs) {
+  const auto cause = [](float from_m) {
+    Change change;
+    scene::Agent& across = add_vehicle(change.scene, change.map, path_of(change.map, {0}), 113.4F, 0.0F);
+    across.track.centre.heading_rad = -0.5F * kPi;
+    across.track.centre.y_m = 1.12F + 0.5F * across.track.length_m;
+    return change.cause_across(10.0F, 0.0F, 0, from_m, from_m);
+  };
+  EXPECT_EQ(cause(0.0F), Cause::kNone);
+  EXPECT_EQ(cause(0.25F), Cause::kLeader);
+}
+
 // GUARD-009 From rest, 1.2 m on our way over, beside one whose front is as far as our middle: 0.2 m are between us. While it stands
 // we may go on past it at that distance, and not into it; one that rolls is a follower like any other, and has no room.
 TEST(Guard, WhoStandsBesideUsIsPassedAsItStands) {
