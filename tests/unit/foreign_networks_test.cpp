@@ -12,6 +12,7 @@
 
 #include "sim_host/world/map/lane_roles.hpp"
 #include "sim_host/world/nodes/map_node.hpp"
+#include "sim_host/world/traffic/box.hpp"
 #include "tests/support/networks.hpp"
 
 namespace s4tp::map {
@@ -169,6 +170,69 @@ TEST(ForeignNetworks, ZonesAreWhereBoxesTouch) {
   const bool first = found->first == mine;
   EXPECT_NEAR(first ? found->first_entry_m : found->second_entry_m, 5.2, 0.3);
   EXPECT_NEAR(first ? found->first_exit_m : found->second_exit_m, 12.4, 0.3);
+}
+
+/// A lane inside a junction as SUMO's cars drive it: as drawn, from the lane before it to the one behind it.
+struct DrawnWay {
+  Polyline line;
+  double start_m = 0.0;  ///< of the lane on it
+
+  DrawnWay(const Network& network, LaneId lane) {
+    const auto at = [&](LaneId id) -> const Lane& { return network.lanes[static_cast<std::size_t>(id)]; };
+    std::vector<Vec2> points = at(at(lane).predecessors.at(0)).drawn.points();
+    start_m = Polyline(points).length_m();
+    for (const LaneId next : {lane, at(lane).successors.at(0)}) {
+      points.insert(points.end(), at(next).drawn.points().begin(), at(next).drawn.points().end());
+    }
+    line = Polyline(points);
+  }
+  /// With its front on the line, headed away from where its rear should be.
+  [[nodiscard]] traffic::Box car_at(double centre_m) const {
+    const Vec2 front = line.at(start_m + centre_m + 2.5).point;
+    const Vec2 rear = line.at(start_m + centre_m - 2.5).point;
+    const double heading_rad = std::atan2(front.y - rear.y, front.x - rear.x);
+    return {{front.x - 2.5 * std::cos(heading_rad), front.y - 2.5 * std::sin(heading_rad)},
+            heading_rad,
+            5.0,
+            1.8};
+  }
+};
+
+// NET-002 We follow the arcs that turns are rounded to, SUMO's cars the corners that the network draws, with both ends on them: wherever
+// a car of theirs on one lane inside a junction and one of ours on another touch, our place is in the zone of the two.
+TEST(ForeignNetworks, WhoCutsACornerIsInTheZone) {
+  int touches = 0;
+  for (const std::string name : {"tee", "skewed", "stop_signs", "roundabout", "four_lanes"}) {
+    const Network network = foreign(name).network;
+    const auto at = [&](LaneId id) -> const Lane& { return network.lanes[static_cast<std::size_t>(id)]; };
+    for (const Conflict& each : network.conflicts) {
+      for (const bool first_ours : {true, false}) {
+        const LaneId ours = first_ours ? each.first : each.second;
+        const LaneId theirs = first_ours ? each.second : each.first;
+        if (!at(ours).in_junction || !at(theirs).in_junction) {
+          continue;
+        }
+        const double entry_m = first_ours ? each.first_entry_m : each.second_entry_m;
+        const double exit_m = first_ours ? each.first_exit_m : each.second_exit_m;
+        const DrawnWay way(network, theirs);
+        for (double other_m = 0.0; other_m < at(theirs).drawn.length_m(); other_m += 0.25) {
+          const traffic::Box car = way.car_at(other_m);
+          for (double own_m = 0.0; own_m < at(ours).centre.length_m(); own_m += 0.25) {
+            const PolylinePose pose = at(ours).centre.at(own_m);
+            if (!traffic::overlap({pose.point, pose.heading_rad, 5.0, 1.8}, car)) {
+              continue;
+            }
+            ++touches;
+            EXPECT_GT(own_m, entry_m - 0.3)
+                << name << ' ' << at(ours).name << ' ' << at(theirs).name << ' ' << other_m;
+            EXPECT_LT(own_m, exit_m + 0.3)
+                << name << ' ' << at(ours).name << ' ' << at(theirs).name << ' ' << other_m;
+          }
+        }
+      }
+    }
+  }
+  EXPECT_GT(touches, 1000);
 }
 
 // Turned by any angle and moved as far as UTM coordinates lie, a cross has the zones it has at home.

@@ -1,5 +1,7 @@
 /// Where two ways through a junction share ground. Each way is followed with a car's box from a little before
 /// the junction to a little after it; wherever two boxes touch, both lanes' arc lengths belong to the zone.
+/// In a bend a car's box lies along the lane's centre line at its middle, or with both ends on the line as drawn
+/// (as SUMO moves cars) and so further in: ours and theirs. One of two at most does the latter.
 
 #include <algorithm>
 #include <array>
@@ -28,7 +30,8 @@ struct Box {
 struct Place {
   LaneId lane = kNoLane;
   double s_m = 0.0;
-  Box box;
+  Box along;  ///< the centre line at its middle
+  Box chord;  ///< both ends on the line as drawn
 };
 
 /// Separating axes: do not touch if the boxes are apart along any of their four sides' normals.
@@ -54,10 +57,16 @@ bool touch(const Box& a, const Box& b, double spare_m) {
   return true;
 }
 
+bool touch(const Place& a, const Place& b, double spare_m) {
+  return touch(a.along, b.along, spare_m) || touch(a.along, b.chord, spare_m) ||
+         touch(a.chord, b.along, spare_m);
+}
+
 /// So many places further on the boxes cannot touch yet, as a place is at most a step from the next.
-std::size_t steps_apart(const Box& a, const Box& b) {
-  const double gap_m = std::hypot(b.centre.x - a.centre.x, b.centre.y - a.centre.y) -
-                       2.0 * std::hypot(kHalfLength_m + kSpare_m, kHalfWidth_m + kSpare_m);
+std::size_t steps_apart(const Place& a, const Place& b) {
+  // One of the two may be a chord: it is within half a car of the line drawn, and that of the centre line.
+  const double gap_m = std::hypot(b.along.centre.x - a.along.centre.x, b.along.centre.y - a.along.centre.y) -
+                       2.0 * (std::hypot(kHalfLength_m + kSpare_m, kHalfWidth_m + kSpare_m) + kHalfLength_m);
   return gap_m > 0.0 ? static_cast<std::size_t>(gap_m / kStep_m) : 0;
 }
 
@@ -65,25 +74,62 @@ const Lane& lane_at(const std::vector<Lane>& lanes, LaneId lane) {
   return lanes[static_cast<std::size_t>(lane)];
 }
 
-void append_places(const std::vector<Lane>& lanes, LaneId lane, double from_m, double to_m,
-                   std::vector<Place>& places) {
+Box box_at(const PolylinePose& pose) {
+  return {pose.point, std::cos(pose.heading_rad), std::sin(pose.heading_rad)};
+}
+
+double distance_m(Vec2 a, Vec2 b) {
+  return std::hypot(b.x - a.x, b.y - a.y);
+}
+
+/// Front first: where the line bends back the rear sticks out. \return `folded` where the two are one place
+Box box_between(Vec2 rear, Vec2 front, const Box& folded) {
+  const double length_m = distance_m(rear, front);
+  if (length_m < kStep_m) {
+    return folded;
+  }
+  const Vec2 ahead{(front.x - rear.x) / length_m, (front.y - rear.y) / length_m};
+  return {{front.x - kHalfLength_m * ahead.x, front.y - kHalfLength_m * ahead.y}, ahead.x, ahead.y};
+}
+
+/// \param way      through the junction
+/// \param start_m  of the lane on it
+void append_places(const std::vector<Lane>& lanes, const Polyline& way, double start_m, LaneId lane,
+                   double from_m, double to_m, std::vector<Place>& places) {
   const Polyline& centre = lane_at(lanes, lane).centre;
+  const double drawn_share = lane_at(lanes, lane).drawn.length_m() / centre.length_m();
   const int steps = std::max(1, static_cast<int>(std::ceil((to_m - from_m) / kStep_m)));
   for (int i = 0; i <= steps; ++i) {
-    const double s = from_m + (to_m - from_m) * i / steps;
-    const PolylinePose pose = centre.at(s);
-    places.push_back({lane, s, {pose.point, std::cos(pose.heading_rad), std::sin(pose.heading_rad)}});
+    const double s_m = from_m + (to_m - from_m) * i / steps;
+    const double way_m = start_m + s_m * drawn_share;
+    const Box along = box_at(centre.at(s_m));
+    const Box chord =
+        box_between(way.at(way_m - kHalfLength_m).point, way.at(way_m + kHalfLength_m).point, along);
+    places.push_back({lane, s_m, along, chord});
   }
 }
 
 std::vector<Place> places_along(const std::vector<Lane>& lanes, const Link& link) {
-  std::vector<Place> places;
   const auto length = [&](LaneId lane) { return lane_at(lanes, lane).centre.length_m(); };
-  append_places(lanes, link.from, std::max(0.0, length(link.from) - kReach_m), length(link.from), places);
-  for (const LaneId inside : link.inside) {
-    append_places(lanes, inside, 0.0, length(inside), places);
+  std::vector<LaneId> all{link.from};
+  all.insert(all.end(), link.inside.begin(), link.inside.end());
+  all.push_back(link.to);
+  std::vector<Vec2> points;
+  std::vector<double> starts_m;  // of the lanes on the way: what lies between two is part of it
+  for (const LaneId lane : all) {
+    const std::vector<Vec2>& more = lane_at(lanes, lane).drawn.points();
+    const double before_m =
+        points.empty() ? 0.0 : starts_m.back() + lane_at(lanes, all[starts_m.size() - 1]).drawn.length_m();
+    starts_m.push_back(points.empty() ? 0.0 : before_m + distance_m(points.back(), more.front()));
+    points.insert(points.end(), more.begin(), more.end());
   }
-  append_places(lanes, link.to, 0.0, std::min(length(link.to), kReach_m), places);
+  const Polyline way(points);
+  std::vector<Place> places;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const double from_m = i == 0 ? std::max(0.0, length(all[i]) - kReach_m) : 0.0;
+    const double to_m = i + 1 == all.size() ? std::min(length(all[i]), kReach_m) : length(all[i]);
+    append_places(lanes, way, starts_m[i], all[i], from_m, to_m, places);
+  }
   return places;
 }
 
@@ -169,9 +215,9 @@ Found touches(const std::vector<Lane>& lanes, const std::vector<Place>& first,
               const std::vector<Place>& second, Rule rule, double spare_m) {
   Found found;
   for (const Place& a : first) {
-    for (std::size_t k = 0; k < second.size(); k += 1 + steps_apart(a.box, second[k].box)) {
+    for (std::size_t k = 0; k < second.size(); k += 1 + steps_apart(a, second[k])) {
       const Place& b = second[k];
-      if (!touch(a.box, b.box, spare_m) || joined(lanes, a.lane, b.lane) ||
+      if (!touch(a, b, spare_m) || joined(lanes, a.lane, b.lane) ||
           !(lane_at(lanes, a.lane).in_junction || lane_at(lanes, b.lane).in_junction)) {
         continue;
       }

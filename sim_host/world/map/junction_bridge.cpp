@@ -73,6 +73,7 @@ std::optional<Lane> bridge_between(const Lane& from, const Lane& to) {
   Lane bridge;
   bridge.in_junction = true;
   bridge.centre = Polyline(points);
+  bridge.drawn = bridge.centre;
   bridge.sumo_length_m = bridge.centre.length_m();
   bridge.width_m = std::min(from.width_m, to.width_m);
   bridge.speed_limit_mps = std::min(from.speed_limit_mps, to.speed_limit_mps);

@@ -18,6 +18,7 @@ struct Lane {
   std::string edge;
   int index = 0;  ///< SUMO's within the edge, 0 is the rightmost; those cars may not use are left out
   Polyline centre;
+  Polyline drawn;  ///< where SUMO's cars drive: the centre line as the network has it, corners and all
   double sumo_length_m = 0.0;  ///< as positions of SUMO's count; differs from the shape's where so written
   double width_m = 3.2;
   double speed_limit_mps = 13.89;

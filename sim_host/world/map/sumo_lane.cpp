@@ -85,6 +85,7 @@ std::optional<Lane> read_lane(const pugi::xml_node& node, const std::string& edg
     fail_at(where, "shape: expected at least two different points x,y");
   }
   lane.centre = Polyline(shape);
+  lane.drawn = lane.centre;
   lane.sumo_length_m = lane_number(node, "length", lane.centre.length_m(), where);
   return lane;
 }
