@@ -3,6 +3,7 @@
 #include "algo/core/inline.hpp"
 #include "algo/core/standing.hpp"
 #include "algo/trajectory/bicycle.hpp"
+#include "algo/trajectory/long_vehicles.hpp"
 #include "algo/trajectory/tight_bends.hpp"
 
 namespace s4tp::trajectory {
@@ -140,6 +141,7 @@ int build_lines(const TrajectoryPoint& start, float lead_s, const Parameters& pa
     lines[i].lateral_offset_m = path.lateral_offset_m;
     path.driven = &lines[i];
     work += add_zones_beside(scene, parameters, path);
+    work += widen_zones(scene, parameters, path);
   }
   return work;
 }
