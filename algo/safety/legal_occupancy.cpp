@@ -103,7 +103,10 @@ ZoneOccupancy zone_occupancy(const scene::Scene& scene, const scene::Agent& agen
     return result;
   }
   result.from_s = occupancy::time_to_cover_s(fastest, entry_m) - unseen_s - lead_s;
-  if (zone.beside) return result;
+  if (zone.beside) {
+    if (stands_in_sight(scene, agent, kStandOffS)) result.claim = Claim::kStands;
+    return result;
+  }
   // A bend is driven no faster than grip lets it; braking for it is not counted on.
   const float grip_mps = grip_speed_mps(scene.map->lanes[zone.other_lane]);
   if (grip_mps < fastest.top_mps) {

@@ -7,7 +7,8 @@
 /// once. LEGAL-003 L1: who has priority and gains no speed stays out if it can stop gently from as fast as it
 /// may be. LEGAL-004 L2: so does who stands before the zone and has seen us stand; in one
 /// that is crossed once all have stood for 2 s; where lanes merge, never.
-/// LEGAL-006 Who is in a lane beside our way owes us nothing there, and leaves nothing to us.
+/// LEGAL-006 Who is in a lane beside our way owes us nothing there, and leaves nothing to us, but for who stands short
+/// of it once all have stood for 2 s.
 /// LEGAL-005 Whoever is not seen any more can be all that the law allows from its last sight on.
 ///
 /// \code

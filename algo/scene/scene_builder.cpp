@@ -60,8 +60,10 @@ void SceneBuilder::note_waiting(std::int32_t passed_ms, const Scene& scene, cons
   if (!scene.ego_paths.empty()) {
     const EgoPath& path = scene.ego_paths[0];
     const float to_front_m = parameters.vehicle.length_m - parameters.vehicle.rear_overhang_m;
-    for (const ConflictZone& zone : path.zones) {
-      at_junction = at_junction || zone.entry_s_m - path.frenet.s_m - to_front_m < kAtJunctionM;
+    const float near_s_m = path.frenet.s_m + to_front_m + kAtJunctionM;
+    for (const ConflictZone& zone : path.zones) at_junction = at_junction || zone.entry_s_m < near_s_m;
+    for (const PathLane& lane : path.path.lanes) {
+      at_junction = at_junction || (scene.map->lanes[lane.lane].in_junction && lane.start_s_m < near_s_m);
     }
   }
   if (!at_junction) {

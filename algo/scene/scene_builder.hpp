@@ -21,7 +21,7 @@ class SceneBuilder {
   /// stays for up to 1 s, or until another track is where it would be; without lists all stay until we stand.
   /// CORE-031 The scene is a function of the calls since reset(): the same calls give the same bits. CORE-032 No
   /// input makes the scene hold a value that is not finite, or an index that is out of range. CORE-033 What we
-  /// have waited counts from 15 m before a zone, and is forgotten only when that junction is left: a start is not
+  /// have waited counts from 15 m before a zone or a junction, and is forgotten only when that junction is left: a start is not
   /// judged by another measure than the rest of the crossing. CORE-035 No vehicle is dropped for its id: those
   /// that share one are all kept, under ids that nobody has, new ones in each list, without history; their
   /// number is told.

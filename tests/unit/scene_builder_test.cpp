@@ -58,6 +58,25 @@ TEST(SceneBuilder, RemembersHowLongWeWaited) {
   EXPECT_GT(waited_s(85.0F, 0.0F), 0.0F);
 }
 
+// CORE-033 Before a junction through which no zone of the map is on our way we wait as well: a bend there may be tighter than we steer.
+TEST(SceneBuilder, RemembersHowLongWeWaitedBeforeAnyJunction) {
+  for (const bool junction : {false, true}) {
+    LaneMap map;
+    const LaneIndex before = test::add_lane(map, {{0.0F, 0.0F}, {100.0F, 0.0F}});
+    const LaneIndex turn = test::add_lane(map, {{100.0F, 0.0F}, {120.0F, 0.0F}});
+    test::link(map, before, turn);
+    map.lanes[turn].in_junction = junction;
+    scene::SceneBuilder builder;
+    scene::Scene scene;
+    for (std::uint32_t now_ms = 1000; now_ms <= 3000; now_ms += 100) {
+      ASSERT_EQ(builder.build(now_ms, test::ego_at(85.0F, 0.0F, 0.0F, 0.0F), TrackList{}, now_ms, &map,
+                              Parameters{}, scene),
+                Status::kOk);
+    }
+    EXPECT_FLOAT_EQ(scene.waited_s, junction ? 2.0F : 0.0F);
+  }
+}
+
 // CORE-034 Twenty steps of standing are 2 s; at 1 m/s it moves, and the count begins anew. How long it has
 // been seen goes on.
 TEST(SceneBuilder, CountsHowLongSomebodyStands) {
