@@ -9,7 +9,6 @@ namespace {
 
 constexpr float kAheadM = 150.0F;        // the map's own horizon
 constexpr float kBehindStartM = 10.0F;   // a neighbour lane may begin this far ahead of us
-constexpr float kStopMarginM = 1.0F;     // before the zone, where no stop line says otherwise
 constexpr float kShortOfLineM = 0.5F;    // a little too far, and others see us in the junction
 constexpr float kPassedLineM = 0.5F;     // a stop line this far behind our front no longer binds
 constexpr float kJunctionReachM = 8.0F;  // zones this close behind a junction still belong to it

@@ -12,6 +12,8 @@ namespace s4tp::scene {
 /// is made before a junction begins. \pre table.valid(lane)
 void build_ego_paths(const LaneTable& table, LaneIndex lane, const Parameters& parameters, Scene& scene);
 
+inline constexpr float kStopMarginM = 1.0F;  ///< before a zone, where no stop line says otherwise
+
 /// Adds a zone, to one it continues where there is one; with no room left, in place of one that matters less. They stay in
 /// order only once sorted.
 void add_zone(const ConflictZone& zone, EgoPath& ego_path);

@@ -19,16 +19,6 @@ constexpr float kAtGoalM = 2.0F;  // a goal at the very end of a road counts as 
 constexpr int kSeeWork = 7;
 constexpr int kSweepWork = 7;
 
-/// Where lane `lane` begins along the path, or false.
-bool lane_start(const scene::LanePath& path, LaneIndex lane, float& start_s_m) {
-  for (const scene::PathLane& entry : path.lanes) {
-    if (entry.lane != lane) continue;
-    start_s_m = entry.start_s_m;
-    return true;
-  }
-  return false;
-}
-
 /// A vehicle near the centre of a plain lane that is none of the path's cannot be in its strip.
 bool clear_of(const scene::Scene& scene, const scene::EgoPath& path, const scene::Agent& agent) {
   if (agent.lane == kNoLaneIndex || agent.paths.empty()) return false;
@@ -77,6 +67,15 @@ bool comes_up_behind(const scene::EgoPath& path, const scene::Agent& agent, OnPa
 }
 
 }  // namespace
+
+bool lane_start(const scene::LanePath& way, LaneIndex lane, float& start_s_m) {
+  for (const scene::PathLane& entry : way.lanes) {
+    if (entry.lane != lane) continue;
+    start_s_m = entry.start_s_m;
+    return true;
+  }
+  return false;
+}
 
 OnPath see_on_path(const scene::Scene& scene, const scene::EgoPath& path, const scene::Agent& agent,
                    const Parameters& parameters, bool whole_road, bool& known) {

@@ -24,6 +24,9 @@ struct OnPath {
   int work = 0;            ///< what seeing it took [WorkMeter's units]
 };
 
+/// Where `lane` begins along the way. \return false: the way does not lead along it
+[[nodiscard]] bool lane_start(const scene::LanePath& way, LaneIndex lane, float& start_s_m);
+
 /// \param whole_road  also vehicles that are plainly in another lane
 /// \param known  receives false for a vehicle far off, or safely in a lane that is none of the path's
 [[nodiscard]] OnPath see_on_path(const scene::Scene& scene, const scene::EgoPath& path,

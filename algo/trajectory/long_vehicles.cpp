@@ -2,6 +2,7 @@
 
 #include "algo/core/math.hpp"
 #include "algo/scene/ego_paths.hpp"
+#include "algo/trajectory/along_path.hpp"
 #include "algo/trajectory/bicycle.hpp"
 #include "algo/trajectory/reference_line.hpp"
 
@@ -13,8 +14,7 @@ constexpr int kMostPlaces = 40;
 constexpr float kStepM = 0.5F;       // of our box
 constexpr float kFurthestM = 12.0F;  // that our ground grows to either side
 constexpr float kSpareM = 0.1F;      // between the boxes, as the map has it
-constexpr float kStopMarginM = 1.0F;
-constexpr float kBendRad = 0.2F;  // who turns by less takes no more than its lane
+constexpr float kBendRad = 0.2F;     // who turns by less takes no more than its lane
 
 // Work (WorkMeter's units).
 constexpr int kLookWork = 1;
@@ -35,16 +35,6 @@ struct Ground {
   float entry_s_m;
   float exit_s_m;
 };
-
-/// Where `lane` begins along the way, or false.
-bool lane_start(const scene::LanePath& way, LaneIndex lane, float& start_s_m) {
-  for (const scene::PathLane& part : way.lanes) {
-    if (part.lane != lane) continue;
-    start_s_m = part.start_s_m;
-    return true;
-  }
-  return false;
-}
 
 bool bends(const LaneMap& map, const Sweep& sweep) {
   const float half_m = 0.5F * sweep.length_m;
@@ -114,7 +104,7 @@ int widen_zones(const scene::Scene& scene, const Parameters& parameters, scene::
       work += grow(scene, path, sweep, parameters, ground);
       zone.entry_s_m = min(zone.entry_s_m, max(ground.entry_s_m, own_s_m));
       zone.exit_s_m = ground.exit_s_m;
-      zone.stop_s_m = min(zone.stop_s_m, zone.entry_s_m + front_m - kStopMarginM);
+      zone.stop_s_m = min(zone.stop_s_m, zone.entry_s_m + front_m - scene::kStopMarginM);
     }
   }
   if (pairs > 0) scene::sort_zones(path);

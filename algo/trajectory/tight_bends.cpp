@@ -12,7 +12,6 @@ constexpr float kStepM = 1.0F;
 constexpr int kMostSteps = 40;
 constexpr float kNearM = 15.0F;       // of the middle of the bend
 constexpr float kHalfWidthM = 0.9F;   // of a usual car
-constexpr float kStopMarginM = 1.0F;  // before the zone, where no stop line says otherwise
 constexpr float kWaitedForM = 20.0F;  // zones of the map so near are of the same junction
 
 // Work (WorkMeter's units).
@@ -44,7 +43,7 @@ void extend(const Lane& lane, const Box& ours, float centre_s_m, bool& any, scen
 
 /// Where our front waits for it: where the map has us wait for the junction.
 float stop_s_m(const scene::EgoPath& path, float entry_s_m, const Parameters& parameters) {
-  float stop_s_m = entry_s_m + 0.5F * parameters.vehicle.length_m - kStopMarginM;
+  float stop_s_m = entry_s_m + 0.5F * parameters.vehicle.length_m - scene::kStopMarginM;
   for (const scene::ConflictZone& zone : path.zones) {
     if (abs(zone.entry_s_m - entry_s_m) < kWaitedForM) stop_s_m = min(stop_s_m, zone.stop_s_m);
   }
