@@ -29,8 +29,10 @@ bool Guard::is_ahead(const scene::ConflictZone& zone, const Threat& threat, cons
 }
 
 float Guard::behind_s_m(const scene::ConflictZone& zone, const Threat& threat) const {
-  const float its_mps = threat.agent == kUnseen ? 0.0F : scene_->agents[threat.agent].track.speed_mps;
-  const float its_stop_s_m = zone.exit_s_m - to_common_end_m(threat) +
+  const bool told = threat.agent != kUnseen;
+  const float its_mps = told ? seen_mps(scene_->agents[threat.agent]) : 0.0F;
+  const float coasted_m = told ? scene_->agents[threat.agent].coasted_m : 0.0F;
+  const float its_stop_s_m = zone.exit_s_m - to_common_end_m(threat) - coasted_m +
                              occupancy::stopping_way_m(its_mps, parameters_->law.braking_max_mps2);
   return its_stop_s_m - half_length_m(threat) - 0.5F * parameters_->vehicle.length_m -
          parameters_->guard.margin_m;
@@ -54,15 +56,20 @@ bool Guard::passes_threat(const scene::EgoPath& path, const PathContext& context
       if (own.stop_s_m(parameters_->guard.braking_mps2) <= behind_s_m(zone, threat)) return true;
     } else {
       const float half_m = 0.5F * parameters_->vehicle.length_m + half_length_m(threat);
-      const float its_to_exit_m = to_common_end_m(threat);
+      // Counted from the last sight.
+      const bool told = threat.agent != kUnseen;
+      const std::uint16_t age_ms = told ? scene_->agents[threat.agent].age_ms : scene_->known.age_ms;
+      const float since_s = lead_s_ + 1e-3F * static_cast<float>(age_ms);
+      const float its_to_exit_m =
+          to_common_end_m(threat) + (told ? scene_->agents[threat.agent].coasted_m : 0.0F);
       const float respond_s = max(in_s, 0.0F) + parameters_->law.duty_response_s;
       const Pace fastest =
           threat.agent == kUnseen
               ? fastest_legal(*scene_, threat.lane, unseen_mps(threat.lane, threat.kind), zone, *parameters_)
               : fastest_legal(*scene_, scene_->agents[threat.agent], zone, *parameters_);
-      const float its_mps = occupancy::speed_after_mps(fastest, respond_s + lead_s_);
+      const float its_mps = occupancy::speed_after_mps(fastest, respond_s + since_s);
       const auto gap_m = [&](float time_s) {
-        return its_to_exit_m - occupancy::way_after_m(fastest, time_s + lead_s_) -
+        return its_to_exit_m - occupancy::way_after_m(fastest, time_s + since_s) -
                (zone.exit_s_m - own.place_at_m(time_s, cap_mps));
       };
       const float slower_mps = max(0.0F, its_mps - own.speed_at_mps(respond_s, cap_mps));

@@ -84,7 +84,7 @@ ZoneOccupancy zone_occupancy(const scene::Scene& scene, const scene::Agent& agen
   const float longer_m = 0.5F * agent.track.length_m - scene::kUsualHalfLengthM;
   result.to_entry_m = to_lane_m + zone.other_entry_m - longer_m;
   result.to_exit_m = to_lane_m + zone.other_exit_m + longer_m;
-  if (result.to_exit_m <= 0.0F) return result;
+  if (result.to_exit_m + agent.coasted_m <= 0.0F) return result;
 
   // Counted from the last sight, whatever we took the vehicle to do since.
   const float unseen_s = seconds(agent.age_ms);

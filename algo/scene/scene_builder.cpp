@@ -53,6 +53,7 @@ void SceneBuilder::reset() {
   started_ = false;
   waited_ms_ = 0;
   ego_lane_ = kNoLaneIndex;
+  in_junction_ = false;
 }
 
 void SceneBuilder::note_waiting(std::int32_t passed_ms, const Scene& scene, const Parameters& parameters) {
@@ -66,7 +67,9 @@ void SceneBuilder::note_waiting(std::int32_t passed_ms, const Scene& scene, cons
       at_junction = at_junction || (scene.map->lanes[lane.lane].in_junction && lane.start_s_m < near_s_m);
     }
   }
-  if (!at_junction) {
+  const bool was_in_junction = in_junction_;
+  in_junction_ = ego_lane_ != kNoLaneIndex && scene.map->lanes[ego_lane_].in_junction;
+  if (!at_junction || (was_in_junction && !in_junction_)) {
     waited_ms_ = 0;
   } else if (scene.ego.speed_mps < kStandingMps) {
     waited_ms_ = bounded_ms(waited_ms_ + passed_ms);

@@ -48,6 +48,7 @@ class SceneBuilder {
   bool started_ = false;
   std::int32_t waited_ms_ = 0;
   LaneIndex ego_lane_ = kNoLaneIndex;
+  bool in_junction_ = false;  ///< we are
 };
 
 }  // namespace s4tp::scene

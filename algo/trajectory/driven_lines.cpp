@@ -141,7 +141,7 @@ int build_lines(const TrajectoryPoint& start, float lead_s, const Parameters& pa
     lines[i].lateral_offset_m = path.lateral_offset_m;
     path.driven = &lines[i];
     work += add_zones_beside(scene, parameters, path);
-    work += widen_zones(scene, parameters, path);
+    work += widen_zones(scene, parameters, lead_s, path);
   }
   return work;
 }

@@ -14,6 +14,7 @@ constexpr int kMostPlaces = 40;
 constexpr float kStepM = 0.5F;       // of our box
 constexpr float kFurthestM = 12.0F;  // that our ground grows to either side
 constexpr float kSpareM = 0.1F;      // between the boxes, as the map has it
+constexpr float kRoomM = 1.0F;       // to stand in before it
 constexpr float kBendRad = 0.2F;     // who turns by less takes no more than its lane
 
 // Work (WorkMeter's units).
@@ -68,7 +69,7 @@ int grow(const scene::Scene& scene, const scene::EgoPath& path, const Sweep& swe
         box_between(position(rear.at(s_m - half_m).pose), position(front.at(s_m + half_m).pose), sweep);
     const auto touches = [&](float own_s_m) {
       work += kTouchWork;
-      const Box ours = ego_box(reference_at(*path.driven, own_s_m - centre_m).pose, parameters);
+      const Box ours = box_on_line(path, own_s_m - centre_m, parameters);
       return separation(ours, its) < kSpareM;
     };
     while (ground.entry_s_m > first_s_m && touches(ground.entry_s_m - kStepM)) ground.entry_s_m -= kStepM;
@@ -79,8 +80,11 @@ int grow(const scene::Scene& scene, const scene::EgoPath& path, const Sweep& swe
 
 }  // namespace
 
-int widen_zones(const scene::Scene& scene, const Parameters& parameters, scene::EgoPath& path) {
-  const float own_s_m = path.frenet.s_m + rear_axle_to_centre_m(parameters);
+int widen_zones(const scene::Scene& scene, const Parameters& parameters, float lead_s, scene::EgoPath& path) {
+  const float speed_mps = scene.ego.speed_mps;
+  const float nearest_s_m = path.frenet.s_m + rear_axle_to_centre_m(parameters) + kRoomM +
+                            speed_mps * (lead_s + parameters.guard.takeover_s) +
+                            0.5F * square(speed_mps) / parameters.guard.braking_mps2;
   const float front_m = 0.5F * parameters.vehicle.length_m;
   int work = 0;
   int pairs = 0;
@@ -92,7 +96,7 @@ int widen_zones(const scene::Scene& scene, const Parameters& parameters, scene::
       const int way = k / path.zones.size();
       float start_s_m = 0.0F;
       work += kLookWork;
-      if (zone.beside || zone.priority == Priority::kFirstHasPriority) continue;
+      if (zone.beside) continue;
       if (!lane_start(agent.paths[way], zone.other_lane, start_s_m)) continue;
       const Sweep sweep{agent.paths[way],
                         max(start_s_m + zone.other_entry_m - longer_m, agent.frenet[way].s_m),
@@ -102,7 +106,7 @@ int widen_zones(const scene::Scene& scene, const Parameters& parameters, scene::
       ++pairs;
       Ground ground{zone.entry_s_m, zone.exit_s_m};
       work += grow(scene, path, sweep, parameters, ground);
-      zone.entry_s_m = min(zone.entry_s_m, max(ground.entry_s_m, own_s_m));
+      zone.entry_s_m = min(zone.entry_s_m, max(ground.entry_s_m, nearest_s_m));
       zone.exit_s_m = ground.exit_s_m;
       zone.stop_s_m = min(zone.stop_s_m, zone.entry_s_m + front_m - scene::kStopMarginM);
     }

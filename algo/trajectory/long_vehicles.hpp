@@ -7,8 +7,8 @@
 namespace s4tp::trajectory {
 
 /// CAND-026 The map's zones are for usual cars. Both ends of a vehicle follow its lane, and what lies between cuts the bend: for
-/// each vehicle longer than kLongM that may come into a zone where we give way, by bend, our ground in that zone is made as long
-/// as our box can touch its.
+/// each vehicle longer than kLongM that may come into a zone by a bend our ground in that zone is made as long as our box can
+/// touch its.
 ///
 /// \code
 ///     |   |  its lane          our way: -----[ zone ]----->   usual car
@@ -16,9 +16,10 @@ namespace s4tp::trajectory {
 /// ----->\___________
 /// \endcode
 ///
-/// Where we are already it is not shown: that cannot be helped by waiting. At most kMostSwept pairs of vehicle and zone a path.
-/// \pre path.driven is there \return what it took [WorkMeter's units]
-int widen_zones(const scene::Scene& scene, const Parameters& parameters, scene::EgoPath& path);
+/// It begins no sooner than we can stop before it: who is past that is no more bound by it than by the map's, and has no more right to
+/// what is beyond. At most kMostSwept pairs of vehicle and zone a path.
+/// \param lead_s  from the scene to the start of plans \pre path.driven is there \return what it took [WorkMeter's units]
+int widen_zones(const scene::Scene& scene, const Parameters& parameters, float lead_s, scene::EgoPath& path);
 
 inline constexpr float kLongM = 6.5F;
 inline constexpr int kMostSwept = 6;

@@ -3,6 +3,7 @@
 #include "algo/core/inline.hpp"
 #include "algo/occupancy/pace.hpp"
 #include "algo/trajectory/bend_widening.hpp"
+#include "algo/trajectory/bicycle.hpp"
 
 namespace s4tp::trajectory {
 namespace {
@@ -194,6 +195,12 @@ inline ReferenceLine::Sample interpolate(const ReferenceLine& line, float s_m) {
 
 ReferenceLine::Sample reference_at(const ReferenceLine& line, float s_m) {
   return interpolate(line, s_m);
+}
+
+Box box_on_line(const scene::EgoPath& path, float s_m, const Parameters& parameters) {
+  const Pose line = reference_at(*path.driven, s_m).pose;
+  const Point there = offset_point(line, 0.0F, path.lateral_offset_m);
+  return ego_box({there.x_m, there.y_m, line.heading_rad}, parameters);
 }
 
 float curvature_at(const ReferenceLine& line, float s_m) {

@@ -36,6 +36,10 @@ int build_reference(const LaneMap& map, const scene::LanePath& path, float from_
 /// The line at `s_m`, interpolated; the heading may be outside [-pi, pi) by a step's turn.
 [[nodiscard]] ReferenceLine::Sample reference_at(const ReferenceLine& line, float s_m);
 
+/// Our box where our rear axle is at `s_m` of the line that the path is driven on, with its lateral offset.
+/// \pre path.driven is there
+[[nodiscard]] Box box_on_line(const scene::EgoPath& path, float s_m, const Parameters& parameters);
+
 /// Of that, one number alone.
 [[nodiscard]] float curvature_at(const ReferenceLine& line, float s_m);
 [[nodiscard]] float speed_cap_at(const ReferenceLine& line, float s_m);

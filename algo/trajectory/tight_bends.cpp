@@ -73,7 +73,7 @@ int add_zones_beside(const scene::Scene& scene, const Parameters& parameters, sc
     for (int i = 0; i <= steps; ++i) {
       work += kStepWork;
       const float s_m = from_s_m + static_cast<float>(i) * kStepM;
-      const Box ours = ego_box(reference_at(line, s_m).pose, parameters);
+      const Box ours = box_on_line(path, s_m, parameters);
       extend(lane, ours, s_m + rear_axle_to_centre_m(parameters), any, zone);
     }
     if (!any) continue;

@@ -108,28 +108,23 @@ TEST(LongVehicles, AZoneIsAsLongAsTheyTouchUs) {
   EXPECT_GT(touches, 100);
 }
 
-// CAND-026 Where we are already nothing is shown, so that we do not stand in a zone we cannot leave; nor where the bus has been.
-TEST(LongVehicles, WhatIsBehindUsAndBehindItIsLeftOut) {
-  LeftTurn turn;
-  const float entry_s_m = turn.zone().entry_s_m;
-  (void)turn.vehicle(30.0F, 12.0F);
-  turn.look_from(entry_s_m - rear_axle_to_centre_m(turn.parameters) - 0.2F);
-  EXPECT_NEAR(turn.zone().entry_s_m, entry_s_m - 0.2F, 0.01F);
-
-  LeftTurn gone;
-  (void)gone.vehicle(95.0F, 12.0F);
-  gone.look_from(50.0F);
-  EXPECT_FLOAT_EQ(gone.zone().entry_s_m, entry_s_m);
-}
-
-// CAND-026 Whoever owes us the way stops before its own end of the zone: ours stays as it is.
-TEST(LongVehicles, WhoOwesUsTheWayTakesNoMore) {
-  LeftTurn turn;
-  const float entry_s_m = turn.zone().entry_s_m;
-  turn.scene.ego_paths[0].zones[0].priority = Priority::kFirstHasPriority;
-  (void)turn.vehicle(30.0F, 12.0F);
-  turn.look_from(50.0F);
-  EXPECT_FLOAT_EQ(turn.zone().entry_s_m, entry_s_m);
+// CAND-026 The zone begins no sooner than we can stop 1 m before it: at 5 m/s 0.35 s and 25 / 12 m further, 4.83 m from our centre. Who is past
+// that is bound by the map's zone alone. Nor is it longer for a bus that has gone through.
+TEST(LongVehicles, NoZoneBeginsWhereWeCannotStopBeforeIt) {
+  const LeftTurn map;
+  const float drawn_s_m = map.zone().entry_s_m;
+  const auto entry_s_m = [](float centre_s_m, float bus_s_m) {
+    LeftTurn turn;
+    (void)turn.vehicle(bus_s_m, 12.0F);
+    turn.look_from(centre_s_m - rear_axle_to_centre_m(turn.parameters));
+    return turn.zone().entry_s_m;
+  };
+  const float grown_s_m = entry_s_m(50.0F, 30.0F);
+  EXPECT_LT(grown_s_m, drawn_s_m - 1.0F);
+  EXPECT_NEAR(entry_s_m(grown_s_m - 4.83F + 0.5F, 30.0F), grown_s_m + 0.5F, 0.01F);
+  EXPECT_FLOAT_EQ(entry_s_m(drawn_s_m - 4.0F, 30.0F), drawn_s_m);
+  EXPECT_FLOAT_EQ(entry_s_m(drawn_s_m + 0.5F, 30.0F), drawn_s_m);
+  EXPECT_FLOAT_EQ(entry_s_m(50.0F, 95.0F), drawn_s_m);
 }
 
 }  // namespace

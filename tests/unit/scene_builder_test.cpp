@@ -77,6 +77,33 @@ TEST(SceneBuilder, RemembersHowLongWeWaitedBeforeAnyJunction) {
   }
 }
 
+// CORE-033 What was waited at one junction is nothing at the next, 10 m behind it.
+TEST(SceneBuilder, ForgetsWhatWasWaitedWithTheJunction) {
+  LaneMap map;
+  const LaneIndex before = test::add_lane(map, {{0.0F, 0.0F}, {100.0F, 0.0F}});
+  const LaneIndex first = test::add_lane(map, {{100.0F, 0.0F}, {110.0F, 0.0F}});
+  const LaneIndex between = test::add_lane(map, {{110.0F, 0.0F}, {120.0F, 0.0F}});
+  const LaneIndex second = test::add_lane(map, {{120.0F, 0.0F}, {130.0F, 0.0F}});
+  test::link(map, before, first);
+  test::link(map, first, between);
+  test::link(map, between, second);
+  map.lanes[first].in_junction = map.lanes[second].in_junction = true;
+  scene::SceneBuilder builder;
+  scene::Scene scene;
+  std::uint32_t now_ms = 1000;
+  const auto waited_s = [&](float x_m, float speed_mps) {
+    now_ms += 100;
+    EXPECT_EQ(builder.build(now_ms, test::ego_at(x_m, 0.0F, 0.0F, speed_mps), TrackList{}, now_ms, &map,
+                            Parameters{}, scene),
+              Status::kOk);
+    return scene.waited_s;
+  };
+  for (int i = 0; i < 20; ++i) (void)waited_s(90.0F, 0.0F);
+  const float waited_before_s = waited_s(105.0F, 3.0F);
+  EXPECT_GT(waited_before_s, 1.8F);
+  EXPECT_FLOAT_EQ(waited_s(112.0F, 3.0F), 0.0F);
+}
+
 // CORE-034 Twenty steps of standing are 2 s; at 1 m/s it moves, and the count begins anew. How long it has
 // been seen goes on.
 TEST(SceneBuilder, CountsHowLongSomebodyStands) {
