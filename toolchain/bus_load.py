@@ -73,7 +73,7 @@ def report(frames):
               f"Limit: {100 * LIMIT:.0f} %.", "",
               "While the map is sent for the first time, or changes all over, the map node takes its whole pace of "
               f"{START_PACE} frames/s: {percent(start)} at most.",
-              f"The {map_frames} records of the largest map then take {map_frames / (START_PACE - headers):.2f} s.", "",
+              f"The {map_frames} frames of the largest map then take {map_frames / (START_PACE - headers):.2f} s.", "",
               "With authentication (companions and nonces, docs/threat_model.md): "
               f"{percent(start + everything - total)} at most then.", ""]
     return "\n".join(lines), everything * FRAME_BITS / BITRATE

@@ -18,7 +18,9 @@ class PlanningCycle::Ranking final : public trajectory::CandidateVisitor {
               sadrf::least_rank_work(planner.scene_)) {
     const std::int32_t lead_ms = static_cast<std::int32_t>(planner.start_ms_ - planner.scene_.time_ms);
     const std::int32_t left = planner.work_.left() - (kept_ - kCandidatesWork);
-    const std::int32_t most = kCandidatesWork - planner.line_work_;
+    // However long lines took: without a candidate we stand where we are for ever.
+    const std::int32_t row = kCandidatesWork - planner.line_work_;
+    const std::int32_t most = row > kCandidatesWork / 2 ? row : kCandidatesWork / 2;
     given_ = meter.left = left < most ? left : most;
     const int look_work = cost_to_go_.look(planner.scene_, planner.constant_velocity_,
                                            0.001F * static_cast<float>(lead_ms), planner.parameters_);

@@ -8,15 +8,17 @@
 namespace s4tp::trajectory {
 namespace {
 
-constexpr float kStepM = 1.0F;
+constexpr float kStepM = 1.5F;
 constexpr int kMostSteps = 40;
 constexpr float kNearM = 15.0F;       // of the middle of the bend
 constexpr float kHalfWidthM = 0.9F;   // of a usual car
+constexpr float kReachM = 4.0F;       // of our box and half a usual car, from our centre
 constexpr float kWaitedForM = 20.0F;  // zones of the map so near are of the same junction
 
 // Work (WorkMeter's units).
 constexpr int kLaneWork = 5;
-constexpr int kStepWork = 22;
+constexpr int kPlaceWork = 4;
+constexpr int kExtendWork = 20;
 
 /// Extends the zone by our box at one place, where it reaches into the lane.
 void extend(const Lane& lane, const Box& ours, float centre_s_m, bool& any, scene::ConflictZone& zone) {
@@ -36,8 +38,8 @@ void extend(const Lane& lane, const Box& ours, float centre_s_m, bool& any, scen
       zone.other_exit_m = 0.0F;
     }
     zone.exit_s_m = centre_s_m + kStepM;
-    zone.other_entry_m = min(zone.other_entry_m, fix.s_m - scene::kUsualHalfLengthM);
-    zone.other_exit_m = max(zone.other_exit_m, fix.s_m + scene::kUsualHalfLengthM);
+    zone.other_entry_m = min(zone.other_entry_m, fix.s_m - scene::kUsualHalfLengthM - kStepM);
+    zone.other_exit_m = max(zone.other_exit_m, fix.s_m + scene::kUsualHalfLengthM + kStepM);
   }
 }
 
@@ -64,16 +66,21 @@ int add_zones_beside(const scene::Scene& scene, const Parameters& parameters, sc
     const Lane& lane = scene.map->lanes[index];
     if (lane.in_junction || !scene::usable(lane) || scene::is_along(path.path, index)) continue;
     work += kLaneWork;
-    if (scene::nearest_on_lane(lane, middle).distance_m > kNearM) continue;
+    const float away_m = scene::nearest_on_lane(lane, middle).distance_m;
+    if (away_m > kNearM) continue;
     scene::ConflictZone zone;
     zone.other_lane = index;
     zone.priority = Priority::kFirstYields;
     zone.beside = true;
     bool any = false;
     for (int i = 0; i <= steps; ++i) {
-      work += kStepWork;
+      work += kPlaceWork;
       const float s_m = from_s_m + static_cast<float>(i) * kStepM;
       const Box ours = box_on_line(path, s_m, parameters);
+      if (away_m - distance(middle, position(ours.centre)) > kReachM) continue;
+      work += kLaneWork;
+      if (scene::nearest_on_lane(lane, position(ours.centre)).distance_m > kReachM) continue;
+      work += kExtendWork;
       extend(lane, ours, s_m + rear_axle_to_centre_m(parameters), any, zone);
     }
     if (!any) continue;

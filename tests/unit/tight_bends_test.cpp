@@ -81,6 +81,17 @@ TEST(TightBends, WhatOurFrontSwingsIntoIsAZone) {
   }
 }
 
+// CAND-025 Where 24 lanes lie across such a turn, as on networks whose edges overlap, looking at them takes less than a quarter of the
+// 23,000 units that candidates have: a drive stood for ever where three paths left none.
+TEST(TightBends, ManyLanesLeaveWorkForCandidates) {
+  Turn turn(3.0F);
+  for (int k = 0; k < 24; ++k) {
+    const float y_m = 1.0F * static_cast<float>(k) - 14.0F;
+    (void)add_lane(turn.map, {{-30.0F, y_m}, {30.0F, y_m}});
+  }
+  EXPECT_LT(add_zones_beside(turn.scene, turn.parameters, turn.scene.ego_paths[0]), 23'000 / 4);
+}
+
 // CAND-025 A turn that we can steer needs nothing of the lanes beside it.
 TEST(TightBends, AWideTurnNeedsNoMoreThanItsLane) {
   const Turn turn(6.5F);
