@@ -74,9 +74,8 @@ void Guard::commit(int path, const Verdict& verdict) {
   const scene::Manoeuvre manoeuvre = path >= 0 && path < scene_->ego_paths.size()
                                          ? scene_->ego_paths[path].manoeuvre
                                          : scene::Manoeuvre::kKeep;
-  change_.given_up = manoeuvre == scene::Manoeuvre::kKeep;
-  if (!change_.given_up)
-    change_ = {manoeuvre == scene::Manoeuvre::kLeft ? 1.0F : -1.0F, false, false, scene_->time_ms};
+  if (manoeuvre != scene::Manoeuvre::kKeep)
+    change_ = {manoeuvre == scene::Manoeuvre::kLeft ? 1.0F : -1.0F, false, scene_->time_ms};
   // A licence lost before it was used is not in here any more.
   latched_.clear();
   if (!verdict.clears || path < 0 || path >= scene_->ego_paths.size()) return;
@@ -160,11 +159,9 @@ Verdict Guard::judge(int path_index, const Trajectory& trajectory) const {
   }
   // Behind a leader. The fail-safe in force stops behind whoever keeps to the law; a moving one nearer than
   // that has broken it: then it only must not get worse, and behind a slower one, or one that stands, that takes braking.
-  // A fail-safe in force that goes over to another lane does not stop behind whoever leads in the one it leaves.
-  const bool goes_over = context.settles && !change_.over && !change_.given_up;
   const float coasting_s_m = at_once_s_m + own.speed_mps[0] * guard.takeover_s;
   const auto reachable_s_m = [&](float free_s_m, float its_mps) {
-    if (goes_over || own.nearest_stop_s_m(guard.braking_mps2) <= free_s_m) return free_s_m;
+    if (own.nearest_stop_s_m(guard.braking_mps2) <= free_s_m) return free_s_m;
     const bool slower = its_mps < max(own.speed_mps[0], kStandingMps);
     return max(free_s_m, (slower ? lerp(at_once_s_m, coasting_s_m, kEasesOff) : coasting_s_m) + kRoundingM);
   };

@@ -183,7 +183,6 @@ class Guard {
   struct Change {
     float side = 0.0F;           ///< 1: to the left, -1: to the right, 0: none
     bool over = false;           ///< we are in the lane it leads to
-    bool given_up = false;       ///< a plan that keeps to the lane has been in force since
     std::uint32_t since_ms = 0;  ///< when it was in force last, or, once over, when it came over
   };
   /// A track that stays out of the ground we share with a lane, while we pass it.

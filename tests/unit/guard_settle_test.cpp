@@ -63,26 +63,6 @@ TEST(GuardSettle, ItsFailSafeLeavesThatRoom) {
   EXPECT_TRUE(verdict.fail_safe.branch_s >= 2.0F || verdict.fail_safe.braking_mps2 < 4.0F);
 }
 
-// GUARD-013 At 10 m/s, 6 m behind one that stands in our lane, no braking helps. Who has been going to stop behind it brakes as hard as it can;
-// who goes over to the other lane, by a fail-safe that ends there, does not come back to run into it.
-TEST(GuardSettle, WhoGoesOverToAnotherLaneDoesNotComeBackBehindOneThatStands) {
-  for (const bool given_up : {false, true}) {
-    LaneChangeRoad road;
-    const Parameters parameters;
-    TrajectoryPoint start = state_on(road.map, road.scene.ego_paths[0].path, 98.5F, kOwnMps);
-    start.rear_axle.y_m += 1.0F;
-    put_ego(road.scene, start);
-    Guard guard;
-    guard.look(road.scene, start, 0.0F, parameters);
-    guard.commit(1, guard.judge(1, across(start, 0.0F, kLaneWidthM - 1.0F)));
-    if (given_up) guard.commit(0, guard.judge(0, across(start, 0.0F, -1.0F)));
-    add_vehicle(road.scene, road.map, path_of(road.map, {0}), 100.0F + 5.0F + 6.0F, 0.0F);
-    road.scene.time_ms += 100;
-    guard.look(road.scene, start, 0.0F, parameters);
-    EXPECT_EQ(guard.judge(0, across(start, -6.0F, -1.0F)).cause, given_up ? Cause::kNone : Cause::kLeader);
-  }
-}
-
 // GUARD-013 Two seconds after it was last in force whoever is behind keeps its own distance; so it does where there was no change.
 TEST(GuardSettle, AfterAWhileWhoIsBehindLooksAhead) {
   for (const bool sets_out : {true, false}) {
