@@ -13,7 +13,7 @@ constexpr float kPlaceM = 1.0F;  // from one place of the vehicle to the next, a
 constexpr int kMostPlaces = 40;
 constexpr float kStepM = 0.5F;       // of our box
 constexpr float kFurthestM = 12.0F;  // that our ground grows to either side
-constexpr float kSpareM = 0.1F;      // between the boxes, as the map has it
+constexpr float kSpareM = 0.1F;      // between the boxes
 constexpr float kRoomM = 1.0F;       // to stand in before it
 constexpr float kBendRad = 0.2F;     // who turns by less takes no more than its lane
 
