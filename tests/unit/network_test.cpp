@@ -56,6 +56,16 @@ TEST(Network, ACrossingIsWhereTwoBoxesTouch) {
   EXPECT_DOUBLE_EQ(found->second_exit_m, 13.5);
 }
 
+// NET-002 The same ground where the network says that the two are no foes: cars are what touches.
+TEST(Network, GroundIsSharedWhateverTheNetworkSays) {
+  const Network network =
+      network_of(replaced(replaced(kCross, R"(foes="10")", R"(foes="00")"), R"(foes="01")", R"(foes="00")"));
+  const auto found = conflict_of(network, ":c_0_0", ":c_1_0");
+  ASSERT_TRUE(found);
+  EXPECT_DOUBLE_EQ(found->first_entry_m, 6.5);
+  EXPECT_DOUBLE_EQ(found->second_exit_m, 13.5);
+}
+
 // NET-002 Both yield to each other (zipper, all-way stop), or neither does: whoever comes first.
 TEST(Network, WithoutAnOrderWhoeverComesFirstGoes) {
   const Network both =

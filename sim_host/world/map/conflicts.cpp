@@ -17,7 +17,7 @@ namespace {
 constexpr double kStep_m = 0.25;
 constexpr double kHalfLength_m = 0.5 * 5.0;  // the box of a usual car
 constexpr double kHalfWidth_m = 0.5 * 1.8;
-constexpr double kSpare_m = 0.1;  // all around it, between links the network calls foes
+constexpr double kSpare_m = 0.1;  // all around it: nobody is exactly on the line
 constexpr double kReach_m = 4.0;  ///< before and after the junction: a car's nose or tail is still inside
 
 struct Box {
@@ -35,9 +35,9 @@ struct Place {
 };
 
 /// Separating axes: do not touch if the boxes are apart along any of their four sides' normals.
-bool touch(const Box& a, const Box& b, double spare_m) {
-  const double half_length = kHalfLength_m + spare_m;
-  const double half_width = kHalfWidth_m + spare_m;
+bool touch(const Box& a, const Box& b) {
+  const double half_length = kHalfLength_m + kSpare_m;
+  const double half_width = kHalfWidth_m + kSpare_m;
   const double dx = b.centre.x - a.centre.x;
   const double dy = b.centre.y - a.centre.y;
   const double diagonal = 2.0 * std::hypot(half_length, half_width);
@@ -57,9 +57,8 @@ bool touch(const Box& a, const Box& b, double spare_m) {
   return true;
 }
 
-bool touch(const Place& a, const Place& b, double spare_m) {
-  return touch(a.along, b.along, spare_m) || touch(a.along, b.chord, spare_m) ||
-         touch(a.chord, b.along, spare_m);
+bool touch(const Place& a, const Place& b) {
+  return touch(a.along, b.along) || touch(a.along, b.chord) || touch(a.chord, b.along);
 }
 
 /// So many places further on the boxes cannot touch yet, as a place is at most a step from the next.
@@ -131,10 +130,6 @@ std::vector<Place> places_along(const std::vector<Lane>& lanes, const Link& link
     append_places(lanes, way, starts_m[i], all[i], from_m, to_m, places);
   }
   return places;
-}
-
-bool foes(const Link& first, std::size_t second_index) {
-  return second_index < first.foes.size() && first.foes[second_index];
 }
 
 Rule rule_of(const Link& first, std::size_t first_index, const Link& second, std::size_t second_index,
@@ -212,12 +207,12 @@ Rule seen_from_the_other(Rule rule) {
 
 /// Where the boxes of vehicles on two links of a junction touch.
 Found touches(const std::vector<Lane>& lanes, const std::vector<Place>& first,
-              const std::vector<Place>& second, Rule rule, double spare_m) {
+              const std::vector<Place>& second, Rule rule) {
   Found found;
   for (const Place& a : first) {
     for (std::size_t k = 0; k < second.size(); k += 1 + steps_apart(a, second[k])) {
       const Place& b = second[k];
-      if (!touch(a, b, spare_m) || joined(lanes, a.lane, b.lane) ||
+      if (!touch(a, b) || joined(lanes, a.lane, b.lane) ||
           !(lane_at(lanes, a.lane).in_junction || lane_at(lanes, b.lane).in_junction)) {
         continue;
       }
@@ -241,9 +236,7 @@ void add_conflicts(Found& all, const std::vector<Lane>& lanes, const Junction& j
       }
       const Rule rule =
           junction.first_come ? Rule::kFirstCome : rule_of(first, i, second, j, junction.signals);
-      // Ways that merely graze each other with room to spare are no conflict unless the network says so.
-      const double spare_m = foes(first, j) || foes(second, i) ? kSpare_m : 0.0;
-      merge_into(all, touches(lanes, places[i], places[j], rule, spare_m));
+      merge_into(all, touches(lanes, places[i], places[j], rule));
     }
   }
 }

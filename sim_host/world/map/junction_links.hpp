@@ -17,7 +17,6 @@ struct Link {
   LaneId to = kNoLane;
   std::vector<bool> yields_to;  ///< by index of the other link; empty: the network does not say
   int priority = 0;             ///< of the edge it comes from
-  std::vector<bool> foes;       ///< the same, of those that SUMO holds to share ground
 };
 
 struct Junction {

@@ -33,7 +33,7 @@ struct Lane {
 enum class Rule { kFirstYields, kFirstHasPriority, kFirstCome };
 
 /// Two lanes share ground (crossing or merging). Arc lengths are of a box centre (5.0 x 1.8 m boxes, 0.1 m
-/// spare around those the network calls foes) on each. Lanes that merge stay in conflict up to the end of
+/// spare around each) on each. Lanes that merge stay in conflict up to the end of
 /// both. At least one of the two is inside the junction. NET-002 every pair whose boxes can touch is listed
 /// once, with the network's own rule.
 struct Conflict {

@@ -56,20 +56,15 @@ class JunctionReader {
       }
       for (const pugi::xml_node request : node.children("request")) {
         const std::size_t index = request.attribute("index").as_uint(~0U);
-        const auto bits = [&](const char* name) {
-          const std::string text = request.attribute(name).value();
-          if (index >= junction.links.size() || text.find_first_not_of("01") != std::string::npos) {
-            fail_at(where, "request index=\"" + std::string(request.attribute("index").value()) +
-                               "\": expected an index below the number of intLanes, and " + name +
-                               " of 0s and 1s");
-          }
-          std::vector<bool> found(text.size());
-          std::transform(text.rbegin(), text.rend(), found.begin(), [](char c) { return c == '1'; });
-          return found;  // the text's last character is link 0
-        };
-        const std::vector<bool> yields_to = bits("response");
-        junction.links[index].yields_to = yields_to;
-        junction.links[index].foes = bits("foes");
+        const std::string response = request.attribute("response").value();
+        if (index >= junction.links.size() || response.find_first_not_of("01") != std::string::npos) {
+          fail_at(where, "request index=\"" + std::string(request.attribute("index").value()) +
+                             "\": expected an index below the number of intLanes, and response of 0s and 1s");
+        }
+        std::vector<bool>& yields_to = junction.links[index].yields_to;
+        yields_to.resize(response.size());  // the text's last character is link 0
+        std::transform(response.rbegin(), response.rend(), yields_to.begin(),
+                       [](char c) { return c == '1'; });
       }
       junctions.push_back(std::move(junction));
     }
