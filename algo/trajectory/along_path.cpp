@@ -28,6 +28,17 @@ bool clear_of(const scene::Scene& scene, const scene::EgoPath& path, const scene
          agent.track.length_m < 10.0F;
 }
 
+/// Whether the vehicle's lane leaves the path at a fork.
+bool forks_off(const scene::Scene& scene, const scene::EgoPath& path, const scene::Agent& agent) {
+  if (agent.lane == kNoLaneIndex || scene::is_along(path.path, agent.lane)) return false;
+  for (const scene::PathLane& ours : path.path.lanes) {
+    for (const LaneIndex successor : scene.map->lanes[ours.lane].successors) {
+      if (successor == agent.lane) return true;
+    }
+  }
+  return false;
+}
+
 /// Whether our box, driven along the path, comes within kStripM of a vehicle that stands across or against
 /// it.
 bool sweeps(const scene::Scene& scene, const scene::EgoPath& path, const scene::Agent& agent, OnPath& seen,
@@ -100,7 +111,8 @@ OnPath see_on_path(const scene::Scene& scene, const scene::EgoPath& path, const 
   seen.half_width_m = 0.5F * (abs(cosine) * agent.track.width_m + sine * agent.track.length_m);
   seen.along_mps = agent.track.speed_mps * cosine;
   seen.left_mps = agent.track.speed_mps * signed_sine;
-  seen.crossing = cosine < kCrossingCos && agent.track.speed_mps > kMovingMps;
+  seen.crossing =
+      cosine < kCrossingCos && agent.track.speed_mps > kMovingMps && !forks_off(scene, path, agent);
   seen.overlaps = abs(seen.centre_d_m) < 0.5F * parameters.vehicle.width_m + seen.half_width_m + kStripM;
   // Along the path its strip tells; across or against it boxes do: in a bend they pass where strips overlap.
   if (seen.overlaps && cosine < kCrossingCos && !seen.crossing)

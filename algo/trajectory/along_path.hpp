@@ -20,8 +20,10 @@ struct OnPath {
   float half_width_m = 0.0F;
   float left_mps = 0.0F;   ///< speed across the path
   float along_mps = 0.0F;  ///< speed along the path; negative: towards us
-  bool crossing = false;   ///< moving, more than 45 degrees off the path's direction or against it
-  int work = 0;            ///< what seeing it took [WorkMeter's units]
+  /// Moving, more than 45 degrees off the path's direction or against it. CAND-028 Not so who turns off where the path's lanes
+  /// fork: it was ahead of us, and no zone tells of it.
+  bool crossing = false;
+  int work = 0;  ///< what seeing it took [WorkMeter's units]
 };
 
 /// Where `lane` begins along the way. \return false: the way does not lead along it
