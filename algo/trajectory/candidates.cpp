@@ -42,7 +42,6 @@ constexpr int kMostTrialWork = kTrialWork + kRollOutWork * kStretches + kSteered
 
 constexpr float kAlikeM = 0.05F;          // two roll-outs nearer than this at half time and end are one
 constexpr float kStopShortOfEndM = 1.0F;  // before the end of a road
-constexpr float kDriveShare = 0.85F;      // of the strongest drive: some is left to follow the plan with
 constexpr float kStopBeforeZoneM = 1.0F;  // waiting beyond a stop line, before the zone itself
 constexpr float kPassedM = 0.5F;          // a stopping place this far behind us is passed
 constexpr float kOnPlanM = 0.01F;         // from where we start exactly on it

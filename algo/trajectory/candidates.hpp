@@ -87,6 +87,9 @@ class CandidateVisitor {
 /// CAND-021 Roll-outs of a cycle, a steered one counting as three; what is not tried then is left out.
 inline constexpr int kMaxRollOuts = 60;
 
+/// Of the strongest drive, and of the lateral acceleration that makes a plan infeasible: some is left to follow the plan with.
+inline constexpr float kDriveShare = 0.85F;
+
 inline constexpr int kRollOutWork = 215;  ///< of one [WorkMeter's units], and ...
 inline constexpr int kSteeredWork = 430;  ///< ... of a steered one
 

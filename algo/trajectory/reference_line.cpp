@@ -141,6 +141,8 @@ int build_reference(const LaneMap& map, const scene::LanePath& path, float from_
     const scene::PathPoint point = cursor.at(line.start_s_m + static_cast<float>(i) * line.spacing_m);
     line.samples[i].pose = point.pose;
     line.samples[i].speed_cap_mps = point.speed_limit_mps;
+    line.slowest_limit_mps =
+        i == 0 ? point.speed_limit_mps : min(line.slowest_limit_mps, point.speed_limit_mps);
   }
   smooth(line);
   const int widening_work = widen_tight_bends(parameters, line);

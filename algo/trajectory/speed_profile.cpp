@@ -20,9 +20,16 @@ constexpr float kDriveJerkMps3 = 8.0F;   // building up drive
 constexpr float kBrakeJerkMps3 = 12.0F;  // ordinary braking and its release
 constexpr float kHardMps2 = -3.5F;       // braking harder builds up with kHardJerkMps3
 
-/// Acceleration that meets the speed cap kReactS ahead.
-float for_cap(const ReferenceLine& line, const LongitudinalState& state) {
-  const float cap_mps = speed_cap_at(line, state.s_m + kReactS * state.speed_mps);
+/// Acceleration that meets the speed cap kReactS ahead. Who is brisk is so in bends, too, until they end.
+float for_cap(const ReferenceLine& line, const LongitudinalState& state, bool brisk,
+              const Parameters& parameters) {
+  const auto& comfort = parameters.comfort;
+  float cap_mps = speed_cap_at(line, state.s_m + kReactS * state.speed_mps);
+  if (brisk) {
+    const float bend_mps = min(cap_mps, speed_cap_at(line, state.s_m));
+    const float faster = sqrt(max(1.0F, kDriveShare * comfort.lateral_max_mps2 / comfort.lateral_mps2));
+    cap_mps = max(bend_mps, min(faster * bend_mps, line.slowest_limit_mps));
+  }
   return max(-kCapBrakingMps2, (cap_mps - state.speed_mps) / kReactS);
 }
 
@@ -63,7 +70,8 @@ float for_place(float ahead_m, float speed_mps, float place_mps, const Parameter
 
 float wanted_acceleration(const ReferenceLine& line, const Candidate& candidate,
                           const LongitudinalState& state, float time_s, const Parameters& parameters) {
-  float wanted = min(candidate.acceleration_mps2, for_cap(line, state));
+  const bool brisk = candidate.acceleration_mps2 > parameters.comfort.acceleration_mps2;
+  float wanted = min(candidate.acceleration_mps2, for_cap(line, state, brisk, parameters));
   if (wanted <= 0.0F && state.speed_mps < kHoldMps) wanted = min(wanted, -kRestMps2);  // nobody crawls
   if (candidate.intent == Intent::kStop) {
     const float left_m = candidate.target_s_m - state.s_m;

@@ -14,7 +14,8 @@ struct LongitudinalState {
 };
 
 /// Acceleration the candidate asks for at `time_s` after plan start: its intent, bounded by the speeds that
-/// limit and curves allow ahead.
+/// limit and curves allow ahead. CAND-027 Who gains speed faster than is comfortable is as brisk in bends: with
+/// kDriveShare of the lateral acceleration that makes a plan infeasible, where that is below the limits along the line.
 [[nodiscard]] float wanted_acceleration(const ReferenceLine& line, const Candidate& candidate,
                                         const LongitudinalState& state, float time_s,
                                         const Parameters& parameters);
