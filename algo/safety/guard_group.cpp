@@ -73,11 +73,16 @@ bool Guard::passes_threat(const scene::EgoPath& path, const PathContext& context
                (zone.exit_s_m - own.place_at_m(time_s, cap_mps));
       };
       const float slower_mps = max(0.0F, its_mps - own.speed_at_mps(respond_s, cap_mps));
-      const float needed_m = half_m + parameters_->guard.margin_m +
-                             occupancy::stopping_way_m(slower_mps, parameters_->law.duty_braking_mps2);
-      // Nor may it come in beside us or before us.
+      // Nor may it come in beside us or before us, nor stop further on than we do once whoever leads brakes hard.
+      const float apart_m = half_m + parameters_->guard.margin_m;
       const float both_in_s = max(in_s, max(when.from_s, 0.0F));
-      if (gap_m(respond_s) >= needed_m && gap_m(both_in_s) >= half_m + parameters_->guard.margin_m)
+      const float duty_mps2 = parameters_->law.duty_braking_mps2;
+      const float stand_s_m = context.leader_stop_s_m - context.front_m - parameters_->guard.margin_m;
+      const float going_m = gap_m(respond_s);
+      const float standing_m = going_m + stand_s_m - own.place_at_m(respond_s, cap_mps);
+      if (going_m >= apart_m + occupancy::stopping_way_m(slower_mps, duty_mps2) &&
+          standing_m >= apart_m + occupancy::stopping_way_m(its_mps, duty_mps2) &&
+          gap_m(both_in_s) >= apart_m)
         return true;
     }
   }

@@ -25,6 +25,17 @@ TEST(Guard, MergingBeforeAnotherLeavesItRoomToBrake) {
   }
 }
 
+// GUARD-008 The same where somebody stands further on, at 120: our centre stands at 120 - 5 - 0.5 = 114.5 at the furthest, and the other,
+// 6 m behind our 108 with 12 m/s, 144 / 8 = 18 m further on: 6 + 6.5 - 18 is no room for 5.5. Behind one at 160 there is.
+TEST(Guard, MergingBeforeAnotherLeavesItRoomBehindWhoeverLeads) {
+  for (const float leader_m : {120.0F, 160.0F}) {
+    SharedGround road(Priority::kFirstYields, true);
+    road.other(96.0F - 14.0F, 8.0F);
+    road.leader(leader_m, 0.0F);
+    EXPECT_EQ(road.safe(84.0F, 12.0F, 0.0F), leader_m > 140.0F) << leader_m;
+  }
+}
+
 // GUARD-008 Into one lane, we second: from 92 at 5 m/s the fail-safe stops at 92 + 1.75 + 2.08 = 95.8. The
 // other is in the zone at 97 and brakes with 8 m/s^2: from 7.5 m/s it stops at 100.5, 5.5 m before that is
 // 95; from 9 m/s at 102.1, which leaves 96.6.
