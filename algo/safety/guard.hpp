@@ -14,8 +14,9 @@
 /// before the group any more, before the zone where the first comes. Whoever comes in sight after that and can stop finds the
 /// ground taken. GUARD-007 Who cannot stay out of a zone any more leaves it no later than it was to. Who has come to a stand in
 /// a group may stand on, and where lanes merge sets off beside nobody: only before, or behind, all of whoever is there.
-/// GUARD-008 Merging leaves room, in both orders, and should whoever leads brake hard. GUARD-009 A lane change leaves who is behind, who may gain speed until we are
-/// over the line, room to brake, and begins only when who is ahead is ahead of all of us by then, braking as hard as can be.
+/// GUARD-008 Merging leaves room, in both orders, and should whoever leads brake hard.
+/// GUARD-009 A lane change leaves who is behind, who may gain speed until we are over the line, room to brake,
+/// and begins only when who is ahead is ahead of all of us by then, braking as hard as can be.
 /// Whoever stands there needs no such room: our box keeps off its. Once our box is in there, one behind it that lacks
 /// room however we stop, driving on as we do, has broken the law or come out of nowhere: no plan leaves it less.
 /// GUARD-010 Whoever drives only what passes, and else the last fail-safe, touches nobody who keeps to the

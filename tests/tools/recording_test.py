@@ -20,7 +20,7 @@ TOOL = pathlib.Path(os.environ["S4TP_BUILD"]) / "sim_host/s4tp_tool"
 SCENARIOS = pathlib.Path(__file__).resolve().parents[2] / "sim_host/scenarios"
 PRE_ROLL = 300  # ticks before the ECU takes over
 COMMAND = " 008#"
-SEED = 29  # of a drive of some 20 s and more; how it ends is not what is looked at here
+SEED = 16  # of a drive of more than half a minute; how it ends is not what is looked at here
 ENDED = (0, 1)  # exit codes of a drive that was driven: at the goal, or not
 
 
@@ -110,7 +110,7 @@ class Recording(unittest.TestCase):
     def test_files_rotate_by_size(self):
         drive(self.folder, "--record", "r.log", "--record-size-mb", 0.1, "--out", "out")
         files = [self.folder / name for name in ["r.log", *(f"r.log.{i}" for i in range(1, 100))] if (self.folder / name).exists()]
-        self.assertGreater(len(files), 6)
+        self.assertGreater(len(files), 10)
         self.assertEqual(b"".join(file.read_bytes() for file in files), (self.kept / "drive.log").read_bytes())
         first_id = self.lines()[0].split()[2].split("#")[0]
         for file in files:
@@ -242,7 +242,7 @@ class Recording(unittest.TestCase):
             if place is not None:
                 compared += 1
                 self.assertLess(math.dist(place, frame["ego"][:2]) * truth["unit_m"], 1.5)  # 0.1 s at 13.9 m/s
-        self.assertGreater(compared, 200)
+        self.assertGreater(compared, 300)
         self.assertEqual([cycle["words"] for cycle in truth["cycles"] if "words" in cycle][-5:],
                          [cycle["words"] for cycle in seen["cycles"] if "words" in cycle][-5:])
         self.assertEqual({len(cycle["plan"]) for cycle in seen["cycles"]}, {32})

@@ -21,8 +21,8 @@ struct Road {
     map.lanes[lane].in_junction = in_junction;
     if (lane > 0) test::link(map, static_cast<LaneIndex>(lane - 1), lane);
   }
-  float waited_s(float x_m, float speed_mps) {
-    now_ms += 100;
+  float waited_s(float x_m, float speed_mps, std::uint32_t step_ms = 100) {
+    now_ms += step_ms;
     EXPECT_EQ(builder.build(now_ms, test::ego_at(x_m, 0.0F, 0.0F, speed_mps), TrackList{}, now_ms, &map,
                             Parameters{}, scene),
               Status::kOk);
@@ -33,30 +33,21 @@ struct Road {
 // CORE-033 20 steps at rest 10 m before a zone are 2 s; driving off keeps them, and a hole of 10 s counts as half
 // a second. 60 m before nothing is counted; behind the junction it is forgotten. Who has the way does not matter.
 TEST(Waiting, RemembersHowLongWeWaited) {
-  LaneMap map = test::straight_road(1, 200.0F);
-  const LaneIndex across = test::add_lane(map, {{100.0F, -50.0F}, {100.0F, 50.0F}});
-  test::add_conflict(map, 0, across, Priority::kFirstYields);
-  scene::SceneBuilder builder;
-  scene::Scene scene;
-  std::uint32_t now_ms = 1000;
-  const auto waited_s = [&](float x_m, float speed_mps, std::uint32_t step_ms = 100) {
-    now_ms += step_ms;
-    EXPECT_EQ(builder.build(now_ms, test::ego_at(x_m, 0.0F, 0.0F, speed_mps), TrackList{}, now_ms, &map,
-                            Parameters{}, scene),
-              Status::kOk);
-    return scene.waited_s;
-  };
-  EXPECT_FLOAT_EQ(waited_s(85.0F, 0.0F), 0.0F);
-  for (int i = 0; i < 20; ++i) (void)waited_s(85.0F, 0.0F);
-  EXPECT_FLOAT_EQ(scene.waited_s, 2.0F);
-  EXPECT_FLOAT_EQ(waited_s(86.0F, 4.0F), 2.0F);
-  EXPECT_FLOAT_EQ(waited_s(95.0F, 8.0F), 2.0F);
-  EXPECT_FLOAT_EQ(waited_s(95.0F, 0.0F, 10'000), 2.5F);
-  EXPECT_FLOAT_EQ(waited_s(110.0F, 8.0F), 0.0F);
-  EXPECT_FLOAT_EQ(waited_s(36.0F, 0.0F), 0.0F);
-  EXPECT_FLOAT_EQ(waited_s(36.0F, 0.0F), 0.0F);
-  map.conflicts[0].priority = Priority::kFirstHasPriority;
-  EXPECT_GT(waited_s(85.0F, 0.0F), 0.0F);
+  Road road;
+  road.add(0.0F, 200.0F, false);
+  const LaneIndex across = test::add_lane(road.map, {{100.0F, -50.0F}, {100.0F, 50.0F}});
+  test::add_conflict(road.map, 0, across, Priority::kFirstYields);
+  EXPECT_FLOAT_EQ(road.waited_s(85.0F, 0.0F), 0.0F);
+  for (int i = 0; i < 20; ++i) (void)road.waited_s(85.0F, 0.0F);
+  EXPECT_FLOAT_EQ(road.scene.waited_s, 2.0F);
+  EXPECT_FLOAT_EQ(road.waited_s(86.0F, 4.0F), 2.0F);
+  EXPECT_FLOAT_EQ(road.waited_s(95.0F, 8.0F), 2.0F);
+  EXPECT_FLOAT_EQ(road.waited_s(95.0F, 0.0F, 10'000), 2.5F);
+  EXPECT_FLOAT_EQ(road.waited_s(110.0F, 8.0F), 0.0F);
+  EXPECT_FLOAT_EQ(road.waited_s(36.0F, 0.0F), 0.0F);
+  EXPECT_FLOAT_EQ(road.waited_s(36.0F, 0.0F), 0.0F);
+  road.map.conflicts[0].priority = Priority::kFirstHasPriority;
+  EXPECT_GT(road.waited_s(85.0F, 0.0F), 0.0F);
 }
 
 // CORE-033 Before a junction through which no zone of the map is on our way we wait as well: a bend there may be tighter than we steer.
