@@ -101,7 +101,7 @@ void World::Impl::move_ego() {
   const int since_entry = tick_number - entry_tick;
   if (since_entry <= 0) {
     const traffic::CarState state = ego_at_entry(scenario, since_entry * traffic::kTick_s);
-    vehicle.vehicle().place(state.centre, state.heading_rad, state.speed_mps);
+    vehicle.vehicle().place(state.centre, state.heading_rad, state.speed_mps, state.yaw_rate_radps);
     vehicle.idle();
     place = {start_lane, mission.start_s_m + mission.start_speed_mps * since_entry * traffic::kTick_s, 0.0,
              true};

@@ -77,19 +77,48 @@ bool touched_at_entry(const scenario::Scenario& scenario, const WorldOptions& op
   return false;
 }
 
+/// Where a car's rear axle goes, and how it points there.
+struct RearAxle {
+  map::Vec2 point;
+  double heading_rad;
+};
+
+/// Along the line's mean over kSmooth_m to either side: at a vertex nobody turns at once, and where this leads is where the
+/// car points.
+RearAxle rear_axle_along(const map::Polyline& line, double s_m) {
+  constexpr double kSmooth_m = 4.0;
+  constexpr int kSamples = 33;
+  RearAxle axle{};
+  for (int i = 0; i < kSamples; ++i) {
+    const map::Vec2 point = line.at(s_m + kSmooth_m * (2.0 * i / (kSamples - 1) - 1.0)).point;
+    const double weight = i == 0 || i == kSamples - 1 ? 0.5 : 1.0;
+    axle.point.x += weight * point.x / (kSamples - 1);
+    axle.point.y += weight * point.y / (kSamples - 1);
+  }
+  const map::Vec2 rear = line.at(s_m - kSmooth_m).point;
+  const map::Vec2 front = line.at(s_m + kSmooth_m).point;
+  axle.heading_rad = std::atan2(front.y - rear.y, front.x - rear.x);
+  return axle;
+}
+
 }  // namespace
 
 CarState ego_at_entry(const scenario::Scenario& scenario, double time_s) {
   const scenario::Mission& mission = scenario.mission;
-  const map::PolylinePose pose =
-      scenario.network.lanes[static_cast<std::size_t>(mission.start_lane)].centre.at(
-          mission.start_s_m + mission.start_speed_mps * time_s);
+  const map::Polyline& line = scenario.network.lanes[static_cast<std::size_t>(mission.start_lane)].centre;
+  constexpr nodes::VehicleParameters kVehicle;
+  constexpr double kToCentre_m = 0.5 * kVehicle.length_m - kVehicle.rear_overhang_m;
+  const double s_m = mission.start_s_m + mission.start_speed_mps * time_s - kToCentre_m;
+  const RearAxle axle = rear_axle_along(line, s_m);
+  const RearAxle before = rear_axle_along(line, s_m - mission.start_speed_mps * traffic::kTick_s);
   CarState state;
-  state.centre = pose.point;
-  state.heading_rad = pose.heading_rad;
+  state.centre = {axle.point.x + kToCentre_m * std::cos(axle.heading_rad),
+                  axle.point.y + kToCentre_m * std::sin(axle.heading_rad)};
+  state.heading_rad = axle.heading_rad;
+  state.yaw_rate_radps = map::wrap_angle(axle.heading_rad - before.heading_rad) / traffic::kTick_s;
   state.speed_mps = mission.start_speed_mps;
-  state.length_m = nodes::VehicleParameters{}.length_m;
-  state.width_m = nodes::VehicleParameters{}.width_m;
+  state.length_m = kVehicle.length_m;
+  state.width_m = kVehicle.width_m;
   state.lane = mission.start_lane;
   return state;
 }

@@ -33,6 +33,18 @@ TEST(Vehicle, IsPlacedByItsBoxCentre) {
   EXPECT_NEAR(vehicle.rear_axle().y, 18.5, 1e-9);
 }
 
+// Set down in a turn it goes on in it, wheels held: at 8 m/s and 0.3 rad/s, 2.4 m/s^2 across, on a circle of 8 / 0.3 = 26.7 m.
+TEST(Vehicle, GoesOnInTheTurnItIsPlacedIn) {
+  Vehicle vehicle;
+  vehicle.place({0.0, 0.0}, 0.0, 8.0, 0.3);
+  const double steering_rad = vehicle.steering_rad();
+  EXPECT_NEAR(steering_rad, std::atan(2.9 / 26.7) + 0.001226 * 2.4, 0.001);
+  for (int ms = 0; ms < 500; ++ms) {
+    vehicle.step(0.4 * (8.0 - vehicle.speed_mps()), steering_rad);
+    ASSERT_NEAR(vehicle.yaw_rate_radps(), 0.3, 0.01) << ms;
+  }
+}
+
 // At walking pace the circle is the kinematic one: L / tan(0.3) = 2.9 / 0.30934 = 9.37 m.
 TEST(Vehicle, CreepsOnTheKinematicCircle) {
   Vehicle vehicle = rolling(0.8);

@@ -18,10 +18,21 @@ double side_force(double slip_rad, double stiffness_npr, double limit_n) {
 
 }  // namespace
 
-void Vehicle::place(map::Vec2 box_centre, double heading_rad, double speed_mps) {
+void Vehicle::place(map::Vec2 box_centre, double heading_rad, double speed_mps, double yaw_rate_radps) {
+  const VehicleParameters& p = parameters_;
   heading_rad_ = heading_rad;
   speed_mps_ = speed_mps;
-  side_speed_mps_ = yaw_rate_radps_ = acceleration_mps2_ = drive_mps2_ = steering_rad_ = 0.0;
+  acceleration_mps2_ = drive_mps2_ = 0.0;
+  // Slips of the linear single-track model in a steady turn, on either axle as much as its share of the weight asks for.
+  const double rear_axle_m = p.wheelbase_m - p.front_axle_m;
+  const double side_n = p.mass_kg * speed_mps * yaw_rate_radps;
+  const double front_slip_rad = side_n * rear_axle_m / p.wheelbase_m / p.front_stiffness_npr;
+  const double rear_slip_rad = side_n * p.front_axle_m / p.wheelbase_m / p.rear_stiffness_npr;
+  yaw_rate_radps_ = yaw_rate_radps;
+  side_speed_mps_ = rear_axle_m * yaw_rate_radps - speed_mps * rear_slip_rad;
+  const double turn_rad = speed_mps > 0.0 ? std::atan(p.wheelbase_m * yaw_rate_radps / speed_mps) : 0.0;
+  steering_rad_ =
+      std::clamp(turn_rad + front_slip_rad - rear_slip_rad, -p.steering_max_rad, p.steering_max_rad);
   gravity_centre_ = {0.0, 0.0};
   const map::Vec2 offset = this->box_centre();
   gravity_centre_ = {box_centre.x - offset.x, box_centre.y - offset.y};

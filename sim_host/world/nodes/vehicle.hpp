@@ -40,8 +40,8 @@ class Vehicle {
  public:
   explicit Vehicle(const VehicleParameters& parameters = {}) : parameters_(parameters) {}
 
-  /// Sets the car down with its box centre there, rolling straight ahead.
-  void place(map::Vec2 box_centre, double heading_rad, double speed_mps);
+  /// Sets the car down with its box centre there, rolling along a circle at `yaw_rate_radps`, wheels turned for it.
+  void place(map::Vec2 box_centre, double heading_rad, double speed_mps, double yaw_rate_radps = 0.0);
 
   /// WORLD-001 One millisecond towards the commanded acceleration and road-wheel angle. At a standstill the
   /// car stays exactly where it is until drive is applied; it never rolls backwards.
