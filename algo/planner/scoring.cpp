@@ -166,6 +166,20 @@ float way_lost_m(const scene::Scene& scene, const scene::LanePath& path, float s
   return lost_m;
 }
 
+/// The path that leads furthest along the route, `path_index` unless another one does by a lane change's way: as fast as its
+/// way is we want to be. A lane that we are to leave may lead to a slow road, where standing costs little.
+const scene::EgoPath& way_ahead(const scene::Scene& scene, int path_index) {
+  const auto leads_m = [](const scene::EgoPath& path) { return path.route_end_s_m - path.frenet.s_m; };
+  const scene::EgoPath* best = &scene.ego_paths[path_index];
+  float most_m = leads_m(*best) + scene::kChangeWayM;
+  for (const scene::EgoPath& path : scene.ego_paths) {
+    if (leads_m(path) <= most_m) continue;
+    most_m = leads_m(path);
+    best = &path;
+  }
+  return *best;
+}
+
 }  // namespace
 
 trajectory::MergeTarget merge_target_of(const scene::Scene& scene, const LaneCostToGo& cost_to_go,
@@ -231,9 +245,11 @@ CostBreakdown score_motion(const scene::Scene& scene, const LaneCostToGo& cost_t
   cost.lateral = parameters.scoring.lateral_acceleration * (lateral_sum / steps);
   const float end_mps = trajectory.points[kHorizonSteps].speed_mps;
   // Way lost from the horizon's end on until we are as fast as wanted. A bend there is left out: it ends.
-  cost.progress = cost.progress +
-                  parameters.scoring.progress * way_lost_m(scene, path.path, s_m, end_mps, limit_share,
-                                                           behind_mps, parameters.comfort.acceleration_mps2);
+  const scene::EgoPath& ahead = way_ahead(scene, path_index);
+  cost.progress =
+      cost.progress + parameters.scoring.progress *
+                          way_lost_m(scene, ahead.path, s_m + ahead.frenet.s_m - path.frenet.s_m, end_mps,
+                                     limit_share, behind_mps, parameters.comfort.acceleration_mps2);
   const float lane =
       lane_cost_between(scene, cost_to_go, path_index, s_m, abs(last.at_d_m), width_m, end_mps, parameters);
   cost.lane = parameters.scoring.lane_offset * (offset_sum / samples) + lane;

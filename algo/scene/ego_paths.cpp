@@ -184,7 +184,8 @@ void follow_route(const LaneTable& table, EgoPath& ego_path) {
     }
     last = i;
     ego_path.changes_needed = lane.changes_needed;
-    ego_path.route_end_s_m = min(part.start_s_m + max(lane.route_remaining_m, 0.0F), path.length_m);
+    // Where the path ends because we look no further, the route does not: a change that is due beyond has its room there.
+    ego_path.route_end_s_m = part.start_s_m + max(lane.route_remaining_m, 0.0F);
     ego_path.goal_s_m = part.start_s_m + lane.goal_distance_m;
   }
   if (last >= 0) find_change_places(table, last, ego_path);

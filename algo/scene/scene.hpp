@@ -71,7 +71,7 @@ struct EgoPath {
   Frenet frenet;                          ///< of our rear axle
   const ReferenceLine* driven = nullptr;  ///< line it is driven on, once that is built
   float lateral_offset_m = 0.0F;          ///< left of that it is driven, past who stand
-  float route_end_s_m = 0.0F;             ///< where a lane change must be finished, or the path's end
+  float route_end_s_m = 0.0F;  ///< where a lane change must be finished: beyond the path's end, too
   /// By when each of the `changes_needed` is to be made, in their order; the first one by route_end_s_m.
   BoundedVector<float, kMaxChanges> change_by_s_m;
   float change_from_s_m = 0.0F;  ///< where a lane to change to begins

@@ -179,6 +179,29 @@ TEST(SceneBuilder, KnowsOnTheRampByWhenEachLaneChangeIsToBeMade) {
   EXPECT_NEAR(path.route_end_s_m, 130.0F, 0.1F);
 }
 
+// What is ahead is looked at lane by lane for 150 m: to the end of a junction's lane of 20 m here, where our path's knowledge ends at 170 m,
+// on the way to two lane changes that have 100 m of the road beyond. Their last place is 270 m, not 170: drives left the right lane for
+// good as soon as such a junction came in sight.
+TEST(SceneBuilder, ALaneChangeBeyondWhatIsLookedAtHasItsRoomThere) {
+  LaneMap map;
+  const LaneIndex road = test::add_lane(map, {{-60.0F, 0.0F}, {90.0F, 0.0F}});
+  const LaneIndex junction = test::add_lane(map, {{90.0F, 0.0F}, {110.0F, 0.0F}});
+  const LaneIndex beyond = test::add_lane(map, {{110.0F, 0.0F}, {210.0F, 0.0F}});
+  test::link(map, road, junction);
+  test::link(map, junction, beyond);
+  map.lanes[junction].in_junction = true;
+  map.lanes[junction].changes_needed = map.lanes[beyond].changes_needed = -2;
+  map.lanes[road].route_remaining_m = 270.0F;
+  map.lanes[junction].route_remaining_m = 120.0F;
+  const scene::Scene scene = test::scene_of(map, test::ego_at(-50.0F, 0.0F, 0.0F, 8.0F), {});
+  ASSERT_EQ(scene.ego_paths.size(), 1);
+  const scene::EgoPath& path = scene.ego_paths[0];
+  ASSERT_EQ(path.path.lanes.size(), 2);
+  ASSERT_EQ(path.changes_needed, -2);
+  EXPECT_NEAR(path.route_end_s_m, 270.0F, 0.1F);
+  for (const float by_s_m : path.change_by_s_m) EXPECT_NEAR(by_s_m, 270.0F, 0.1F);
+}
+
 // Lanes side by side, cut by a seam of 1 m that has none beside it: what can be changed before the seam can be begun there, at 0, and
 // not only beyond. Drives gave up half a change on passing the seam, as what they had paid little for cost everything from there on.
 TEST(SceneBuilder, ASeamWithoutNeighboursDoesNotPutOffALaneChange) {

@@ -232,6 +232,40 @@ TEST(Scoring, WhoStandsBeforeAFasterLaneLosesWhatItsSpeedCosts) {
   EXPECT_NEAR(lost_m(50.1F, 5.0F), 56.25F, 0.5F);
 }
 
+// Our lane ends in a road of 5 m/s, 20 m ahead; the one to the left, which we need, in one of 20 m/s. Standing in either costs what the
+// way we need loses: over 20 m at 2 m/s^2, to 8.9 m/s, (10 - 4.47) * 4.47 = 24.7 m, and 11.06^2 / 4 = 30.6 m beyond. Drives stood for
+// ever in a lane that they were to leave: in the slow road there was nothing to lose.
+TEST(Scoring, AStandInALaneToBeLeftCostsWhatOurWayLoses) {
+  LaneMap map;
+  const LaneIndex right = add_lane(map, {{0.0F, 0.0F}, {60.0F, 0.0F}});
+  const LaneIndex left = add_lane(map, {{0.0F, 3.2F}, {60.0F, 3.2F}});
+  const LaneIndex slow = add_lane(map, {{60.0F, 0.0F}, {200.0F, 0.0F}});
+  const LaneIndex fast = add_lane(map, {{60.0F, 3.2F}, {200.0F, 3.2F}});
+  link(map, right, slow);
+  link(map, left, fast);
+  neighbours(map, right, left);
+  for (const LaneIndex lane : {right, left}) map.lanes[lane].speed_limit_mps = 10.0F;
+  map.lanes[slow].speed_limit_mps = 5.0F;
+  map.lanes[fast].speed_limit_mps = 20.0F;
+  scene::Scene scene;
+  need_changes(add_ego_path(scene, map, path_of(map, {right, slow})), 1, 60.0F);
+  (void)add_ego_path(scene, map, path_of(map, {left, fast}), scene::Manoeuvre::kLeft);
+  put_ego(scene, state_on(map, scene.ego_paths[0].path, 40.0F, 0.0F));
+  LaneCostToGo cost_to_go;
+  cost_to_go.look(scene, {}, 0.0F, Parameters{});
+  for (int path = 0; path < 2; ++path) {
+    Trajectory trajectory;
+    for (TrajectoryPoint& point : trajectory.points)
+      point = state_on(map, scene.ego_paths[path].path, 40.0F, 0.0F);
+    int work = 0;
+    EXPECT_NEAR(score_motion(scene, cost_to_go, path, line_of(map, scene.ego_paths[path].path), 40.0F,
+                             trajectory, false, false, Parameters{}, work)
+                    .progress,
+                24.7F + 30.6F, 0.3F)
+        << path;
+  }
+}
+
 // A lane of 5 m/s begins 30 m ahead of a road of 20 m/s, and 2 m/s^2 brake for it: sqrt(25 + 4 * left) may be driven. At 18 m/s each
 // sample is charged four times what it is too fast by, and its square: at 9, 18 and 27 m, where 10.4, 8.5 and 6.1 m/s may be driven, then
 // 5, that is 3 s * (4 * 68 + 797) / 6. At 5 m/s nothing is too fast. Plans made before the limit was known went on gaining speed towards it.
