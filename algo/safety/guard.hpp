@@ -231,6 +231,8 @@ class Guard {
   [[nodiscard]] float half_length_m(const Threat& threat) const;
   /// From the centre of one that merges to where the zone ends, along the common lane.
   [[nodiscard]] float to_common_end_m(const Threat& threat) const;
+  /// The same, from where it was seen last.
+  [[nodiscard]] float seen_to_common_end_m(const Threat& threat) const;
   /// Whether it is in the merging zone, nearer to its end than we are.
   [[nodiscard]] bool is_ahead(const scene::ConflictZone& zone, const Threat& threat, const Own& own) const;
   /// Where our centre stands behind whoever merges before us, after it has braked as hard as can be.

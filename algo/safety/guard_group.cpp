@@ -24,15 +24,17 @@ float Guard::to_common_end_m(const Threat& threat) const {
   return threat.when.to_exit_m - (half_length_m(threat) - scene::kUsualHalfLengthM);
 }
 
+float Guard::seen_to_common_end_m(const Threat& threat) const {
+  return to_common_end_m(threat) + (threat.agent != kUnseen ? scene_->agents[threat.agent].coasted_m : 0.0F);
+}
+
 bool Guard::is_ahead(const scene::ConflictZone& zone, const Threat& threat, const Own& own) const {
   return threat.when.to_entry_m <= 0.0F && zone.exit_s_m - own.s_m[0] > to_common_end_m(threat);
 }
 
 float Guard::behind_s_m(const scene::ConflictZone& zone, const Threat& threat) const {
-  const bool told = threat.agent != kUnseen;
-  const float its_mps = told ? seen_mps(scene_->agents[threat.agent]) : 0.0F;
-  const float coasted_m = told ? scene_->agents[threat.agent].coasted_m : 0.0F;
-  const float its_stop_s_m = zone.exit_s_m - to_common_end_m(threat) - coasted_m +
+  const float its_mps = threat.agent != kUnseen ? seen_mps(scene_->agents[threat.agent]) : 0.0F;
+  const float its_stop_s_m = zone.exit_s_m - seen_to_common_end_m(threat) +
                              occupancy::stopping_way_m(its_mps, parameters_->law.braking_max_mps2);
   return its_stop_s_m - half_length_m(threat) - 0.5F * parameters_->vehicle.length_m -
          parameters_->guard.margin_m;
@@ -60,8 +62,7 @@ bool Guard::passes_threat(const scene::EgoPath& path, const PathContext& context
       const bool told = threat.agent != kUnseen;
       const std::uint16_t age_ms = told ? scene_->agents[threat.agent].age_ms : scene_->known.age_ms;
       const float since_s = lead_s_ + 1e-3F * static_cast<float>(age_ms);
-      const float its_to_exit_m =
-          to_common_end_m(threat) + (told ? scene_->agents[threat.agent].coasted_m : 0.0F);
+      const float its_to_exit_m = seen_to_common_end_m(threat);
       const float respond_s = max(in_s, 0.0F) + parameters_->law.duty_response_s;
       const Pace fastest =
           threat.agent == kUnseen

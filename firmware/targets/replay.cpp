@@ -122,7 +122,7 @@ void Replay::line(const char* text, int size) {
     compare(logged.frame);
     return;
   }
-  if (!can_.to_ecu.push(logged.frame)) invalid("more frames in a tick than the replay can hold");
+  if (!can_.to_ecu.push(logged.frame)) invalid("too many frames in a tick");
   if (logged.frame.id == wire::kTickId) tick();
 }
 
@@ -133,7 +133,7 @@ void Replay::comment(const char* text, int size) {
     ecu_.inject_deadline_miss();
   } else if (starts_with(text, size, "# s4tp log:") && find_number(text, size, "parameters ", crc) &&
              crc != parameters_crc_) {
-    invalid("driven with other parameters than this image has");
+    invalid("driven with other parameters");
   }
 }
 

@@ -217,6 +217,24 @@ TOOL = {"random": "netgenerate", "motorway": "netconvert"}
 MOST_TRIES = 100
 
 
+def draw_all(script: str, tool: str, kind: str, first: int, count: int, out: pathlib.Path, draw) -> int:
+    """Draws `count` networks; each until there is a mission on it. \\return the exit status"""
+    if shutil.which(tool) is None:
+        print(f"{script}: there is no {tool} here; it comes with Debian's package sumo", file=sys.stderr)
+        return 2
+    for number in range(first, first + count):
+        folder = out / f"{kind}_{number:05d}"
+        for attempt in range(MOST_TRIES):
+            shutil.rmtree(folder, ignore_errors=True)
+            folder.mkdir(parents=True)
+            if draw(random.Random(1000 * number + attempt), folder):
+                break
+        else:
+            print(f"{script}: {folder}: nothing usable in {MOST_TRIES} tries", file=sys.stderr)
+            return 1
+    return 0
+
+
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
     parser.add_argument("kind", choices=sorted(DRAW))
@@ -226,20 +244,11 @@ def main() -> int:
     parser.add_argument("--mix", action="store_true", help="lorries, buses, motorcycles, too")
     parser.add_argument("out", type=pathlib.Path)
     args = parser.parse_args()
-    if shutil.which(TOOL[args.kind]) is None:
-        print(f"other_networks: there is no {TOOL[args.kind]} here; it comes with Debian's package sumo", file=sys.stderr)
-        return 2
-    for number in range(args.first, args.first + args.count):
-        folder = args.out / f"{args.kind}_{number:05d}"
-        for attempt in range(MOST_TRIES):
-            shutil.rmtree(folder, ignore_errors=True)
-            folder.mkdir(parents=True)
-            if DRAW[args.kind](random.Random(1000 * number + attempt), folder, args.sharpest, args.mix):
-                break
-        else:
-            print(f"other_networks: {folder}: nothing usable in {MOST_TRIES} tries", file=sys.stderr)
-            return 1
-    return 0
+
+    def draw(rng: random.Random, folder: pathlib.Path) -> bool:
+        return DRAW[args.kind](rng, folder, args.sharpest, args.mix)
+
+    return draw_all("other_networks", TOOL[args.kind], args.kind, args.first, args.count, args.out, draw)
 
 
 if __name__ == "__main__":
