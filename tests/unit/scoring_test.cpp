@@ -251,15 +251,16 @@ TEST(Scoring, AStandInALaneToBeLeftCostsWhatOurWayLoses) {
   need_changes(add_ego_path(scene, map, path_of(map, {right, slow})), 1, 60.0F);
   (void)add_ego_path(scene, map, path_of(map, {left, fast}), scene::Manoeuvre::kLeft);
   put_ego(scene, state_on(map, scene.ego_paths[0].path, 40.0F, 0.0F));
+  const Parameters parameters;  // it outlives the looking
   LaneCostToGo cost_to_go;
-  cost_to_go.look(scene, {}, 0.0F, Parameters{});
+  cost_to_go.look(scene, {}, 0.0F, parameters);
   for (int path = 0; path < 2; ++path) {
     Trajectory trajectory;
     for (TrajectoryPoint& point : trajectory.points)
       point = state_on(map, scene.ego_paths[path].path, 40.0F, 0.0F);
     int work = 0;
     EXPECT_NEAR(score_motion(scene, cost_to_go, path, line_of(map, scene.ego_paths[path].path), 40.0F,
-                             trajectory, false, false, Parameters{}, work)
+                             trajectory, false, false, parameters, work)
                     .progress,
                 24.7F + 30.6F, 0.3F)
         << path;
