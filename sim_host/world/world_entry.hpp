@@ -21,7 +21,7 @@ struct EnteredTraffic {
 [[nodiscard]] EnteredTraffic draw_entry(const scenario::Scenario& scenario, const WorldOptions& options,
                                         const traffic::Locator& locator);
 
-/// The ego under the world's own control: along the start lane at entry speed, straight before its start. WORLD-038 It
+/// The ego under the world's own control: along the start lane at entry speed, straight before its start. WORLD-038 The ego
 /// points and turns as a car does that goes along the line there: what it reports of its motion agrees with its poses.
 /// \param time_s  since entry
 [[nodiscard]] traffic::CarState ego_at_entry(const scenario::Scenario& scenario, double time_s);
