@@ -21,7 +21,8 @@
 /// room however we stop, driving on as we do, has broken the law or come out of nowhere: no plan leaves it less.
 /// GUARD-010 Whoever drives only what passes, and else the last fail-safe, touches nobody who keeps to the
 /// law. GUARD-011 Who entered a group by right may stand in it, short of one that comes after all and
-/// before we were to be gone, where nobody comes who cannot stop for it and nobody has let us go.
+/// before we were to be gone, where nobody comes who cannot stop for it; before one who has let us go, not for another who
+/// has.
 /// GUARD-012 Beyond the known ground (scene.hpp) there may be anybody: on each lane that leads in from there
 /// somebody comes as fast as we were, and somebody as fast as may be who would have been listed were it nearer; in a lane
 /// we change into as well; on our way out of it somebody brakes. Where there are more such lanes than can be followed,
@@ -239,9 +240,9 @@ class Guard {
   [[nodiscard]] float behind_s_m(const scene::ConflictZone& zone, const Threat& threat) const;
   [[nodiscard]] bool passes_threat(const scene::EgoPath& path, const PathContext& context,
                                    const Threat& threat, const Own& own, Verdict& verdict) const;
-  /// Whether the fail-safe stands where nobody comes who cannot stop for it.
+  /// Whether the fail-safe, which stops for `before`, stands where nobody comes who cannot stop for it.
   [[nodiscard]] bool stops_short(const scene::EgoPath& path, const PathContext& context,
-                                 const ZoneGroup& group, const Own& own) const;
+                                 const ZoneGroup& group, const Own& own, const Threat& before) const;
   /// Until the plan in force is to be out of its group, from plan start on.
   [[nodiscard]] float time_left_s() const;
   /// Whether a plan that cannot stay out of the group any more is out of it at most `late_s` later than it was to be.

@@ -218,6 +218,26 @@ TEST(Guard, StopsShortOnlyWhereOthersCanStopForIt) {
   }
 }
 
+// GUARD-011 Whoever is at the ground we would stand on has let us go: 40 m off at 6 m/s it could stop gently. 13 m off, gaining
+// speed, it can stop for us all the same (5 + 3.1 m at 5 m/s). For one at the second zone who has not let us go we stand there;
+// for nobody we do not.
+TEST(Guard, StopsShortBeforeOneWhoHasLetUsGoOnlyForAnother) {
+  for (const bool another : {true, false}) {
+    SharedGround road(Priority::kFirstYields);
+    const scene::LanePath beside = add_second_zone(road, 104.5F, 110.0F);
+    road.other(96.0F - 40.0F, 6.0F);
+    const Verdict begun = road.judge(94.0F, 6.0F, 0.0F);
+    ASSERT_TRUE(begun.safe() && begun.clears);
+    road.guard.commit(0, begun);
+    road.scene.agents.clear();
+    road.other(96.0F - 13.0F, 5.0F).track.acceleration_mps2 = 1.0F;
+    if (another) add_vehicle(road.scene, road.map, beside, 96.0F - 4.0F, 8.0F);
+    const Verdict verdict = road.judge(97.0F, 6.0F, 0.0F);
+    EXPECT_TRUE(verdict.safe());
+    EXPECT_EQ(verdict.stops_short, another);
+  }
+}
+
 // GUARD-006 A licence is used by who goes through its group: 40 m off at 6 m/s it could stop gently before
 // both of two groups 6 m apart. Leaving the first one at 103.9 and 8 m/s we could not stop at ease before the
 // second; it is 8 m before that now, and has not been asked to stay out of it.
