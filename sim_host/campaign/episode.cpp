@@ -17,9 +17,7 @@ double cpu_now_s() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-}  // namespace
-
-EpisodeResult run_episode(const scenario::Scenario& scenario, const EpisodeOptions& options) {
+EpisodeResult drive(const scenario::Scenario& scenario, const EpisodeOptions& options, bool on_any_lane) {
   const double cpu_start_s = cpu_now_s();
   EpisodeResult result;
   result.trace = std::make_unique<Trace>();
@@ -37,6 +35,7 @@ EpisodeResult run_episode(const scenario::Scenario& scenario, const EpisodeOptio
   world_options.engine = options.engine;
   world_options.perception = options.perception;
   world_options.ego_by_traffic = by_sumo;
+  world_options.ego_on_any_lane = on_any_lane;
   world::World world(scenario, world_options);
   std::optional<BusLog> log;
   if (options.log)
@@ -76,6 +75,20 @@ EpisodeResult run_episode(const scenario::Scenario& scenario, const EpisodeOptio
   if (!options.trace) result.trace.reset();
   result.cpu_s = cpu_now_s() - cpu_start_s;
   return result;
+}
+
+}  // namespace
+
+EpisodeResult run_episode(const scenario::Scenario& scenario, const EpisodeOptions& options) {
+  try {
+    return drive(scenario, options, false);
+  } catch (const traffic::EngineEnded& error) {
+    const bool others_saw_it = options.record || options.onlooker != nullptr;
+    if (others_saw_it || baselines::find_planner(options.planner).drives_in_sumo) throw;
+    EpisodeResult again = drive(scenario, options, true);
+    again.first_ended = error.what();
+    return again;
+  }
 }
 
 }  // namespace s4tp::campaign

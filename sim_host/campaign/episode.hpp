@@ -57,9 +57,12 @@ struct EpisodeResult {
   std::unique_ptr<Trace> trace;  ///< when asked for
   double cpu_s = 0.0;
   satp::WeightStatus weights = satp::WeightStatus::kAbsent;  ///< EcuCore::weights()
+  std::string first_ended;                                   ///< why it was driven again; empty: it was not
 };
 
-/// \throws std::runtime_error when the log cannot be written
+/// SUMO-005 A drive that SUMO ends by a fault of its own is driven again from its beginning with SUMO's ego on any lane
+/// near it, as most such faults come from keeping it on its route's; not so where somebody looks on or is told frames.
+/// \throws traffic::EngineEnded when SUMO ends that one too, or it is not driven; std::runtime_error when the log cannot be written
 [[nodiscard]] EpisodeResult run_episode(const scenario::Scenario& scenario, const EpisodeOptions& options);
 
 }  // namespace s4tp::campaign

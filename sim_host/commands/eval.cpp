@@ -135,9 +135,13 @@ int run_eval(EvalOptions& options) {
   run.stop = &stop;
   campaign::ConsoleProgress progress(total, total - jobs.size());
   double driven_s = 0.0;
+  std::vector<std::string> driven_again;
   run.on_episode = [&](const campaign::CampaignCell&, const campaign::EpisodeRow& row,
                        const campaign::EpisodeResult& result) {
     record.append(row);
+    if (!result.first_ended.empty())
+      driven_again.push_back(words(row.cell) + ", seed " + std::to_string(row.metrics.seed) + ": " +
+                             result.first_ended);
     driven_s += result.recording.snapshots.back().time_s - result.recording.snapshots.front().time_s;
     progress.done(words(row.cell) + ", seed " + std::to_string(row.metrics.seed) + ": " +
                   metrics::ending_name(row.metrics.ending));
@@ -167,6 +171,10 @@ int run_eval(EvalOptions& options) {
               << static_cast<int>(driven_s / wall_s) << " times real time\n";
   }
   std::cout << "as a page, with replays of failures: ./s4tp eval report " << out.string() << '\n';
+  if (!driven_again.empty())
+    std::cerr << driven_again.size() << " of " << total
+              << " episodes were ended by SUMO and driven again with its ego on any lane near it:\n";
+  for (const std::string& why : driven_again) std::cerr << "  " << why << '\n';
   if (not_driven.empty()) return kDone;
   std::cerr << not_driven.size() << " of " << total
             << " episodes could not be driven and are in no number; the same command tries them again:\n";

@@ -110,6 +110,8 @@ int run_one(RunOptions run) try {
   if (recorder) options.record = recording::sink(*recorder);
   const campaign::EpisodeResult result = campaign::run_episode(scenario, options);
 
+  if (!result.first_ended.empty())
+    std::cout << "driven again with SUMO's ego on any lane near it: " << result.first_ended << '\n';
   if (const std::string words = campaign::refused_weights_words(result.weights); !words.empty())
     std::cout << words << '\n';
   fs::create_directories(run.common.out);

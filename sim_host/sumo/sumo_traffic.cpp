@@ -93,9 +93,10 @@ Traffic::~Traffic() {
 
 void Traffic::fail(const traci::Error& error) {
   sumo_.process->wait_for_end();
-  throw std::runtime_error("SUMO's traffic at " + std::to_string(time_s()) + " s: " + error.what() +
-                           (sumo_.process->lives() ? "" : "; it has ended") +
-                           "; SUMO's last words: " + sumo_.process->last_words());
+  const std::string what = "SUMO's traffic at " + std::to_string(time_s()) + " s: " + error.what();
+  const std::string words = "; SUMO's last words: " + sumo_.process->last_words();
+  if (sumo_.process->lives()) throw std::runtime_error(what + words);
+  throw traffic::EngineEnded(what + "; it has ended" + words);
 }
 
 void Traffic::step(const traffic::EgoSeen* ego) {

@@ -11,7 +11,9 @@ namespace s4tp::world {
 std::unique_ptr<traffic::TrafficEngine> make_engine(const scenario::Scenario& scenario,
                                                     const traffic::EngineOptions& options) {
   if (options.engine == scenario::Engine::kSumo) {
-    return std::make_unique<sumo::Traffic>(scenario, options);
+    sumo::EgoCoupling coupling;
+    coupling.on_route = !options.ego_on_any_lane;
+    return std::make_unique<sumo::Traffic>(scenario, options, coupling);
   }
   if (options.ego == traffic::DrivenBy::kEngine) {
     throw std::invalid_argument("the built-in traffic drives no ego; SUMO does (--traffic sumo)");

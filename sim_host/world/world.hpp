@@ -20,6 +20,7 @@ struct WorldOptions {
   scenario::Engine engine = scenario::Engine::kBuiltin;
   /// WORLD-041 SUMO's own driver drives the ego from entry on; nobody waits for an ECU. SUMO only.
   bool ego_by_traffic = false;
+  bool ego_on_any_lane = false;  ///< traffic::EngineOptions
   double pre_roll_s = 3.0;
   nodes::SensorOptions sensors = {};
   scenario::PerceptionOptions perception = {};

@@ -21,7 +21,7 @@ std::unique_ptr<traffic::TrafficEngine> traffic_until(const scenario::Scenario& 
                                                       const WorldOptions& options, std::uint64_t seed,
                                                       double traffic_time_s, traffic::DrivenBy driven_by) {
   std::unique_ptr<traffic::TrafficEngine> fresh =
-      make_engine(scenario, {options.engine, seed, options.seed, driven_by});
+      make_engine(scenario, {options.engine, seed, options.seed, driven_by, options.ego_on_any_lane});
   const long ticks = std::lround(traffic_time_s / traffic::kTick_s);
   for (long i = 0; i < ticks; ++i) {
     fresh->step(nullptr);

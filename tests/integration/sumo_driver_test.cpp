@@ -1,9 +1,12 @@
 // These need Debian's sumo and fail without it.
 #include <gtest/gtest.h>
+#include <signal.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 
 #include "sim_host/campaign/campaign.hpp"
 #include "sim_host/campaign/episode.hpp"
@@ -34,6 +37,45 @@ TEST(SumoTraffic, DrivesAnEpisode) {
     EXPECT_TRUE(same(one.snapshots[i].others, again.snapshots[i].others)) << i;
     EXPECT_TRUE(same({one.snapshots[i].ego}, {again.snapshots[i].ego})) << i;
   }
+}
+
+/// Whoever this process has started: SUMO.
+void end_child() {
+  for (const auto& entry : fs::directory_iterator("/proc")) {
+    std::ifstream file(entry.path() / "status");
+    for (std::string line; std::getline(file, line);) {
+      if (line == "PPid:\t" + std::to_string(getpid())) kill(std::stoi(entry.path().filename()), SIGKILL);
+    }
+  }
+}
+
+// SUMO-005 SUMO ends 1 s into the drive: it is driven again from its beginning, to the goal, and says so. One that
+// ends the second time as well is not driven; nor is one whose frames somebody has been told.
+TEST(SumoTraffic, DrivesAgainWhatSumoEnded) {
+  int ends = 1;
+  campaign::EpisodeOptions options;
+  options.seed = 3;
+  options.engine = scenario::Engine::kSumo;
+  double before_s = 0.0;
+  options.passes = [&](double time_s, const wire::Frame&) {
+    if (before_s < 1.0 && time_s >= 1.0 && ends > 0) {
+      --ends;
+      end_child();
+    }
+    before_s = time_s;
+    return true;
+  };
+  const scenario::Scenario scenario = shipped("cruise");
+  const campaign::EpisodeResult result = campaign::run_episode(scenario, options);
+  EXPECT_EQ(ends, 0);
+  EXPECT_EQ(result.recording.ending, traffic::Ending::kGoal);
+  EXPECT_NE(result.first_ended.find("it has ended"), std::string::npos) << result.first_ended;
+  ends = 2;
+  EXPECT_THROW((void)campaign::run_episode(scenario, options), traffic::EngineEnded);
+  EXPECT_EQ(ends, 0);
+  ends = 1;
+  options.record = [](std::uint64_t, const std::vector<wire::Frame>&) {};
+  EXPECT_THROW((void)campaign::run_episode(scenario, options), traffic::EngineEnded);
 }
 
 // WORLD-041 SUMO's own driver takes the ego from the mission's start at entry speed to its goal; no ECU

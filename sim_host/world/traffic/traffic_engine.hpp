@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,12 @@ struct EgoSeen {
   Actor actor;   ///< the same on the network
 };
 
+/// An engine outside this process has ended by itself: a fault of its own.
+class EngineEnded : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 /// What a car is about, as its engine knows it.
 struct CarFlags {
   int id = 0;
@@ -35,7 +42,7 @@ class TrafficEngine {
   virtual ~TrafficEngine() = default;
 
   /// Advances 10 ms. \param ego  as it is before the step, or null: not there
-  /// \throws std::runtime_error when an engine outside this process has failed
+  /// \throws EngineEnded, or std::runtime_error when an engine outside this process has failed otherwise
   virtual void step(const EgoSeen* ego) = 0;
   /// WORLD-023 A copy that goes on by itself: the same egos give it the same cars as the original, to the
   /// bit. \return null where the engine cannot be copied (SUMO: run the same seed again)
@@ -58,6 +65,7 @@ struct EngineOptions {
   std::uint64_t seed = 0;
   std::uint64_t episode = 0;     ///< chooses among a scenario's own route files
   DrivenBy ego = DrivenBy::kUs;  ///< kEngine: SUMO only
+  bool ego_on_any_lane = false;  ///< SUMO: without sumo::EgoCoupling::on_route
 };
 
 }  // namespace s4tp::traffic
