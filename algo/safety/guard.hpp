@@ -240,9 +240,9 @@ class Guard {
   [[nodiscard]] float behind_s_m(const scene::ConflictZone& zone, const Threat& threat) const;
   [[nodiscard]] bool passes_threat(const scene::EgoPath& path, const PathContext& context,
                                    const Threat& threat, const Own& own, Verdict& verdict) const;
-  /// Whether the fail-safe, which stops for `before`, stands where nobody comes who cannot stop for it.
+  /// Whether the fail-safe stands where nobody comes who cannot stop for it; unless `before_any`, nobody who has let us go.
   [[nodiscard]] bool stops_short(const scene::EgoPath& path, const PathContext& context,
-                                 const ZoneGroup& group, const Own& own, const Threat& before) const;
+                                 const ZoneGroup& group, const Own& own, bool before_any) const;
   /// Until the plan in force is to be out of its group, from plan start on.
   [[nodiscard]] float time_left_s() const;
   /// Whether a plan that cannot stay out of the group any more is out of it at most `late_s` later than it was to be.

@@ -159,7 +159,9 @@ bool Guard::passes_group(const scene::EgoPath& path, const PathContext& context,
     const float left_s = time_left_s();
     const bool no_reason = goes_through_ && !stops_short_ && !own.blocked && !zone.merging && left_s > 0.0F &&
                            threat.when.from_s > left_s;
-    verdict.stops_short = entered && !no_reason && stops_short(path, context, group, own, threat);
+    // Who has let us go is not stopped before, but for whoever has not.
+    const bool before_any = own.blocked || threat.kind != ThreatKind::kLicensed;
+    verdict.stops_short = entered && !no_reason && stops_short(path, context, group, own, before_any);
     if (!verdict.stops_short) verdict = refused;
     return verdict.stops_short;
   }
@@ -167,17 +169,15 @@ bool Guard::passes_group(const scene::EgoPath& path, const PathContext& context,
 }
 
 bool Guard::stops_short(const scene::EgoPath& path, const PathContext& context, const ZoneGroup& group,
-                        const Own& own, const Threat& before) const {
+                        const Own& own, bool before_any) const {
   const float stop_s_m = own.stop_s_m(parameters_->guard.braking_mps2);
   const float bound_s_m = own.nearest_stop_s_m(parameters_->vehicle.braking_max_mps2);
   for (const Threat& threat : context.threats) {
     if (threat.zone < group.first || threat.zone >= group.end) continue;
     const scene::ConflictZone& zone = path.zones[threat.zone];
     const bool stands_there = own.s_m[0] <= zone.exit_s_m && stop_s_m > zone.entry_s_m;
-    // D2 binds the others to ground we are on, or cannot stay out of; to no more. For one who has let us go nobody
-    // else who has is stopped for.
-    const bool let_us_go = threat.kind == ThreatKind::kLicensed && before.kind == ThreatKind::kLicensed;
-    const bool ours = bound_s_m > zone.entry_s_m && (own.blocked || !let_us_go);
+    // D2 binds the others to ground we are on, or cannot stay out of; to no more.
+    const bool ours = bound_s_m > zone.entry_s_m && (before_any || threat.kind != ThreatKind::kLicensed);
     if (stands_there && !(ours && threat.when.can_stop)) return false;
   }
   return true;
