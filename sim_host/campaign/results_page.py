@@ -36,7 +36,7 @@ Better and worse: McNemar's exact test, p < 0.05; no worse: the failure rates di
 them is shown.
 
 The other files here are blocks driven for one question each: `fresh.json` (seeds and roads 20,000 on) and `roads*.json` (generated roads, a line a road): [safety_record.md](../safety_record.md),
-`other_networks*.json` and `drawn_networks.json` (networks of other generators: [safety_record.md](../safety_record.md)), `closed_loop*.json` (beside the kinematic predictor: [training.md](../training.md)), `parameter_screen.json` (all parameters changed by 30 %: [sensitivity.md](../sensitivity.md)).
+`other_networks*.json` and `drawn_networks*.json` (networks of other generators: [safety_record.md](../safety_record.md)), `closed_loop*.json` (beside the kinematic predictor: [training.md](../training.md)), `parameter_screen.json` (all parameters changed by 30 %: [sensitivity.md](../sensitivity.md)).
 """
 
 
