@@ -12,10 +12,14 @@
 namespace s4tp {
 namespace {
 
-constexpr ParameterInfo kTable[] = {
+struct Bounds {
+  float minimum;
+  float maximum;
+};
+
+constexpr Bounds kBounds[] = {
 #define GROUP_BEGIN(group)
-#define P(group, field, unit, initial, minimum, maximum, meaning) \
-  {#group "." #field, unit, initial, minimum, maximum, meaning},
+#define P(group, field, unit, initial, minimum, maximum, meaning) {minimum, maximum},
 #define GROUP_END(group)
 #include "algo/core/parameters.def"
 #undef GROUP_BEGIN
@@ -23,7 +27,7 @@ constexpr ParameterInfo kTable[] = {
 #undef GROUP_END
 };
 
-static_assert(sizeof(kTable) / sizeof(kTable[0]) == static_cast<std::size_t>(kParameterCount));
+static_assert(sizeof(kBounds) / sizeof(kBounds[0]) == static_cast<std::size_t>(kParameterCount));
 static_assert(std::is_standard_layout_v<Parameters> && std::is_trivially_copyable_v<Parameters>);
 
 /// Byte offset of field `index`: the struct holds floats only, in table order.
@@ -33,18 +37,6 @@ std::size_t offset_of(int index) {
 }
 
 }  // namespace
-
-const ParameterInfo& parameter_info(int index) {
-  S4TP_ASSERT(index >= 0 && index < kParameterCount);
-  return kTable[index];
-}
-
-int find_parameter(const char* name) {
-  for (int i = 0; i < kParameterCount; ++i) {
-    if (std::strcmp(kTable[i].name, name) == 0) return i;
-  }
-  return -1;
-}
 
 float get_parameter(const Parameters& parameters, int index) {
   float value = 0.0F;
@@ -59,7 +51,7 @@ void set_parameter(Parameters& parameters, int index, float value) {
 Status validate(const Parameters& parameters, int& first_bad) {
   for (int i = 0; i < kParameterCount; ++i) {
     const float value = get_parameter(parameters, i);
-    if (!is_finite(value) || value < kTable[i].minimum || value > kTable[i].maximum) {
+    if (!is_finite(value) || value < kBounds[i].minimum || value > kBounds[i].maximum) {
       first_bad = i;
       return Status::kInvalidParameter;
     }

@@ -22,22 +22,9 @@ struct Parameters {
 #undef GROUP_END
 };
 
-/// One row of the table, for validation, TOML and documentation.
-struct ParameterInfo {
-  const char* name;  ///< "group.field"
-  const char* unit;
-  float initial;
-  float minimum;
-  float maximum;
-  const char* meaning;
-};
-
 inline constexpr int kParameterCount = static_cast<int>(sizeof(Parameters) / sizeof(float));
 
-/// The row of field `index` in struct order. \pre 0 <= index < kParameterCount
-[[nodiscard]] const ParameterInfo& parameter_info(int index);
-/// \return the index of "group.field", or -1
-[[nodiscard]] int find_parameter(const char* name);
+/// Of field `index` in struct order. \pre 0 <= index < kParameterCount
 [[nodiscard]] float get_parameter(const Parameters& parameters, int index);
 void set_parameter(Parameters& parameters, int index, float value);
 

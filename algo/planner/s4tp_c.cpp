@@ -8,6 +8,7 @@
 
 #include "algo/api/s4tp.h"
 #include "algo/core/math.hpp"
+#include "algo/core/parameter_info.hpp"
 #include "algo/core/versions.hpp"
 #include "algo/planner/c_conversion.hpp"
 #include "algo/planner/planner.hpp"

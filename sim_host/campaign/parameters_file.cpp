@@ -7,6 +7,7 @@
 #include <toml.hpp>
 #include <vector>
 
+#include "algo/core/parameter_info.hpp"
 #include "algo/sadrf/presets.hpp"
 #include "sim_host/world/scenario/toml_table.hpp"
 #include "sim_host/world/scenario/utf8.hpp"

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "algo/core/parameter_info.hpp"
 #include "algo/core/versions.hpp"
 #include "sim_host/campaign/digest.hpp"
 #include "sim_host/campaign/parameters_file.hpp"

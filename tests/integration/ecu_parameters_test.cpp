@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "algo/core/parameter_info.hpp"
 #include "algo/satp/shipped_weights.hpp"
 #include "firmware/ecu/gate_limits.hpp"
 #include "hal/sim/memory_flash_bank.hpp"

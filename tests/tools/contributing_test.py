@@ -76,7 +76,7 @@ class Recipes(unittest.TestCase):
 #include <cstdio>
 #include <cstring>
 #include <cstdlib>
-#include "algo/core/parameters.hpp"
+#include "algo/core/parameter_info.hpp"
 namespace s4tp {
 [[noreturn]] void assertion_failed(const char*, const char*, int) { std::abort(); }
 }
@@ -89,7 +89,7 @@ int main() {
   std::puts(s4tp::parameter_info(bad).name);
 }
 """, encoding="utf-8")
-        core = [self.folder / f"algo/core/{name}.cpp" for name in ("parameters", "crc32", "math", "status")]
+        core = [self.folder / f"algo/core/{name}.cpp" for name in ("parameters", "parameter_info", "crc32", "math", "status")]
         run("g++", "-std=c++17", f"-I{self.folder}", self.folder / "main.cpp", *core, "-o", self.folder / "main")
         self.assertIn("example_gap_m", run(self.folder / "main"))
 

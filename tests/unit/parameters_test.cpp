@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "algo/core/parameter_info.hpp"
 #include "algo/core/versions.hpp"
 
 namespace s4tp {

@@ -10,6 +10,7 @@
 #include <limits>
 #include <memory>
 
+#include "algo/core/parameter_info.hpp"
 #include "algo/trajectory/bicycle.hpp"
 #include "algo/trajectory/plan_limits.hpp"
 #include "tests/support/lane_maps.hpp"

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "algo/api/s4tp.h"
+#include "algo/core/parameter_info.hpp"
 #include "algo/planner/planner.hpp"
 #include "tests/support/c_facade.hpp"
 
