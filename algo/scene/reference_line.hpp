@@ -7,6 +7,13 @@ namespace s4tp::scene {
 
 inline constexpr int kReferenceSamples = 84;
 
+/// Where a line leaves its lane, around whoever stands in a junction.
+struct Swing {
+  float by_m = 0.0F;  ///< at most; 0: nowhere
+  float from_s_m = 0.0F;
+  float to_s_m = 0.0F;
+};
+
 /// Smoothed centre line over kReferenceSamples * spacing_m; beyond both ends it goes on straight.
 struct ReferenceLine {
   struct Sample {
@@ -24,6 +31,7 @@ struct ReferenceLine {
   bool tight = false;
   float tight_from_s_m = 0.0F;
   float tight_to_s_m = 0.0F;
+  Swing swing;
   Sample samples[kReferenceSamples];
 };
 

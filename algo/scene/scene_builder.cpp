@@ -19,7 +19,7 @@ constexpr std::int32_t kLongestStepMs = 500;  // a hole in time is no waiting
 constexpr std::uint16_t kPresentBit = 1U << (kHistorySamples - 1);
 
 // Work (WorkMeter's units).
-constexpr int kBuildWork = 340;
+constexpr int kBuildWork = 360;
 constexpr int kAgentWork = 60;
 constexpr int kClashWork = 60;
 

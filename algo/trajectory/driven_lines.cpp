@@ -4,6 +4,7 @@
 #include "algo/core/standing.hpp"
 #include "algo/trajectory/bicycle.hpp"
 #include "algo/trajectory/long_vehicles.hpp"
+#include "algo/trajectory/swing.hpp"
 #include "algo/trajectory/tight_bends.hpp"
 
 namespace s4tp::trajectory {
@@ -92,8 +93,10 @@ unsigned drivable_from(const scene::Scene& scene, const scene::EgoPath& path, fl
   return from;
 }
 
+/// \param all_passed  receives whether all are passed so
 float find_lateral_offset_m(const scene::Scene& scene, const scene::EgoPath& path, const ReferenceLine& line,
-                            const Parameters& parameters, Bystanders& bystanders, int& work) {
+                            const Parameters& parameters, Bystanders& bystanders, bool& all_passed,
+                            int& work) {
   for (Bystander& other : bystanders) other.from = kAnywhere;
   float left_1pm = 0.0F;  // the sharpest bend to either side
   float right_1pm = 0.0F;
@@ -106,8 +109,13 @@ float find_lateral_offset_m(const scene::Scene& scene, const scene::EgoPath& pat
   }
   work += kStepsAhead * (kTwoPointsWork + kTwoPassedWork * bystanders.size()) / 2;
   unsigned all = drivable_from(scene, path, left_1pm, right_1pm, parameters);
+  all_passed = true;
   for (const Bystander& other : bystanders) {
-    if ((all & other.from) != 0) all &= other.from;
+    if ((all & other.from) != 0) {
+      all &= other.from;
+    } else {
+      all_passed = false;
+    }
   }
   int least = 0;
   while ((all >> least & 1U) == 0) ++least;
@@ -135,13 +143,21 @@ int build_lines(const TrajectoryPoint& start, float lead_s, const Parameters& pa
     const scene::Frenet frenet =
         scene::project(*scene.map, path.path, position(start.rear_axle), guess_s_m, kSeekM, work);
     work += build_reference(*scene.map, path.path, frenet.s_m, start.speed_mps, parameters, lines[i]);
-    path.lateral_offset_m = bystanders.empty()
-                                ? 0.0F
-                                : find_lateral_offset_m(scene, path, lines[i], parameters, bystanders, work);
-    lines[i].lateral_offset_m = path.lateral_offset_m;
     path.driven = &lines[i];
+    path.lateral_offset_m = 0.0F;
+    bool all_passed = true;
+    if (!bystanders.empty())
+      path.lateral_offset_m =
+          find_lateral_offset_m(scene, path, lines[i], parameters, bystanders, all_passed, work);
+    if (!all_passed && path.manoeuvre == scene::Manoeuvre::kKeep) {
+      work += swing_around(scene, path, parameters, lines[i]);
+      if (lines[i].swing.by_m != 0.0F) path.lateral_offset_m = 0.0F;
+    }
+    lines[i].lateral_offset_m = path.lateral_offset_m;
     work += add_zones_beside(scene, parameters, path);
-    work += widen_zones(scene, parameters, lead_s, path);
+    const float nearest_s_m = nearest_entry_s_m(scene, parameters, lead_s, path);
+    widen_zones_swung(nearest_s_m, path);
+    work += widen_zones(scene, parameters, nearest_s_m, path);
   }
   return work;
 }

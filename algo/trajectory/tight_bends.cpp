@@ -16,9 +16,10 @@ constexpr float kReachM = 4.0F;       // of our box and half a usual car, from o
 constexpr float kWaitedForM = 20.0F;  // zones of the map so near are of the same junction
 
 // Work (WorkMeter's units).
-constexpr int kLaneWork = 5;
-constexpr int kPlaceWork = 4;
-constexpr int kExtendWork = 20;
+constexpr int kLaneWork = 6;
+constexpr int kPlaceWork = 5;
+constexpr int kApartWork = 1;
+constexpr int kExtendWork = 25;
 
 /// Extends the zone by our box at one place, where it reaches into the lane.
 void extend(const Lane& lane, const Box& ours, float centre_s_m, bool& any, scene::ConflictZone& zone) {
@@ -43,6 +44,21 @@ void extend(const Lane& lane, const Box& ours, float centre_s_m, bool& any, scen
   }
 }
 
+/// Whether no zone tells of that lane where the line keeps to its own.
+bool is_beside(const scene::Scene& scene, const scene::EgoPath& path, LaneIndex index) {
+  if (!scene.map->lanes[index].in_junction) return true;
+  if (path.driven->swing.by_m == 0.0F) return false;
+  for (const scene::ConflictZone& zone : path.zones) {
+    if (zone.other_lane == index) return false;
+  }
+  for (const scene::PathLane& ours : path.path.lanes) {  // who goes there comes along behind us
+    for (const LaneIndex successor : scene.map->lanes[ours.lane].successors) {
+      if (successor == index) return false;
+    }
+  }
+  return true;
+}
+
 /// Where our front waits for it: where the map has us wait for the junction.
 float stop_s_m(const scene::EgoPath& path, float entry_s_m, const Parameters& parameters) {
   float stop_s_m = entry_s_m + 0.5F * parameters.vehicle.length_m - scene::kStopMarginM;
@@ -61,10 +77,13 @@ int add_zones_beside(const scene::Scene& scene, const Parameters& parameters, sc
   const float middle_s_m = 0.5F * (line.tight_from_s_m + line.tight_to_s_m);
   const Point middle = position(reference_at(line, middle_s_m).pose);
   const int steps = to_int((line.tight_to_s_m - from_s_m) / kStepM, -1, kMostSteps - 1);
-  int work = 0;
+  Box ours[kMostSteps];
+  for (int i = 0; i <= steps; ++i)
+    ours[i] = box_on_line(path, from_s_m + static_cast<float>(i) * kStepM, parameters);
+  int work = kPlaceWork * (steps + 1);
   for (LaneIndex index = 0; index < kMaxLanes; ++index) {
     const Lane& lane = scene.map->lanes[index];
-    if (lane.in_junction || !scene::usable(lane) || scene::is_along(path.path, index)) continue;
+    if (!scene::usable(lane) || scene::is_along(path.path, index) || !is_beside(scene, path, index)) continue;
     work += kLaneWork;
     const float away_m = scene::nearest_on_lane(lane, middle).distance_m;
     if (away_m > kNearM) continue;
@@ -74,14 +93,13 @@ int add_zones_beside(const scene::Scene& scene, const Parameters& parameters, sc
     zone.beside = true;
     bool any = false;
     for (int i = 0; i <= steps; ++i) {
-      work += kPlaceWork;
-      const float s_m = from_s_m + static_cast<float>(i) * kStepM;
-      const Box ours = box_on_line(path, s_m, parameters);
-      if (away_m - distance(middle, position(ours.centre)) > kReachM) continue;
+      work += kApartWork;
+      if (away_m - distance(middle, position(ours[i].centre)) > kReachM) continue;
       work += kLaneWork;
-      if (scene::nearest_on_lane(lane, position(ours.centre)).distance_m > kReachM) continue;
+      if (scene::nearest_on_lane(lane, position(ours[i].centre)).distance_m > kReachM) continue;
       work += kExtendWork;
-      extend(lane, ours, s_m + rear_axle_to_centre_m(parameters), any, zone);
+      const float s_m = from_s_m + static_cast<float>(i) * kStepM;
+      extend(lane, ours[i], s_m + rear_axle_to_centre_m(parameters), any, zone);
     }
     if (!any) continue;
     zone.stop_s_m = stop_s_m(path, zone.entry_s_m, parameters);
