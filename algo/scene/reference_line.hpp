@@ -27,7 +27,7 @@ struct ReferenceLine {
   float spacing_m = 1.0F;
   float slowest_limit_mps = 0.0F;  ///< along it; lower caps are bends'
   float lateral_offset_m = 0.0F;   ///< left of it motion settles: EgoPath's, past who stand
-  /// Where the lane bends more than we can steer, if anywhere: our way is wider there than the lane.
+  /// Where the lane bends more than we can steer, or the line is swung, if anywhere: our way is wider there than the lane.
   bool tight = false;
   float tight_from_s_m = 0.0F;
   float tight_to_s_m = 0.0F;
