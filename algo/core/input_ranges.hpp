@@ -24,7 +24,8 @@ inline constexpr InputRange kTrackYawRateRadps = {-1.3F, 1.3F, -1.3F, 1.3F};
 inline constexpr InputRange kTrackLengthM = {0.5F, 25.0F, 0.5F, 26.0F};
 inline constexpr InputRange kTrackWidthM = {0.3F, 3.0F, 0.3F, 3.2F};
 
-inline constexpr float kFarthestInputM = 1e5F;  ///< |x| and |y| are below it
+inline constexpr float kFarthestInputM = 1e5F;        ///< |x| and |y| are below it
+inline constexpr float kMostInputHeadingRad = 10.0F;  ///< |heading| is below it, before it is wrapped
 
 /// `value` brought to low .. high.
 [[nodiscard]] float limited(float value, const InputRange& range);

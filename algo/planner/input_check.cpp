@@ -36,8 +36,8 @@ bool is_valid(const EgoState& ego) {
 bool is_valid(const Plan& plan, const Parameters& parameters) {
   if (plan.kind == PlanKind::kNone) return true;
   return plan.kind <= PlanKind::kMinimumRisk && trajectory::keeps_limits(plan.trajectory, parameters) &&
-         within(plan.fail_safe.branch_s, 0.0F, 3.0F) && within(plan.fail_safe.braking_mps2, 0.0F, 13.0F) &&
-         is_known(plan.manoeuvre);
+         within(plan.fail_safe.branch_s, 0.0F, kHorizonS) &&
+         within(plan.fail_safe.braking_mps2, 0.0F, trajectory::kHardestMps2) && is_known(plan.manoeuvre);
 }
 
 bool are_others_valid(const PlannerInput& input) {

@@ -12,7 +12,7 @@ namespace {
 constexpr float kFarM = 150.0F;        // the map's horizon
 constexpr float kFastestMps = 100.0F;  // wanted where nobody is ahead
 constexpr float kCrawlMps = 3.0F;      // who stands or crawls will not do so all the way
-constexpr float kRoomM = 60.0F;        // for each lane change left to do; with no more, nothing else counts
+constexpr float kAlongCos = 0.7F;      // 45 degrees: crossing and oncoming traffic is no matter of lanes
 constexpr float kInsideM = 1.0F;       // aimed at within a gap that has room for it
 
 // Work (WorkMeter's units).
@@ -41,8 +41,8 @@ int LaneCostToGo::look(const scene::Scene& scene, const satp::KinematicSet& cons
   weight_ = 1.0F;
   float way_m = 0.0F;
   for (const float by_s_m : own.change_by_s_m) {
-    way_m = way_m + kRoomM;
-    weight_ = min(weight_, max(0.0F, (by_s_m - own.frenet.s_m - way_m) / kRoomM));
+    way_m = way_m + kChangeRoomM;
+    weight_ = min(weight_, max(0.0F, (by_s_m - own.frenet.s_m - way_m) / kChangeRoomM));
   }
   way_m_ = clamp(own.goal_s_m - own.frenet.s_m, 0.0F, kFarM);
   const int count = constant_velocity.agents.size() < scene.agents.size() ? constant_velocity.agents.size()
@@ -61,7 +61,7 @@ int LaneCostToGo::look(const scene::Scene& scene, const satp::KinematicSet& cons
       const scene::Frenet frenet =
           scene::project(*scene.map, path.path, position(then), path.frenet.s_m, -1.0F, work);
       const float along = cos(wrap_angle(then.heading_rad - frenet.heading_rad));
-      if (along < 0.7F) continue;  // crossing and oncoming traffic is no matter of lanes
+      if (along < kAlongCos) continue;
       const bool in_lane = abs(frenet.d_m) <= half_lane_m;
       const bool to_return = path.changes_needed != 0 && abs(frenet.d_m - to_route_m) <= half_lane_m;
       if (!in_lane && !to_return) continue;

@@ -12,6 +12,9 @@
 
 namespace s4tp::planner {
 
+/// Room for a lane change left to do at which it starts to press.
+inline constexpr float kChangeRoomM = 60.0F;
+
 class LaneCostToGo {
  public:
   /// Looks at every path of the scene, once a cycle. \param constant_velocity  where the others are meanwhile, from
@@ -22,7 +25,7 @@ class LaneCostToGo {
   /// Time lost [s] against driving at the limit, until the goal or 150 m from here, by whoever is at `s_m`
   /// with `speed_mps` at the horizon's end and then stays in the lane of `path`: behind the slower ones in
   /// it, and behind those in the route's lane of whose gaps none further ahead can be joined before the room for it ends.
-  /// Counts less, then nothing, as the room for lane changes that we have to make shortens.
+  /// Counts less, then nothing, as the room for lane changes that we have to make shortens (kChangeRoomM).
   [[nodiscard]] float delay_s(int path, float s_m, float speed_mps) const;
 
   /// Speed at which one closes up on whoever is ahead in the lane of `path`, to stand as far behind it as behind one that

@@ -15,9 +15,10 @@ using occupancy::stopping_way_m;
 
 constexpr float kPatienceS = 8.0F;
 constexpr float kDuePatienceS = 20.0F;
-constexpr float kInsetM = 0.2F;    // from both ends of a gap: vehicles do not keep their speeds exactly
-constexpr float kShare = 0.8F;     // of comfortable drive and braking
-constexpr float kAlikeMps = 0.5F;  // speeds in a column differ by this from one moment to the next
+constexpr float kInsetM = 0.2F;     // from both ends of a gap: vehicles do not keep their speeds exactly
+constexpr float kShare = 0.8F;      // of comfortable drive and braking
+constexpr float kHardlyMps = 0.1F;  // faster than that a vehicle is not gained on
+constexpr float kAlikeMps = 0.5F;   // speeds in a column differ by this from one moment to the next
 
 /// Time to gain `way_m` >= 0 and end with no speed, from `speed` (relative ones), with `up` while gaining
 /// speed, `down` while losing it, and `top` at most. \pre without more drive we end before that
@@ -25,7 +26,7 @@ float time_to_gain_s(float way_m, float speed, float up, float down, float top) 
   const float effort = 2.0F * way_m + square(speed) / up;
   const float peak = sqrt(effort * up * down / (up + down));
   if (peak <= top) return (peak - speed) / up + peak / down;
-  if (top < 0.1F) return kNeverS;
+  if (top < kHardlyMps) return kNeverS;
   const float steady_m = way_m - (square(top) - square(speed)) / (2.0F * up) - square(top) / (2.0F * down);
   return max(0.0F, top - speed) / up + top / down + steady_m / top;
 }

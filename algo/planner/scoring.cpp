@@ -11,9 +11,11 @@ namespace {
 
 constexpr int kMotionWork = 40;             // WorkMeter's units
 constexpr float kCarefulSpeedShare = 0.6F;  // of the limit, while a source of ours is stale
-constexpr float kChangeRoomM = 60.0F;  // a lane change left to do starts to press when its room is this short
-constexpr float kGapShare = 0.5F;      // of what the lane beside gains, for each second until its gap is met
+constexpr float kGapShare = 0.5F;  // of what the lane beside gains, for each second until its gap is met
 constexpr float kLongestS = 8.0F;
+constexpr float kPressM = 10.0F;       // with less room left than this, changes press no more
+constexpr float kSeekM = 5.0F;         // each way of where a plan is along its path
+constexpr float kTooFastMps = 4.0F;    // as bad at least as being so much too slow, for each m/s too fast
 constexpr float kInLaneShare = 0.4F;   // of its width from a lane's centre, a change counts as made
 constexpr float kMissedRoute = 80.0F;  // times lane_route: driving past the last place to change lanes
 constexpr float kLateShare = 4.0F;     // of what progress is worth, each metre past it costs
@@ -63,7 +65,7 @@ float driving_on_cost(const scene::Scene& scene, const LaneCostToGo& cost_to_go,
   float way_m = 0.0F;  // that the changes so far take
   for (const float by_s_m : path.change_by_s_m) {
     way_m = way_m + kChangeRoomM;
-    pressing = pressing + 1.0F + way_m / (max(by_s_m - from_s_m, 0.0F) + 10.0F);
+    pressing = pressing + 1.0F + way_m / (max(by_s_m - from_s_m, 0.0F) + kPressM);
   }
   return parameters.scoring.delay * cost_to_go.delay_s(path_index, end_s_m, end_mps) +
          parameters.scoring.lane_route * pressing;
@@ -223,14 +225,14 @@ CostBreakdown score_motion(const scene::Scene& scene, const LaneCostToGo& cost_t
     if (i % 5 != 0) continue;  // lane data change slowly: every half second is enough
     scene::PathPoint centre;
     const scene::Frenet frenet =
-        scene::project(*scene.map, path.path, position(point.rear_axle), s_m, 5.0F, centre, work);
+        scene::project(*scene.map, path.path, position(point.rear_axle), s_m, kSeekM, centre, work);
     behind_mps = cost_to_go.closing_up_mps(path_index, start_s_m, s_m, static_cast<float>(i) * kStepS);
     // What may be driven there so that bends and limits further on are met in time, too.
     const float may_mps = min(limit_share * centre.speed_limit_mps, trajectory::speed_cap_at(line, s_m));
     const float wanted_mps = min(may_mps, behind_mps);
     const float excess_mps = point.speed_mps - wanted_mps;
     // Too fast is worse than too slow by as much, and the more of it the harder it is to lose before what it is too fast for.
-    speed_sum = speed_sum + (excess_mps > 0.0F ? (4.0F + excess_mps) * excess_mps : -excess_mps);
+    speed_sum = speed_sum + (excess_mps > 0.0F ? (kTooFastMps + excess_mps) * excess_mps : -excess_mps);
     offset_sum = offset_sum + square(frenet.d_m);
     last.go_on(s_m, frenet.d_m);
     ++offset_count;
@@ -240,7 +242,7 @@ CostBreakdown score_motion(const scene::Scene& scene, const LaneCostToGo& cost_t
 
   CostBreakdown cost;
   cost.progress = -parameters.scoring.progress * (s_m - start_s_m);
-  cost.speed = parameters.scoring.speed * (speed_sum / samples) * 3.0F;
+  cost.speed = parameters.scoring.speed * (speed_sum / samples) * kHorizonS;
   cost.jerk = parameters.scoring.jerk * (jerk_sum / steps);
   cost.lateral = parameters.scoring.lateral_acceleration * (lateral_sum / steps);
   const float end_mps = trajectory.points[kHorizonSteps].speed_mps;

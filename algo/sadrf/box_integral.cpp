@@ -6,6 +6,9 @@
 namespace s4tp::sadrf {
 namespace {
 
+constexpr float kNothing = 1e-9F;  // of an integral
+constexpr float kAcross = 0.1F;    // of the line: one that hardly leads across the field counts for nothing
+
 /// A straight piece of a line through the field: s = s_m + ds t, e = e_m + de t, |t| <= half_m, de > 0.
 struct Line {
   float s_m;
@@ -47,7 +50,7 @@ float over_line(const Field& field, const Line& line) {
   float right_sigma_m = sigma_at(field, s_m, e_right_m);
   float left_sigma_m = sigma_at(field, s_m, e_left_m);
   float integral = gauss_integral(e_left_m, left_sigma_m) - gauss_integral(e_right_m, right_sigma_m);
-  if (integral <= 1e-9F) return 0.0F;
+  if (integral <= kNothing) return 0.0F;
   if (skewed) {
     // The mass of the line lies about its centroid: a(s) and sigma(s) are right there to first order.
     const float moment = first_moment(e_left_m, left_sigma_m) - first_moment(e_right_m, right_sigma_m);
@@ -128,7 +131,7 @@ float field_over_box(const Field& field, const Box& box, Point axis) {
     line.ds = -(left - turn * along * t) / at.q;
     line.de = along + turn * left * t;
     line.half_m = half_line_m;
-    if (line.de > 0.1F) sum += over_line(field, line);
+    if (line.de > kAcross) sum += over_line(field, line);
   }
   return half_m * sum;
 }

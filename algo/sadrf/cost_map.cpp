@@ -13,11 +13,12 @@ bool covers(const CostBox& one, Point point) {
 float modulation(const EgoState& ego, const Track& track, const Parameters& parameters) {
   constexpr float kNearM = 20.0F;
   constexpr float kFastMps = 10.0F;
+  constexpr float kClosestM = 0.1F;
   const auto& risk = parameters.risk;
   if (risk.nearness == 0.0F && risk.closing == 0.0F) return 1.0F;
   const float to_centre_m = 0.5F * parameters.vehicle.length_m - parameters.vehicle.rear_overhang_m;
   const Point offset = position(track.centre) - position(shift_ahead(ego.rear_axle, to_centre_m));
-  const float distance_m = max(norm(offset), 0.1F);
+  const float distance_m = max(norm(offset), kClosestM);
   const Point velocity = track.speed_mps * direction(track.centre.heading_rad) -
                          ego.speed_mps * direction(ego.rear_axle.heading_rad);
   const float closing_mps = max(-dot(velocity, offset) / distance_m, 0.0F);

@@ -5,7 +5,9 @@
 namespace s4tp::sadrf {
 namespace {
 
-constexpr int kWindow = 3;  // steps
+constexpr int kWindow = 3;               // steps
+constexpr float kRearAxleShare = 0.3F;   // of its length behind its centre
+constexpr float kWheelbaseShare = 0.6F;  // of its length
 static_assert(kMotionWindowS == static_cast<float>(kWindow) * kStepS);
 
 int first_of_window(int step) {
@@ -37,8 +39,8 @@ RecentMotion motion_at(const satp::Mode& mode, int step, Point moved) {
 Field field_of_other(const FieldParams& params, const Pose& centre, const RecentMotion& motion,
                      float length_m) {
   const Point ahead = direction(centre.heading_rad);
-  const Point rear_axle = position(centre) - (0.3F * length_m) * ahead;
-  const float steering_rad = atan(0.6F * length_m * motion.curvature_1pm);
+  const Point rear_axle = position(centre) - (kRearAxleShare * length_m) * ahead;
+  const float steering_rad = atan(kWheelbaseShare * length_m * motion.curvature_1pm);
   return prepare_field(params, rear_axle, ahead, motion.speed_mps, motion.curvature_1pm, steering_rad);
 }
 

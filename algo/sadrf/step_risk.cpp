@@ -8,6 +8,7 @@ namespace s4tp::sadrf {
 namespace {
 
 /// Below, a fifth of a risk off (the worst of two lines) is nothing beside a threshold of many thousands.
+constexpr float kTiny = 1e-6F;  // no division by less
 constexpr float kWorthSlices = 200.0F;
 constexpr float kWorthSlope = 20.0F;  // for a second, a hundredth of a metre of progress
 
@@ -98,7 +99,7 @@ float own_part_at_centre(const CostBoxes& boxes, int index) {
     if (agent == one.agent) mine = cost;
     if (agent >= one.agent) break;
   }
-  return max(mine - others, 0.0F) / max(mine, 1e-6F);
+  return max(mine - others, 0.0F) / max(mine, kTiny);
 }
 
 /// What part of a box's risk is its own: M is the largest of any vehicle's, so that a vehicle pays only for
@@ -150,7 +151,7 @@ float own_part(const Field& field, const CostBoxes& boxes, int index, WorkMeter&
     float mine = 0.0F;
     (void)add_run(boxes, same, 0, point, mine);
     whole += weight;
-    own += weight * max(mine - others, 0.0F) / max(mine, 1e-6F);
+    own += weight * max(mine - others, 0.0F) / max(mine, kTiny);
   }
   return whole > 0.0F ? own / whole : 1.0F;
 }
@@ -186,6 +187,7 @@ bool unseen(Point moved, float look_ahead_per_moved, Point towards_us, float mar
   // (a + b)^2 <= 2 (a^2 + b^2)
   const float reach_squared = look_ahead_per_moved * look_ahead_per_moved * moved_squared + margin_squared;
   if (distance_squared > 2.0F * reach_squared) return true;
+  constexpr float kBehind = 0.1F;         // square of the cosine of 108 degrees
   constexpr float kTellsHeading = 0.09F;  // m^2: slower, and the motion does not tell the heading
   if (moved_squared < kTellsHeading) return false;
   // The motion of the box centre differs from the heading by 0.3 x length x kappa, a quarter of a radian or
@@ -194,7 +196,7 @@ bool unseen(Point moved, float look_ahead_per_moved, Point towards_us, float mar
   if (ahead >= 0.0F) return false;
   const float ahead_squared = ahead * ahead;
   return ahead_squared > margin_squared * moved_squared &&
-         ahead_squared > 0.1F * distance_squared * moved_squared;
+         ahead_squared > kBehind * distance_squared * moved_squared;
 }
 
 /// R_soc: their fields over our box. Calls each(future, their field, how it was made, cost).

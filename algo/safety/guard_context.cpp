@@ -19,6 +19,7 @@ constexpr float kInStripM = 0.1F;      // so far our box may reach beyond the pa
 constexpr float kSwingM = 0.7F;        // room for that beside our box: a turn back swings out
 constexpr float kSoonM = 10.0F;        // further than where we can stand, a plan may yet bring us
 constexpr float kCurvesMps2 = 3.0F;
+constexpr float kSeekM = 15.0F;  // each way of where we are along a path
 constexpr int kCapSamples = 4;
 
 // Work (WorkMeter's units).
@@ -114,7 +115,7 @@ void Guard::look_at_path(int path_index) {
   PathContext& context = contexts_[path_index];
   new (&context) PathContext;  // assigned, it would be made on the stack first
   const scene::Frenet start =
-      scene::project(*scene_->map, path.path, position(start_.rear_axle), path.frenet.s_m, 15.0F, work_);
+      scene::project(*scene_->map, path.path, position(start_.rear_axle), path.frenet.s_m, kSeekM, work_);
   context.start_s_m = start.s_m + max(0.0F, ahead_m_ - parameters_->guard.margin_m);
   const float turned = abs(sin(wrap_angle(start_.rear_axle.heading_rad - start.heading_rad)));
   context.front_m = front_m_ - centre_m_ + 0.5F * turned * parameters_->vehicle.width_m;

@@ -12,6 +12,8 @@ constexpr float kFarM = 90.0F;           // who is further away reacts to nothin
 constexpr float kBeyondHorizonS = 5.0F;  // our motion is carried on at constant speed until then
 constexpr float kMovingMps = 1.0F;
 constexpr float kZoneMarginM = 0.5F;
+constexpr float kSeekM = 20.0F;      // each way of where we are along our path
+constexpr float kSeekKnotM = 10.0F;  // ... and along theirs, beyond our way between knots
 constexpr int kStepsPerKnot = 5;
 static_assert(kStepsPerKnot * (kEgoKnots - 1) == kHorizonSteps, "the knots span the horizon");
 
@@ -48,7 +50,7 @@ EgoMotion::EgoMotion(const scene::Scene& scene, const Parameters& parameters, fl
   }
   if (path_ == nullptr) return;
   float s_m =
-      scene::project(*scene.map, path_->path, position(centre_[0]), path_->frenet.s_m + ahead_m, 20.0F).s_m;
+      scene::project(*scene.map, path_->path, position(centre_[0]), path_->frenet.s_m + ahead_m, kSeekM).s_m;
   for (int i = 0; i < kEgoKnots; ++i) {
     s_m_[i] = s_m;
     if (i + 1 < kEgoKnots) s_m += 0.5F * kEgoKnotS * (speed_[i] + speed_[i + 1]);
@@ -66,7 +68,7 @@ EgoOnPath EgoMotion::on_path(const scene::LanePath& path, float their_s_m, const
   for (int i = 0; i < kEgoKnots; ++i) {
     if (i < projected) {
       // Between knots we move less than the reach; the first one looks at the whole path.
-      const float reach_m = i == 0 ? -1.0F : 10.0F + kEgoKnotS * speed_[i];
+      const float reach_m = i == 0 ? -1.0F : kSeekKnotM + kEgoKnotS * speed_[i];
       const scene::Frenet frenet = scene::project(*scene_.map, path, position(centre_[i]), s_m, reach_m);
       s_m = frenet.s_m;
       d_m = frenet.d_m;

@@ -15,6 +15,8 @@ constexpr float kSlowestTurnMps = 2.0F;
 constexpr float kSlowAheadM = 60.0F;
 constexpr float kStartingMps = 6.0F;  // below this a vehicle is on its way to the limit
 constexpr float kGainingMps2 = 0.5F;
+constexpr float kStraightRad = 0.1F;      // a lane that turns by less is driven at its limit
+constexpr float kSetsOffMps2 = 0.2F;      // who gains speed by more does not go on standing
 constexpr float kHardlyMovingMps = 0.5F;  // who is slower is not counted as coming
 constexpr float kUnlikely = 0.2F;         // paths of others less likely than this make nobody wait
 constexpr float kZoneMarginM = 1.0F;      // how far before a zone a vehicle waits
@@ -36,7 +38,7 @@ float turn_speed(const Lane& lane, float length_m, float over_limit) {
   const Point first = lane.points[1] - lane.points[0];
   const Point last = lane.points[lane.point_count - 1] - lane.points[lane.point_count - 2];
   const float turn_rad = abs(atan2(cross(first, last), dot(first, last)));
-  if (turn_rad < 0.1F) return limit_mps;
+  if (turn_rad < kStraightRad) return limit_mps;
   // The chords at the ends stand for all but half a chord each.
   const float curvature_1pm = turn_rad / max(length_m - 0.5F * (norm(first) + norm(last)), 1.0F);
   return min(limit_mps, sqrt(kLateralMps2 / curvature_1pm));
@@ -177,7 +179,8 @@ PathHypothesis read_path_hypothesis(const scene::Scene& scene, int index, int pa
   read_leader(scene, index, path, s_m, lead_s, hypothesis);
   read_zones(scene, index, path, hypothesis);
   // Who stands though nothing is in its way has a reason we do not see.
-  const bool standing = hypothesis.speed_mps < kHardlyMovingMps && agent.track.acceleration_mps2 < 0.2F;
+  const bool standing =
+      hypothesis.speed_mps < kHardlyMovingMps && agent.track.acceleration_mps2 < kSetsOffMps2;
   if (standing && !hypothesis.follows && hypothesis.hold_until_s <= 0.0F && hypothesis.conflicts.empty())
     hypothesis.desired_mps = 0.0F;
   return hypothesis;

@@ -13,6 +13,18 @@ using occupancy::kNeverS;
 constexpr float kZoneMarginS = 0.5F;
 constexpr float kZoneMarginM = 1.0F;
 constexpr float kCertain = 0.95F;
+// Who owes us the way, who has it, and where the first comes: up to this much braking they do for us, beyond that they do not.
+constexpr float kOwedEasyMps2 = 3.0F;
+constexpr float kOwedHardMps2 = 7.0F;
+constexpr float kPriorityEasyMps2 = 1.5F;
+constexpr float kPriorityHardMps2 = 4.0F;
+constexpr float kFirstComeEasyMps2 = 2.0F;
+constexpr float kFirstComeHardMps2 = 5.0F;
+// Chance to be minded by one with priority: there at the same time, for each second there before it, and at most.
+constexpr float kMindedAtOnce = 0.4F;
+constexpr float kMindedPerS = 0.3F;
+constexpr float kMindedAtMost = 0.97F;
+constexpr float kShortestRoomM = 0.3F;
 constexpr float kGoesOnStanding = 0.05F;  // prior chance, where its way is open
 
 // Straight on, or on the arc it drives.
@@ -39,7 +51,7 @@ float willingness(float braking_mps2, float easy, float hard) {
 
 // Chance that whoever has priority minds us in the zone first by so much.
 float seen_first(float lead_s) {
-  return clamp(0.4F + 0.3F * lead_s, 0.0F, 0.97F);
+  return clamp(kMindedAtOnce + kMindedPerS * lead_s, 0.0F, kMindedAtMost);
 }
 
 // Prior chance that the driver lets us pass somewhere along its hypothesis, and where it then waits; < 0: we do not
@@ -56,15 +68,16 @@ float yielding(const EgoMotion& ego, const PathHypothesis& hypothesis, const Pat
         ours.entry_s < their_exit_s + kZoneMarginS && their_entry_s < ours.exit_s + kZoneMarginS;
     const float room_m = conflict.entry_s_m - kZoneMarginM - hypothesis.start_s_m;
     if (!meet || room_m <= 0.0F) continue;
-    const float braking_mps2 = 0.5F * square(hypothesis.speed_mps) / max(room_m, 0.3F);
+    const float braking_mps2 = 0.5F * square(hypothesis.speed_mps) / max(room_m, kShortestRoomM);
     const bool we_first = ours.entry_s < their_entry_s;
     float here = 0.0F;
     if (ego.inside(conflict) || conflict.priority == Priority::kFirstYields) {
-      here = willingness(braking_mps2, 3.0F, 7.0F);
+      here = willingness(braking_mps2, kOwedEasyMps2, kOwedHardMps2);
     } else if (ego.conditioned() && we_first) {
       const bool has_priority = conflict.priority == Priority::kFirstHasPriority;
-      here = has_priority ? seen_first(their_entry_s - ours.entry_s) * willingness(braking_mps2, 1.5F, 4.0F)
-                          : willingness(braking_mps2, 2.0F, 5.0F);
+      here = has_priority ? seen_first(their_entry_s - ours.entry_s) *
+                                willingness(braking_mps2, kPriorityEasyMps2, kPriorityHardMps2)
+                          : willingness(braking_mps2, kFirstComeEasyMps2, kFirstComeHardMps2);
     }
     if (here <= chance) continue;
     chance = here;

@@ -12,6 +12,9 @@ namespace {
 // The network this firmware computes.
 constexpr NetworkShape kShape = kMcuShape;
 
+constexpr float kColdest = 0.05F;  // temperatures a calibration can find
+constexpr float kHottest = 20.0F;
+
 struct Offsets {
   int bytes[kLayerCount];
 };
@@ -116,7 +119,7 @@ WeightStatus Weights::check(const void* image, std::uint32_t size_bytes, Weights
   if (size_bytes - sizeof(WeightHeader) < header->payload_bytes) return WeightStatus::kTruncated;
   if (crc32(header + 1, header->payload_bytes) != header->payload_crc) return WeightStatus::kChecksum;
   // Written so that NaN fails.
-  if (!(header->temperature >= 0.05F && header->temperature <= 20.0F)) return WeightStatus::kRange;
+  if (!(header->temperature >= kColdest && header->temperature <= kHottest)) return WeightStatus::kRange;
   if (!(header->usual_residual_m >= 0.0F && header->usual_residual_m <= 100.0F)) return WeightStatus::kRange;
   Weights checked;
   checked.header_ = header;

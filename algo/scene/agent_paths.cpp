@@ -19,9 +19,17 @@ constexpr float kSlowWithinM = 40.0F;   // near a junction speed tells who turns
 constexpr float kRollingMps = 3.0F;     // below this it may just be starting, or waiting
 constexpr float kUsualShare = 0.85F;    // of the limit, at least: the speed of who goes straight on
 constexpr float kTooSlowMps = 2.5F;     // scale: this much slower makes it e times less likely
+constexpr float kMostSlowMps = 5.0F;    // slower than usual, and ...
+constexpr float kMostSlowingMps2 = 3.0F;  // ... slowing: more tells no more
+constexpr float kMostExponent = 8.0F;
+constexpr float kHintPerRad = 4.0F;  // of its heading, and per rad/s of its yaw rate
+constexpr float kHintPerM = 0.7F;
 constexpr float kHintsWithinM = 15.0F;  // heading, yaw rate and offset speak for what comes this soon
 constexpr float kAmbiguousM = 1.0F;     // lanes this close may both be the one
 constexpr float kAmbiguousRad = 0.5F;
+constexpr float kFitRad = 0.2F;  // scale of what its heading, and its yaw rate in a second, miss a lane by
+constexpr float kMostMisfit = 10.0F;
+constexpr float kSeekM = 5.0F;             // each way of where it is along its path
 constexpr float kChangeLateralMps = 0.4F;  // a clear lateral speed
 constexpr float kChangeOffsetM = 0.8F;     // where it leads within a second
 constexpr int kSteps = 3 * kMaxPathLanes;  // each step closes a chain or makes one longer
@@ -74,19 +82,20 @@ float branch_weight(const Bend& bend, float limit_mps, float distance_m, const S
     exponent -= max(speed_mps - possible_mps, 0.0F) / kTooFastMps;
   } else if (speed_mps > kRollingMps && track.acceleration_mps2 < 0.5F && distance_m < kSlowWithinM) {
     // Who slows down without being made to, or has, rather turns.
-    const float slowness = clamp(kUsualShare * limit_mps - speed_mps, 0.0F, 5.0F) / kTooSlowMps;
-    const float slowing = clamp(-track.acceleration_mps2 - kUnnoticedMps2, 0.0F, 3.0F);
+    const float slowness = clamp(kUsualShare * limit_mps - speed_mps, 0.0F, kMostSlowMps) / kTooSlowMps;
+    const float slowing = clamp(-track.acceleration_mps2 - kUnnoticedMps2, 0.0F, kMostSlowingMps2);
     exponent -= situation.candour * (slowness + slowing);
   }
   if (distance_m < kHintsWithinM) {
-    const float hint = clamp(
-        4.0F * track.yaw_rate_radps + 4.0F * situation.heading_rad + 0.7F * situation.offset_m, -2.0F, 2.0F);
+    const float hint = clamp(kHintPerRad * track.yaw_rate_radps + kHintPerRad * situation.heading_rad +
+                                 kHintPerM * situation.offset_m,
+                             -2.0F, 2.0F);
     const float nearness = 1.0F - max(distance_m, 0.0F) / kHintsWithinM;
     const float agreement = turns ? (bend.turn_rad > 0.0F ? hint : -hint) : -abs(hint);
     exponent += nearness * agreement;
   }
   const float prior = turn_rad > kUTurnRad ? kUTurnPrior : (turns ? kTurnPrior : 1.0F);
-  return prior * exp(clamp(exponent, -8.0F, 8.0F));
+  return prior * exp(clamp(exponent, -kMostExponent, kMostExponent));
 }
 
 // Likelihood of already being on a lane that starts or runs together with another.
@@ -95,8 +104,8 @@ float fit_weight(const LaneTable& table, const LaneFit& fit, const Track& track)
   const float yaw_miss =
       track.yaw_rate_radps - track.speed_mps * mean_curvature(facts.turn_rad, facts.length_m);
   const float misfit =
-      square(fit.fix.distance_m / 0.5F) + square(fit.turn_rad / 0.2F) + square(yaw_miss / 0.2F);
-  return exp(clamp(-0.5F * misfit, -10.0F, 0.0F));
+      square(fit.fix.distance_m / 0.5F) + square(fit.turn_rad / kFitRad) + square(yaw_miss / kFitRad);
+  return exp(clamp(-0.5F * misfit, -kMostMisfit, 0.0F));
 }
 
 // Whether one continues the other, or both end in the same lane: not another path.
@@ -205,7 +214,7 @@ void build_agent_paths(const LaneTable& table, bool hindered, Agent& agent) {
   start_chain(table, agent.lane, fits[0].fix.s_m, 1.0F, chains);
   int work = kPathsWork;
   const Frenet here =
-      project(table.map(), chains[0].path, position(track.centre), fits[0].fix.s_m, 5.0F, work);
+      project(table.map(), chains[0].path, position(track.centre), fits[0].fix.s_m, kSeekM, work);
   // Others in front explain all, a stop line part: it may be there for who turns.
   const float candour = hindered ? 0.0F : (table.lane(agent.lane).stop_line_m >= 0.0F ? 0.5F : 1.0F);
   const Situation situation{track, wrap_angle(track.centre.heading_rad - here.heading_rad), here.d_m,

@@ -14,6 +14,7 @@ constexpr float kPassedLineM = 0.5F;     // a stop line this far behind our fron
 constexpr float kJunctionReachM = 8.0F;  // zones this close behind a junction still belong to it
 constexpr float kHalfMadeS = 1.0F;       // a lane change is half made so long after it has begun
 constexpr float kBegunM = 0.5F;          // ... when we are so far off our lane's centre
+constexpr float kNowhereM = 1e6F;        // where there is no stop line
 constexpr float kStraightRad = 0.05F;    // turns that differ by less are equally straight
 
 // Work (WorkMeter's units).
@@ -60,7 +61,7 @@ float stop_line(const LaneTable& table, const LanePath& path, int index, float e
     if (lane.stop_line_m >= 0.0F && line_s_m <= entry_s_m + kUsualHalfLengthM) return line_s_m;
     if (!inside || (i < index && !lane.in_junction)) break;
   }
-  return 1e6F;
+  return kNowhereM;
 }
 
 // Which zone to keep when there is no room for all: where we must give way, then the nearer one.

@@ -12,6 +12,10 @@ constexpr float kBulgeMax = 0.4F;      // 23 degrees between chord and tangent
 constexpr float kCurvatureMax = 0.5F;  // 1/m; what is sharper is a flaw of the polyline
 constexpr float kHeadingLimitRad = 1.05F;  // 60 degrees
 constexpr float kCoordinateMaxM = 1e5F;    // beyond it float has no centimetres
+constexpr float kFarM = 1e6F;              // beyond both ends of any path
+constexpr float kLeastStretch = 0.3F;      // 1 - curvature d: beyond, the centre of curvature is near
+constexpr float kWidestM = 20.0F;          // of a lane
+constexpr float kShortestLaneM = 0.1F;
 constexpr int kCorrections = 3;
 
 // Work (WorkMeter's units), beside kSeekWork.
@@ -160,8 +164,8 @@ Frenet project(const LaneMap& map, const LanePath& path, Point point, float gues
 Frenet project(const LaneMap& map, const LanePath& path, Point point, float guess_s_m, float reach_m,
                PathPoint& foot, int& work) {
   const bool whole = reach_m < 0.0F;
-  const float low_s_m = whole ? -1e6F : guess_s_m - reach_m;
-  const float high_s_m = whole ? 1e6F : guess_s_m + reach_m;
+  const float low_s_m = whole ? -kFarM : guess_s_m - reach_m;
+  const float high_s_m = whole ? kFarM : guess_s_m + reach_m;
   float best_s_m = clamp(guess_s_m, low_s_m, high_s_m);
   float best_square = 1e30F;
   const int lane_count = path.lanes.size();
@@ -179,8 +183,8 @@ Frenet project(const LaneMap& map, const LanePath& path, Point point, float gues
       if (length_m <= kShortestM) continue;
       const bool first = i == 0 && k == 0;
       const bool last = last_lane && k + 2 == lane.point_count;
-      const float from_m = max(low_s_m - start_s_m, first ? -1e6F : 0.0F);
-      const float to_m = min(high_s_m - start_s_m, last ? 1e6F : length_m);
+      const float from_m = max(low_s_m - start_s_m, first ? -kFarM : 0.0F);
+      const float to_m = min(high_s_m - start_s_m, last ? kFarM : length_m);
       if (from_m <= to_m) {
         const Point offset = point - lane.points[k];
         const float x_m = clamp(dot(offset, chord) / length_m, from_m, to_m);
@@ -199,7 +203,7 @@ Frenet project(const LaneMap& map, const LanePath& path, Point point, float gues
   foot = cursor.at(best_s_m);
   Point local = to_local(foot.pose, point);
   for (int i = 0; i < kCorrections; ++i) {
-    const float stretch = max(1.0F - foot.curvature_1pm * local.y_m, 0.3F);
+    const float stretch = max(1.0F - foot.curvature_1pm * local.y_m, kLeastStretch);
     const float corrected_s_m = clamp(best_s_m + local.x_m / stretch, low_s_m, high_s_m);
     if (corrected_s_m == best_s_m) break;
     best_s_m = corrected_s_m;
@@ -232,10 +236,10 @@ bool usable(const Lane& lane) {
     const Point point = lane.points[i];
     if (!(abs(point.x_m) < kCoordinateMaxM && abs(point.y_m) < kCoordinateMaxM)) return false;
   }
-  const bool sound = lane.width_m > 0.5F && lane.width_m < 20.0F && lane.speed_limit_mps >= 0.0F &&
+  const bool sound = lane.width_m > 0.5F && lane.width_m < kWidestM && lane.speed_limit_mps >= 0.0F &&
                      lane.speed_limit_mps < 100.0F && is_finite(lane.route_remaining_m) &&
                      is_finite(lane.goal_distance_m) && is_finite(lane.stop_line_m);
-  return sound && centre_line_length(lane) > 0.1F;
+  return sound && centre_line_length(lane) > kShortestLaneM;
 }
 
 void find_led_into(const LaneMap& map, bool (&led_into)[kMaxLanes]) {

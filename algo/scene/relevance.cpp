@@ -8,6 +8,7 @@ namespace {
 
 constexpr float kSlowestMps = 2.0F;    // who stands may start: times are taken at no less than this speed
 constexpr float kElsewhereS = 100.0F;  // who shares neither zone nor lane comes after all who do
+constexpr float kElsewhereSpm = 0.1F;  // ... the nearer first
 constexpr float kOtherWayS = 1.0F;     // handicap of what concerns only a lane we are not on yet
 
 // Work (WorkMeter's units).
@@ -51,7 +52,7 @@ float zone_time_s(const ConflictZone& zone, const EgoPath& ego_path, const Agent
 float interaction_time_s(const Scene& scene, const Agent& agent) {
   const float ego_mps = scene.ego.speed_mps;
   const float apart_m = distance(position(scene.ego.rear_axle), position(agent.track.centre));
-  float time_s = kElsewhereS + 0.1F * apart_m;
+  float time_s = kElsewhereS + kElsewhereSpm * apart_m;
   for (const EgoPath& ego_path : scene.ego_paths) {
     const float handicap_s = ego_path.manoeuvre == Manoeuvre::kKeep ? 0.0F : kOtherWayS;
     float s_m = 0.0F;

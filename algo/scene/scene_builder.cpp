@@ -25,7 +25,7 @@ constexpr int kClashWork = 60;
 
 bool sound(const EgoState& ego) {
   return abs(ego.rear_axle.x_m) < kFarthestInputM && abs(ego.rear_axle.y_m) < kFarthestInputM &&
-         abs(ego.rear_axle.heading_rad) < 10.0F && is_finite(ego.speed_mps) &&
+         abs(ego.rear_axle.heading_rad) < kMostInputHeadingRad && is_finite(ego.speed_mps) &&
          is_finite(ego.acceleration_mps2) && is_finite(ego.yaw_rate_radps) && is_finite(ego.steering_rad);
 }
 

@@ -18,7 +18,7 @@ constexpr std::uint8_t kNobodysId = 255;
 
 bool sound(const Track& track) {
   return abs(track.centre.x_m) < kFarthestInputM && abs(track.centre.y_m) < kFarthestInputM &&
-         abs(track.centre.heading_rad) < 10.0F && is_finite(track.speed_mps) &&
+         abs(track.centre.heading_rad) < kMostInputHeadingRad && is_finite(track.speed_mps) &&
          is_finite(track.acceleration_mps2) && is_finite(track.yaw_rate_radps) && is_finite(track.length_m) &&
          is_finite(track.width_m);
 }

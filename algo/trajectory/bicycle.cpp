@@ -42,7 +42,8 @@ float steering_for(float curvature_1pm, float wheelbase_m) {
 }
 
 float curvature_for(float steering_rad, float wheelbase_m) {
-  return tan(clamp(steering_rad, -1.5F, 1.5F)) / wheelbase_m;
+  constexpr float kMostRad = 1.5F;  // short of a right angle
+  return tan(clamp(steering_rad, -kMostRad, kMostRad)) / wheelbase_m;
 }
 
 float rear_axle_to_centre_m(const Parameters& parameters) {

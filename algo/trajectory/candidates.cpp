@@ -3,6 +3,7 @@
 #include "algo/behavior/lane_change.hpp"
 #include "algo/core/inline.hpp"
 #include "algo/core/sort.hpp"
+#include "algo/scene/ego_paths.hpp"
 #include "algo/trajectory/along_path.hpp"
 #include "algo/trajectory/bicycle.hpp"
 #include "algo/trajectory/roll_out.hpp"
@@ -10,6 +11,7 @@
 namespace s4tp::trajectory {
 namespace {
 
+constexpr float kLeastRoomM = 0.1F;  // before a stop
 constexpr float kHardest = -100.0F;  // as hard as the fail-safe: what that can still do, a plan can
 
 /// What is tried, in this order, on every path: the running plan, one of each intent, then what adds most.
@@ -42,7 +44,6 @@ constexpr int kMostTrialWork = kTrialWork + kRollOutWork * kStretches + kSteered
 
 constexpr float kAlikeM = 0.05F;          // two roll-outs nearer than this at half time and end are one
 constexpr float kStopShortOfEndM = 1.0F;  // before the end of a road
-constexpr float kStopBeforeZoneM = 1.0F;  // waiting beyond a stop line, before the zone itself
 constexpr float kPassedM = 0.5F;          // a stopping place this far behind us is passed
 constexpr float kOnPlanM = 0.01F;         // from where we start exactly on it
 
@@ -89,7 +90,7 @@ void find_stops(const scene::Scene& scene, const scene::EgoPath& path, const Par
   for (const scene::ConflictZone& zone : path.zones) {
     // Beyond the stop line there is still the zone itself to stop before.
     const float line_s_m = zone.stop_s_m - front_m;
-    const float edge_s_m = zone.entry_s_m - centre_m - kStopBeforeZoneM;
+    const float edge_s_m = zone.entry_s_m - centre_m - scene::kStopMarginM;
     const bool passed = line_s_m < course.where.s_m - kPassedM;
     if (!passed) add_stop(line_s_m, course);
     if (passed && clear_of_zones(path, edge_s_m, parameters)) add_stop(edge_s_m, course);
@@ -168,8 +169,8 @@ bool shape_longitudinal(const scene::Scene& scene, const Trial& trial, const Cou
     case Intent::kStop:
       if (trial.line >= course.stops_s_m.size()) return false;
       candidate.target_s_m = course.stops_s_m[trial.line];
-      return square(start.speed_mps) <=
-             2.0F * parameters.vehicle.braking_max_mps2 * max(0.1F, candidate.target_s_m - course.where.s_m);
+      return square(start.speed_mps) <= 2.0F * parameters.vehicle.braking_max_mps2 *
+                                            max(kLeastRoomM, candidate.target_s_m - course.where.s_m);
     case Intent::kFollow:
       if (trial.line == 1) return aim_at_gap(scene, course, lead_s, aim, parameters, candidate);
       if (course.leader.agent < 0) return false;

@@ -9,7 +9,6 @@ namespace {
 constexpr float kFarthestM =
     1.1e5F;  // an ego may be 100 km from the origin, and its plan leads on from there
 constexpr float kFastestMps = 100.0F;
-constexpr float kHardestMps2 = 13.0F;
 constexpr float kTightest1pm = 2.0F;
 constexpr float kEgoSteeringRad = 0.8F;  // the largest an ego state may have
 constexpr float kTolerance = 1.02F;      // twice what a candidate is allowed to be over

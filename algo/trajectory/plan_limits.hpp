@@ -7,6 +7,8 @@
 
 namespace s4tp::trajectory {
 
+inline constexpr float kHardestMps2 = 13.0F;  ///< |acceleration| that any plan may ask for
+
 /// CAND-019 Every value finite and where the arithmetic is good for it: position within 110 km, heading in
 /// [-pi, pi], speed 0 .. 100 m/s, acceleration within 13 m/s^2, curvature within 2 / m.
 [[nodiscard]] bool in_range(const TrajectoryPoint& point);

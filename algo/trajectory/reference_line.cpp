@@ -220,6 +220,7 @@ float speed_cap_at(const ReferenceLine& line, float s_m) {
 }
 
 ReferenceCoordinates locate_on(const ReferenceLine& line, Point point, float guess_s_m) {
+  constexpr float kLeastStretch = 0.3F;  // beyond, the centre of curvature is near
   constexpr int kIterations = 4;  // Newton on a smooth line: each one squares the error over the radius
   ReferenceCoordinates found{guess_s_m, 0.0F};
   for (int i = 0; i < kIterations; ++i) {
@@ -227,7 +228,7 @@ ReferenceCoordinates locate_on(const ReferenceLine& line, Point point, float gue
     const Point ahead = direction(sample.pose.heading_rad);
     const Point offset = point - position(sample.pose);
     found.d_m = cross(ahead, offset);
-    const float stretch = max(0.3F, 1.0F - sample.curvature_1pm * found.d_m);
+    const float stretch = max(kLeastStretch, 1.0F - sample.curvature_1pm * found.d_m);
     const float before_s_m = found.s_m;
     found.s_m = before_s_m + dot(ahead, offset) / stretch;
     if (found.s_m == before_s_m) break;  // nothing changes any more

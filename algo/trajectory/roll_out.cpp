@@ -15,7 +15,10 @@ constexpr float kTailDriveMps2 = 1.0F;
 constexpr float kShortestM = 4.0F;       // of a lateral motion
 constexpr float kGentleBend1pm = 0.09F;  // curvature of a slow lane change, under half of what we can steer
 constexpr float kLateralMps2 = 2.0F;     // peak lateral acceleration of a lane change at speed
-constexpr float kPeak = 5.77F;           // a quintic from rest to rest bends by 5.77 d / length^2
+constexpr float kQuickestShare = 0.4F;   // of the usual duration of a lane change, at least
+constexpr float kStraightSlope = 0.02F;
+constexpr float kSteepestRad = 1.2F;  // off the line: kMaxSlope bounds its tangent sooner
+constexpr float kPeak = 5.77F;        // a quintic from rest to rest bends by 5.77 d / length^2
 constexpr float kTurnBackM = 40.0F;  // way per slope to turn back from heading away: bends by 0.1 / m at most
 constexpr float kTurnBackS2pm = 1.6F;  // and at speed by 2.5 m/s^2
 constexpr float kSwingM = 0.3F;
@@ -150,14 +153,14 @@ float lateral_length_m(const ReferenceLine& line, const TrajectoryPoint& start, 
   const float offset_m = abs(d_m);
   const float change_s = parameters.comfort.lane_change_s;
   const float at_speed_m =
-      start.speed_mps * clamp(sqrt(kPeak * offset_m / kLateralMps2), 0.4F * change_s, change_s);
+      start.speed_mps * clamp(sqrt(kPeak * offset_m / kLateralMps2), kQuickestShare * change_s, change_s);
   const float slow_m = sqrt(kPeak * offset_m / kGentleBend1pm);
   const float fresh_m = max(kShortestM, max(at_speed_m, slow_m));
 
   const ReferenceLine::Sample centre = reference_at(line, where.s_m);
   const float slope =
       tan(clamp(wrap_angle(start.rear_axle.heading_rad - centre.pose.heading_rad), -1.0F, 1.0F));
-  const bool towards = slope * d_m < 0.0F && abs(slope) > 0.02F;
+  const bool towards = slope * d_m < 0.0F && abs(slope) > kStraightSlope;
   if (!towards) return max(fresh_m, abs(slope) * max(kTurnBackM, kTurnBackS2pm * square(start.speed_mps)));
   return clamp(kSlopeShare * offset_m / abs(slope), max(kShortestM, 0.5F * fresh_m), fresh_m);
 }
@@ -168,7 +171,7 @@ void shape_lateral(const ReferenceLine& line, const TrajectoryPoint& start, Refe
   const float k = centre.curvature_1pm;
   const float stretch = max(kMinStretch, 1.0F - k * where.d_m);
   const float error_rad = wrap_angle(start.rear_axle.heading_rad - centre.pose.heading_rad);
-  const float tangent = clamp(tan(clamp(error_rad, -1.2F, 1.2F)), -kMaxSlope, kMaxSlope);
+  const float tangent = clamp(tan(clamp(error_rad, -kSteepestRad, kSteepestRad)), -kMaxSlope, kMaxSlope);
   const float cosine = 1.0F / sqrt(1.0F + square(tangent));
   const float slope = tangent * stretch;
   const float k_slope = abs(where.d_m) > 1.0F ? curvature_slope(line, where.s_m) : 0.0F;

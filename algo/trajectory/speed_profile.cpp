@@ -11,6 +11,7 @@ constexpr float kReactS = 0.6F;          // a cap is approached exponentially wi
 constexpr float kCapBrakingMps2 = 5.0F;  // no more than this for a limit or curve
 constexpr float kBegin = 0.8F;           // share of comfortable braking at which a stop begins
 constexpr float kShortM = 0.15F;         // stops aim this much short: the last step may overshoot a little
+constexpr float kLeastAimM = 0.1F;       // no division by less
 constexpr float kHoldMps = 0.15F;        // slower than this and near the target: come to rest
 constexpr float kHoldM = 0.5F;
 constexpr float kRestMps2 = 1.0F;        // braking of the last crawl
@@ -37,7 +38,7 @@ float for_cap(const ReferenceLine& line, const LongitudinalState& state, bool br
 float for_stop(float left_m, float speed_mps, float braking_mps2) {
   if (speed_mps < kHoldMps && left_m < kHoldM) return -kRestMps2;
   const float aim_m = left_m - kShortM;
-  const float needed_mps2 = square(speed_mps) / (2.0F * max(aim_m, 0.1F));
+  const float needed_mps2 = square(speed_mps) / (2.0F * max(aim_m, kLeastAimM));
   if (needed_mps2 > kBegin * braking_mps2) return -needed_mps2;
   const float room_m = max(0.0F, aim_m - kReactS * speed_mps);
   return (sqrt(2.0F * kBegin * braking_mps2 * room_m) - speed_mps) / kReactS;

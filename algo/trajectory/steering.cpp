@@ -9,6 +9,7 @@ namespace {
 constexpr float kShare = 0.95F;           // of steering angle, rate and lateral acceleration
 constexpr float kShortestReturnM = 3.0F;  // way over which an offset falls to 1/e
 constexpr float kReturnS = 1.2F;          // the same at speed
+constexpr float kSteepestRad = 1.2F;      // off the line
 constexpr float kPreviewS = 0.25F;        // wheels are turned for where we are then
 
 /// d'' = -d / l^2 - 2 d' / l along the way: back to the line without swinging past it.
@@ -17,7 +18,7 @@ float wanted_curvature_1pm(const ReferenceLine& line, float s_m, const Trajector
   const float ahead_1pm = curvature_at(line, s_m + kPreviewS * point.speed_mps);
   const float d_m = to_local(centre.pose, position(point.rear_axle)).y_m - line.lateral_offset_m;
   const float error_rad =
-      clamp(wrap_angle(point.rear_axle.heading_rad - centre.pose.heading_rad), -1.2F, 1.2F);
+      clamp(wrap_angle(point.rear_axle.heading_rad - centre.pose.heading_rad), -kSteepestRad, kSteepestRad);
   const SinCos error = sin_cos(error_rad);
   const float cosine = error.cos;
   const float slope = error.sin / cosine;
