@@ -9,8 +9,9 @@ namespace s4tp::trajectory {
 using scene::ReferenceLine;
 
 /// CAND-029 Leads the line that a path is driven on, in the junction ahead or under us, around those who stand in the way of
-/// our box there: an elastic band, drawn off whomever it comes nearer than kBystanderGapM, in a bend to its outside, with no bend
-/// tighter than we can steer, and in its lane before and behind the junction. Where there is no such way the line stays as it is.
+/// our box there and have for 20 s: an elastic band, drawn off whomever it comes nearer than kBystanderGapM, in a bend to
+/// its outside, with no bend tighter than we can steer, and in its lane before and behind the junction. Where there is no
+/// such way the line stays as it is.
 ///
 /// \code
 ///      lane ----.             .---->

@@ -50,6 +50,7 @@ struct Turn {
     agent.track.centre = {x_m, y_m, heading_rad};
     agent.track.length_m = 5.0F;
     agent.track.width_m = 1.8F;
+    agent.stood_ms = 20'000;
     (void)scene.agents.push(agent);
     return scene.agents[scene.agents.size() - 1];
   }
@@ -89,6 +90,18 @@ TEST(Swing, LeadsPastWhoStandsInATurn) {
     EXPECT_LT(distance(position(reference_at(line, s_m).pose), position(lane)), 0.6F) << s_m;
   }
   EXPECT_EQ(find_leader(turn.scene, turn.path(), turn.path().frenet.s_m, turn.parameters).agent, -1);
+}
+
+// CAND-029 Who has stood for less may be waiting for a gap, and sets off as soon as we are beside it.
+TEST(Swing, OnlyAroundWhoHasStoodForLong) {
+  Turn turn;
+  turn.stands(5.6F, 5.4F, -1.05F).stood_ms = 19'900;
+  EXPECT_EQ(turn.drive().swing.by_m, 0.0F);
+  turn.scene.agents[0].stood_ms = 20'000;
+  EXPECT_GT(turn.drive().swing.by_m, 0.0F);
+  // Nor is one led around another who has not.
+  turn.stands(2.0F, 3.2F, -1.5F).stood_ms = 5'000;
+  EXPECT_EQ(turn.drive().swing.by_m, 0.0F);
 }
 
 // CAND-029 Who moves is no obstacle; outside junctions nobody leaves the lane; and beside another lane we change into none is led
