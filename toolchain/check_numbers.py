@@ -29,7 +29,7 @@ FORMULAS = {
     "algo/sadrf/slices.cpp": ANY,  # sine and cosine; the nodes of Gauss
     "algo/satp/embedding.hpp": ANY,  # ends of the integers
     "algo/satp/path_motion.cpp": {3.0, 6.0},  # a cubic's slope
-    "algo/trajectory/elastic_band.cpp": {4.0, 8.0},  # second differences
+    "algo/trajectory/bend_widening.cpp": {4.0, 8.0},  # second differences
     "algo/trajectory/ilqr_dynamics.cpp": {3.0, 4.0},  # a cubic's slope
     "algo/trajectory/reference_line.cpp": {3.0, 9.0},  # a triangle of five
     "algo/trajectory/roll_out.cpp": {3.0, 4.0, 5.0, 6.0, 7.0, 10.0, 12.0, 15.0, 20.0},  # a quintic

@@ -7,13 +7,6 @@ namespace s4tp::scene {
 
 inline constexpr int kReferenceSamples = 84;
 
-/// Where a line leaves its lane, around whoever stands in a junction.
-struct Swing {
-  float by_m = 0.0F;  ///< at most; 0: nowhere
-  float from_s_m = 0.0F;
-  float to_s_m = 0.0F;
-};
-
 /// Smoothed centre line over kReferenceSamples * spacing_m; beyond both ends it goes on straight.
 struct ReferenceLine {
   struct Sample {
@@ -27,11 +20,10 @@ struct ReferenceLine {
   float spacing_m = 1.0F;
   float slowest_limit_mps = 0.0F;  ///< along it; lower caps are bends'
   float lateral_offset_m = 0.0F;   ///< left of it motion settles: EgoPath's, past who stand
-  /// Where the lane bends more than we can steer, or the line is swung, if anywhere: our way is wider there than the lane.
+  /// Where the lane bends more than we can steer, if anywhere: our way is wider there than the lane.
   bool tight = false;
   float tight_from_s_m = 0.0F;
   float tight_to_s_m = 0.0F;
-  Swing swing;
   Sample samples[kReferenceSamples];
 };
 

@@ -1,7 +1,6 @@
 #include "algo/trajectory/along_path.hpp"
 
 #include "algo/core/inline.hpp"
-#include "algo/core/standing.hpp"
 #include "algo/trajectory/bicycle.hpp"
 #include "algo/trajectory/reference_line.hpp"
 
@@ -14,7 +13,6 @@ constexpr float kCrossingCos = 0.7071F;  // 45 degrees
 constexpr float kMovingMps = 1.5F;
 constexpr float kSweepM = 0.75F;
 constexpr int kMostSweeps = 44;  // the longest vehicle and ours
-constexpr float kSweptM = 4.0F;  // our front is beyond where our rear axle leaves the lane
 constexpr float kFarM = 200.0F;
 constexpr float kAtGoalM = 2.0F;  // a goal at the very end of a road counts as on it
 
@@ -62,14 +60,6 @@ bool sweeps(const scene::Scene& scene, const scene::EgoPath& path, const scene::
   }
   seen.work += scene::kSeekWork * cursor.seeks();
   return touches;
-}
-
-/// Whether the line that the path is driven on leaves its lane where the vehicle is.
-bool swings_by(const scene::EgoPath& path, const OnPath& seen) {
-  if (path.driven == nullptr || path.driven->swing.by_m == 0.0F) return false;
-  const float front_s_m = seen.centre_s_m + seen.half_length_m;
-  return front_s_m > path.driven->swing.from_s_m &&
-         front_s_m - 2.0F * seen.half_length_m < path.driven->swing.to_s_m + kSweptM;
 }
 
 /// Whether the vehicle is still before the path's first lane, on a path that leads into it: seen along
@@ -125,10 +115,8 @@ OnPath see_on_path(const scene::Scene& scene, const scene::EgoPath& path, const 
   seen.crossing =
       cosine < kCrossingCos && agent.track.speed_mps > kMovingMps && !forks_off(scene, path, agent);
   seen.overlaps = abs(seen.centre_d_m) < 0.5F * parameters.vehicle.width_m + seen.half_width_m + kStripM;
-  // Along the path its strip tells; across or against it boxes do: in a bend they pass where strips overlap. They do where the
-  // line leaves its strip, too.
-  const bool beside = swings_by(path, seen) && agent.track.speed_mps < kStandingMps;
-  if (beside || (seen.overlaps && cosine < kCrossingCos && !seen.crossing))
+  // Along the path its strip tells; across or against it boxes do: in a bend they pass where strips overlap.
+  if (seen.overlaps && cosine < kCrossingCos && !seen.crossing)
     seen.overlaps = sweeps(scene, path, agent, seen, parameters);
   return seen;
 }

@@ -4,7 +4,6 @@
 #include "algo/core/standing.hpp"
 #include "algo/trajectory/bicycle.hpp"
 #include "algo/trajectory/long_vehicles.hpp"
-#include "algo/trajectory/swing.hpp"
 #include "algo/trajectory/tight_bends.hpp"
 
 namespace s4tp::trajectory {
@@ -16,8 +15,7 @@ constexpr float kReachM = kStepM * static_cast<float>(kStepsAhead);
 constexpr float kSeekM = 10.0F;   // each way of where plans begin along a path
 constexpr float kWideM = 100.0F;  // wider than any lane
 constexpr float kRoundingM = 0.01F;
-constexpr float kAcrossCos = 0.7071F;      // 45 degrees
-constexpr std::uint16_t kLongMs = 20'000;  // who waits to turn has found its gap by then, or finds none
+constexpr float kAcrossCos = 0.7071F;  // 45 degrees
 
 // Work (WorkMeter's units).
 constexpr int kTwoPointsWork = 4;
@@ -34,7 +32,6 @@ struct Bystander {
   float half_length_m;
   float half_width_m;
   unsigned from;
-  bool for_long;  ///< so long that it does not wait for a gap any more
 };
 using Bystanders = BoundedVector<Bystander, kMaxTracks>;
 
@@ -95,9 +92,8 @@ unsigned drivable_from(const scene::Scene& scene, const scene::EgoPath& path, fl
   return from;
 }
 
-/// \param stuck  receives whether somebody is not passed so, and whoever is not has stood for long
 float find_lateral_offset_m(const scene::Scene& scene, const scene::EgoPath& path, const ReferenceLine& line,
-                            const Parameters& parameters, Bystanders& bystanders, bool& stuck, int& work) {
+                            const Parameters& parameters, Bystanders& bystanders, int& work) {
   for (Bystander& other : bystanders) other.from = kAnywhere;
   float left_1pm = 0.0F;  // the sharpest bend to either side
   float right_1pm = 0.0F;
@@ -110,17 +106,9 @@ float find_lateral_offset_m(const scene::Scene& scene, const scene::EgoPath& pat
   }
   work += kStepsAhead * (kTwoPointsWork + kTwoPassedWork * bystanders.size()) / 2;
   unsigned all = drivable_from(scene, path, left_1pm, right_1pm, parameters);
-  bool all_passed = true;
-  bool all_for_long = true;
   for (const Bystander& other : bystanders) {
-    if ((all & other.from) != 0) {
-      all &= other.from;
-    } else {
-      all_passed = false;
-      all_for_long = all_for_long && other.for_long;
-    }
+    if ((all & other.from) != 0) all &= other.from;
   }
-  stuck = !all_passed && all_for_long;
   int least = 0;
   while ((all >> least & 1U) == 0) ++least;
   return kLateralOffsetsM[least];
@@ -139,8 +127,7 @@ int build_lines(const TrajectoryPoint& start, float lead_s, const Parameters& pa
   for (const scene::Agent& agent : scene.agents) {
     if (!is_standing(agent)) continue;
     (void)bystanders.push({position(agent.track.centre), direction(agent.track.centre.heading_rad),
-                           0.5F * agent.track.length_m, 0.5F * agent.track.width_m, kAnywhere,
-                           agent.stood_ms >= kLongMs});
+                           0.5F * agent.track.length_m, 0.5F * agent.track.width_m, kAnywhere});
   }
   for (int i = 0; i < scene.ego_paths.size(); ++i) {
     scene::EgoPath& path = scene.ego_paths[i];
@@ -148,21 +135,13 @@ int build_lines(const TrajectoryPoint& start, float lead_s, const Parameters& pa
     const scene::Frenet frenet =
         scene::project(*scene.map, path.path, position(start.rear_axle), guess_s_m, kSeekM, work);
     work += build_reference(*scene.map, path.path, frenet.s_m, start.speed_mps, parameters, lines[i]);
-    path.driven = &lines[i];
-    path.lateral_offset_m = 0.0F;
-    bool stuck = false;
-    if (!bystanders.empty())
-      path.lateral_offset_m =
-          find_lateral_offset_m(scene, path, lines[i], parameters, bystanders, stuck, work);
-    if (stuck && path.manoeuvre == scene::Manoeuvre::kKeep) {
-      work += swing_around(scene, path, parameters, lines[i]);
-      if (lines[i].swing.by_m != 0.0F) path.lateral_offset_m = 0.0F;
-    }
+    path.lateral_offset_m = bystanders.empty()
+                                ? 0.0F
+                                : find_lateral_offset_m(scene, path, lines[i], parameters, bystanders, work);
     lines[i].lateral_offset_m = path.lateral_offset_m;
+    path.driven = &lines[i];
     work += add_zones_beside(scene, parameters, path);
-    const float nearest_s_m = nearest_entry_s_m(scene, parameters, lead_s, path);
-    widen_zones_swung(nearest_s_m, path);
-    work += widen_zones(scene, parameters, nearest_s_m, path);
+    work += widen_zones(scene, parameters, lead_s, path);
   }
   return work;
 }

@@ -80,16 +80,11 @@ int grow(const scene::Scene& scene, const scene::EgoPath& path, const Sweep& swe
 
 }  // namespace
 
-float nearest_entry_s_m(const scene::Scene& scene, const Parameters& parameters, float lead_s,
-                        const scene::EgoPath& path) {
+int widen_zones(const scene::Scene& scene, const Parameters& parameters, float lead_s, scene::EgoPath& path) {
   const float speed_mps = scene.ego.speed_mps;
-  return path.frenet.s_m + rear_axle_to_centre_m(parameters) + kRoomM +
-         speed_mps * (lead_s + parameters.guard.takeover_s) +
-         0.5F * square(speed_mps) / parameters.guard.braking_mps2;
-}
-
-int widen_zones(const scene::Scene& scene, const Parameters& parameters, float nearest_s_m,
-                scene::EgoPath& path) {
+  const float nearest_s_m = path.frenet.s_m + rear_axle_to_centre_m(parameters) + kRoomM +
+                            speed_mps * (lead_s + parameters.guard.takeover_s) +
+                            0.5F * square(speed_mps) / parameters.guard.braking_mps2;
   const float front_m = 0.5F * parameters.vehicle.length_m;
   int work = 0;
   int pairs = 0;

@@ -18,13 +18,8 @@ namespace s4tp::trajectory {
 ///
 /// It begins no sooner than we can stop before it: who is past that is no more bound by it than by the map's, and has no more right to
 /// what is beyond. At most kMostSwept pairs of vehicle and zone a path.
-/// \param nearest_s_m  nearest_entry_s_m() \pre path.driven is there \return what it took [WorkMeter's units]
-int widen_zones(const scene::Scene& scene, const Parameters& parameters, float nearest_s_m,
-                scene::EgoPath& path);
-
-/// Where a zone may begin that we can still stop before, of our box centre. \param lead_s  from the scene to the start of plans
-[[nodiscard]] float nearest_entry_s_m(const scene::Scene& scene, const Parameters& parameters, float lead_s,
-                                      const scene::EgoPath& path);
+/// \param lead_s  from the scene to the start of plans \pre path.driven is there \return what it took [WorkMeter's units]
+int widen_zones(const scene::Scene& scene, const Parameters& parameters, float lead_s, scene::EgoPath& path);
 
 inline constexpr float kLongM = 6.5F;
 inline constexpr int kMostSwept = 6;

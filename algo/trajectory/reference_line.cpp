@@ -134,7 +134,6 @@ int build_reference(const LaneMap& map, const scene::LanePath& path, float from_
                     const Parameters& parameters, ReferenceLine& line) {
   line.spacing_m = max(1.0F, kSpacingPerSpeed * speed_mps);
   line.lateral_offset_m = 0.0F;
-  line.swing = {};
   // Samples lie on a fixed grid of the path: lines built from slightly different places agree.
   line.start_s_m = (floor(from_s_m / line.spacing_m) - kBehind) * line.spacing_m;
   scene::PathCursor cursor(map, path);
@@ -151,11 +150,6 @@ int build_reference(const LaneMap& map, const scene::LanePath& path, float from_
   int work = kLineWork + widening_work + scene::kSeekWork * cursor.seeks();
   cap_speeds(parameters, speed_at_end_mps(map, path, line, speed_mps, parameters, work), line);
   return work;
-}
-
-void derive(const Parameters& parameters, ReferenceLine& line) {
-  differentiate(line);
-  cap_speeds(parameters, line.samples[kReferenceSamples - 1].speed_cap_mps, line);
 }
 
 namespace {

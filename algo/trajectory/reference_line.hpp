@@ -33,9 +33,6 @@ struct ReferenceCoordinates {
 int build_reference(const LaneMap& map, const scene::LanePath& path, float from_s_m, float speed_mps,
                     const Parameters& parameters, ReferenceLine& line);
 
-/// Headings and curvatures anew, of samples that were moved, and what may be driven there: no faster than before.
-void derive(const Parameters& parameters, ReferenceLine& line);
-
 /// The line at `s_m`, interpolated; the heading may be outside [-pi, pi) by a step's turn.
 [[nodiscard]] ReferenceLine::Sample reference_at(const ReferenceLine& line, float s_m);
 

@@ -44,21 +44,6 @@ void extend(const Lane& lane, const Box& ours, float centre_s_m, bool& any, scen
   }
 }
 
-/// Whether no zone tells of that lane where the line keeps to its own.
-bool is_beside(const scene::Scene& scene, const scene::EgoPath& path, LaneIndex index) {
-  if (!scene.map->lanes[index].in_junction) return true;
-  if (path.driven->swing.by_m == 0.0F) return false;
-  for (const scene::ConflictZone& zone : path.zones) {
-    if (zone.other_lane == index) return false;
-  }
-  for (const scene::PathLane& ours : path.path.lanes) {  // who goes there comes along behind us
-    for (const LaneIndex successor : scene.map->lanes[ours.lane].successors) {
-      if (successor == index) return false;
-    }
-  }
-  return true;
-}
-
 /// Where our front waits for it: where the map has us wait for the junction.
 float stop_s_m(const scene::EgoPath& path, float entry_s_m, const Parameters& parameters) {
   float stop_s_m = entry_s_m + 0.5F * parameters.vehicle.length_m - scene::kStopMarginM;
@@ -83,7 +68,7 @@ int add_zones_beside(const scene::Scene& scene, const Parameters& parameters, sc
   int work = kPlaceWork * (steps + 1);
   for (LaneIndex index = 0; index < kMaxLanes; ++index) {
     const Lane& lane = scene.map->lanes[index];
-    if (!scene::usable(lane) || scene::is_along(path.path, index) || !is_beside(scene, path, index)) continue;
+    if (lane.in_junction || !scene::usable(lane) || scene::is_along(path.path, index)) continue;
     work += kLaneWork;
     const float away_m = scene::nearest_on_lane(lane, middle).distance_m;
     if (away_m > kNearM) continue;
