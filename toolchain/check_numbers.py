@@ -26,7 +26,7 @@ FORMULAS = {
     "algo/sadrf/field.cpp": ANY,  # the published presets
     "algo/sadrf/path_coordinates.cpp": {1 / 3, 1 / 5, 1 / 7, 1 / 9},  # arc tangent
     "algo/sadrf/road_risk.cpp": {6.0},  # Simpson
-    "algo/sadrf/slices.cpp": ANY,  # sine and cosine; the nodes of Gauss
+    "algo/sadrf/slices.cpp": {6.0, 24.0, 120.0, 720.0, 5040.0, 40320.0},  # sine and cosine
     "algo/satp/embedding.hpp": ANY,  # ends of the integers
     "algo/satp/path_motion.cpp": {3.0, 6.0},  # a cubic's slope
     "algo/trajectory/bend_widening.cpp": {4.0, 8.0},  # second differences
@@ -36,8 +36,8 @@ FORMULAS = {
 }
 LITERAL = re.compile(r"(?<![\w.])((?:\d+\.\d*|\.\d+|\d+)(?:[eE][-+]?\d+)?)F\b")
 NO_CODE = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"', re.DOTALL)
-# A constant's definition, to its end; a member's or an argument's default.
-NAMED = re.compile(r"\bconstexpr\b[^;{]*(?:=|\{)[^;]*;|\bfloat\s+\w+(?:\[\w*\])*\s*(?:=\s*-?[\d.eE+-]+F|\{-?[\d.eE+-]+F\})(?=\s*[;,)])")
+# A constant's definition, to its end, but no constexpr function; a member's or an argument's default.
+NAMED = re.compile(r"\bconstexpr\b[^;{(]*(?:=|\{)[^;]*;|\bfloat\s+\w+(?:\[\w*\])*\s*(?:=\s*-?[\d.eE+-]+F|\{-?[\d.eE+-]+F\})(?=\s*[;,)])")
 
 
 def blank(found):

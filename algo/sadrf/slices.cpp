@@ -5,6 +5,12 @@
 namespace s4tp::sadrf {
 namespace {
 
+constexpr float kReachSigmas = 6.0F;  // beyond, there is no field to speak of
+// Half a slice this short, or shorter, needs one, two or three nodes.
+constexpr float kOneNodeM = 0.05F;
+constexpr float kTwoNodesM = 0.25F;
+constexpr float kThreeNodesM = 0.8F;
+
 /// A corner of the box in path coordinates; the arc length counts on through the ray behind the turn's centre
 /// instead of jumping there.
 struct Corner {
@@ -87,8 +93,8 @@ float longest_arc_m(const Field& field) {
 
 bool cut(const Field& field, const LocalBox& box, float s_m, Slice& slice) {
   follow(field, s_m, slice);
-  const float left_reach_m = 6.0F * (field.widening_left * s_m + field.base_width_m);
-  const float right_reach_m = 6.0F * (field.widening_right * s_m + field.base_width_m);
+  const float left_reach_m = kReachSigmas * (field.widening_left * s_m + field.base_width_m);
+  const float right_reach_m = kReachSigmas * (field.widening_right * s_m + field.base_width_m);
   slice.right_m = -right_reach_m;
   slice.left_m = left_reach_m;
   // Not beyond the centre of the turn.
@@ -109,9 +115,9 @@ const GaussRule& rule_for(float half_m) {
       {4,
        {-0.861136312F, -0.339981044F, 0.339981044F, 0.861136312F},
        {0.347854845F, 0.652145155F, 0.652145155F, 0.347854845F}}};
-  if (half_m < 0.05F) return kRules[0];
-  if (half_m < 0.25F) return kRules[1];
-  return kRules[half_m < 0.8F ? 2 : 3];
+  if (half_m < kOneNodeM) return kRules[0];
+  if (half_m < kTwoNodesM) return kRules[1];
+  return kRules[half_m < kThreeNodesM ? 2 : 3];
 }
 
 Breaks find_breaks(const Field& field, const LocalBox& box) {

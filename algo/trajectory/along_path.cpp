@@ -8,7 +8,7 @@ namespace s4tp::trajectory {
 namespace {
 
 constexpr float kInOwnLaneM = 0.6F;      // nearer to its own lane's centre it is not in ours
-constexpr float kCarLengthM = 10.0F;     // longer ones overhang in bends
+constexpr float kOverhangingM = 10.0F;   // vehicles as long as that reach out of their lanes in bends
 constexpr float kCrossingCos = 0.7071F;  // 45 degrees
 constexpr float kMovingMps = 1.5F;
 constexpr float kSweepM = 0.75F;
@@ -26,7 +26,7 @@ bool clear_of(const scene::Scene& scene, const scene::EgoPath& path, const scene
   if (scene.map->lanes[agent.lane].in_junction) return false;
   float start_s_m = 0.0F;
   return !lane_start(path.path, agent.lane, start_s_m) && abs(agent.frenet[0].d_m) < kInOwnLaneM &&
-         agent.track.length_m < kCarLengthM;
+         agent.track.length_m < kOverhangingM;
 }
 
 /// Whether the vehicle's lane leaves the path at a fork.

@@ -32,7 +32,7 @@ class Numbers(unittest.TestCase):
     def test_literal_without_a_name(self):
         found = findings("float f(float x) {\n  return 3.7F * x + 15.0F;\n}\n")
         self.assertEqual([line.split(" has ")[0] for line in found], ["algo/scene/x.cpp:2: 3.7", "algo/scene/x.cpp:2: 15.0"])
-        for text in ("if (x < 0.3F) return;", "g(-1e6F);", "x = 3.F;", "float y = x * 0.7F;", "return {7.0F, x};"):
+        for text in ("if (x < 0.3F) return;", "g(-1e6F);", "x = 3.F;", "float y = x * 0.7F;", "constexpr float f() { return 3.7F; }", "if constexpr (kA) { x = 3.7F; }", "return {7.0F, x};"):
             self.assertEqual(len(findings(text)), 1, text)
 
     # Constants, also over lines and in lists, and defaults of members and arguments are names; comments and words are no code.
