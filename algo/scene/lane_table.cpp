@@ -9,6 +9,7 @@ namespace {
 constexpr float kBesideM = 1.0F;    // a vehicle this far over the lane's edge still belongs to it
 constexpr float kSwungOutM = 2.5F;  // the ego, over that of the lane it comes along: as far as a turn leads
 constexpr float kHeadingLimitRad = 1.05F;  // 60 degrees
+constexpr float kTurnedOutRad = 1.75F;     // 100: of the lane the ego comes along, which turns before it does
 constexpr float kAheadM = 40.0F;           // before a lane's start it still is our way
 constexpr float kAheadRad = 0.2F;
 constexpr int kJunctionParts = 4;       // lanes one way across a junction is cut into, at most
@@ -91,6 +92,7 @@ void LaneTable::fit(const Pose& pose, const LaneHint& hint, Fits& fits) const {
         valid(hint.previous) && follows(map_->lanes[hint.previous], static_cast<LaneIndex>(i));
     const bool may_swing_out = hint.follows_route && (stays || goes_on);
     const float limit_m = 0.5F * lane.width_m + (may_swing_out ? kSwungOutM : kBesideM);
+    const float limit_rad = may_swing_out ? kTurnedOutRad : kHeadingLimitRad;
     if (pose.x_m < facts.low.x_m - limit_m || pose.x_m > facts.high.x_m + limit_m ||
         pose.y_m < facts.low.y_m - limit_m || pose.y_m > facts.high.y_m + limit_m) {
       continue;
@@ -100,7 +102,7 @@ void LaneTable::fit(const Pose& pose, const LaneHint& hint, Fits& fits) const {
     found.lane = static_cast<LaneIndex>(i);
     found.fix = nearest_on_lane(lane, position(pose));
     found.turn_rad = wrap_angle(pose.heading_rad - found.fix.heading_rad);
-    if (found.fix.distance_m > limit_m || abs(found.turn_rad) > kHeadingLimitRad) continue;
+    if (found.fix.distance_m > limit_m || abs(found.turn_rad) > limit_rad) continue;
     found.score = found.fix.distance_m + kHeadingWeight * abs(found.turn_rad);
     if (stays) {
       found.score -= kStayM;

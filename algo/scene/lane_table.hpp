@@ -54,7 +54,8 @@ class LaneTable {
   [[nodiscard]] bool valid(LaneIndex index) const;
 
   /// Lanes within half their width + 1 m of the pose and 60 degrees of its heading, best first. For us + 2.5 m of the one we
-  /// come along: turns sharper than we can be steered lead out of their lane, and there it still is our way.
+  /// come along, and 100 degrees of its: turns sharper than we can be steered lead out of their lane, we turn later than it, and
+  /// there it still is our way.
   void fit(const Pose& pose, const LaneHint& hint, Fits& fits) const;
 
   /// The lane that begins at most 40 m straight ahead of a pose that is on none, or kNoLaneIndex: lanes go on

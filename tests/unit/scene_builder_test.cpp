@@ -126,6 +126,28 @@ TEST(SceneBuilder, WhoHasSwungOutOfItsLaneStillIsOnItsWay) {
   EXPECT_EQ(at(fresh, 100, 3.5F), Status::kNoLane);
 }
 
+// In a turn sharper than it can be steered the ego turns later than its lane: 90 degrees from the lane it came along it still is on its
+// way, at 110 it is not; one that was never on that lane is not from 60 on. Drives through turns of 140 degrees stopped in the junction.
+TEST(SceneBuilder, WhoTurnsLaterThanItsLaneStillIsOnItsWay) {
+  const LaneMap map = test::straight_road(1, 200.0F);
+  const Parameters parameters;
+  scene::Scene scene;
+  const auto turned_by = [&](scene::SceneBuilder& builder, std::uint32_t now_ms, float degrees) {
+    EgoState ego = test::ego_at(50.0F, 0.0F, 0.0F, 3.0F);
+    ego.rear_axle.heading_rad = degrees * kPi / 180.0F;
+    return builder.build(now_ms, ego, TrackList{}, now_ms, &map, parameters, scene);
+  };
+  for (const float side : {-1.0F, 1.0F}) {
+    scene::SceneBuilder builder;
+    EXPECT_EQ(turned_by(builder, 100, 0.0F), Status::kOk);
+    EXPECT_EQ(turned_by(builder, 200, side * 90.0F), Status::kOk);
+    EXPECT_EQ(scene.ego_paths[0].path.lanes[0].lane, 0);
+    EXPECT_EQ(turned_by(builder, 300, side * 110.0F), Status::kNoLane);
+    scene::SceneBuilder fresh;
+    EXPECT_EQ(turned_by(fresh, 100, side * 61.0F), Status::kNoLane);
+  }
+}
+
 // Two lanes leave from where ours ends, 20 m of the same ground: on it we are on the one that needs fewer lane changes, whichever
 // the map names first.
 TEST(SceneBuilder, WhereLanesPartTakesTheOneThatNeedsFewerChanges) {
