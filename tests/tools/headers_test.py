@@ -7,12 +7,11 @@ import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "toolchain"))
 import check_headers  # noqa: E402
+from small_project import findings_in  # noqa: E402
 
 
 def findings(text, name="x.hpp"):
-    with tempfile.TemporaryDirectory() as folder:
-        (pathlib.Path(folder) / name).write_text("#pragma once\n" + text, encoding="utf-8")
-        return check_headers.findings(pathlib.Path(folder))[0]
+    return findings_in(check_headers, {name: "#pragma once\n" + text})[0]
 
 
 class Headers(unittest.TestCase):

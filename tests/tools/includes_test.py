@@ -7,15 +7,11 @@ import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "toolchain"))
 import check_includes  # noqa: E402
+from small_project import findings_in  # noqa: E402
 
 
 def findings(path, text):
-    """What the checker says about a project that consists of one file."""
-    with tempfile.TemporaryDirectory() as folder:
-        file = pathlib.Path(folder) / path
-        file.parent.mkdir(parents=True)
-        file.write_text(text, encoding="utf-8")
-        return check_includes.findings(pathlib.Path(folder))
+    return findings_in(check_includes, {path: text})
 
 
 class Includes(unittest.TestCase):

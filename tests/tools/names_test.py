@@ -2,22 +2,17 @@
 
 import pathlib
 import sys
-import tempfile
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "toolchain"))
 import check_docs  # noqa: E402
 import check_names  # noqa: E402
+from small_project import findings_in  # noqa: E402
 
 
 def findings(path, text):
-    """What the checker says about a project that consists of one file."""
-    with tempfile.TemporaryDirectory() as folder:
-        file = pathlib.Path(folder) / path
-        file.parent.mkdir(parents=True, exist_ok=True)
-        file.write_text(text, encoding="utf-8")
-        return check_names.findings(pathlib.Path(folder))
+    return findings_in(check_names, {path: text})
 
 
 class Names(unittest.TestCase):

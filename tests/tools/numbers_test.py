@@ -2,21 +2,16 @@
 
 import pathlib
 import sys
-import tempfile
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "toolchain"))
 import check_numbers  # noqa: E402
+from small_project import findings_in  # noqa: E402
 
 
 def findings(text, path="algo/scene/x.cpp"):
-    """What the checker says about a project that consists of one file."""
-    with tempfile.TemporaryDirectory() as folder:
-        file = pathlib.Path(folder) / path
-        file.parent.mkdir(parents=True)
-        file.write_text(text, encoding="utf-8")
-        return check_numbers.findings(pathlib.Path(folder))
+    return findings_in(check_numbers, {path: text})
 
 
 class Numbers(unittest.TestCase):

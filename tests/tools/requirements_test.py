@@ -2,23 +2,18 @@
 
 import pathlib
 import sys
-import tempfile
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "toolchain"))
 import check_requirements  # noqa: E402
+from small_project import findings_in  # noqa: E402
 
 # Put together here, so that the checker does not take this file's examples for citations.
 FIRST, SECOND, THIRD = (f"{'GA'}{'TE'}-90{i}" for i in (1, 2, 3))
 
 
 def findings(header, test):
-    with tempfile.TemporaryDirectory() as folder:
-        root = pathlib.Path(folder)
-        for path, text in (("firmware/gate/gate.hpp", header), ("tests/unit/gate_test.cpp", test)):
-            (root / path).parent.mkdir(parents=True)
-            (root / path).write_text(text, encoding="utf-8")
-        return check_requirements.findings(root)[0]
+    return findings_in(check_requirements, {"firmware/gate/gate.hpp": header, "tests/unit/gate_test.cpp": test})[0]
 
 
 class Requirements(unittest.TestCase):
