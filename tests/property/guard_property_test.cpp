@@ -126,7 +126,7 @@ TEST(GuardProperty, NobodyAheadWhoIsLeftOutIsRunInto) {
       [] { RC_ASSERT(holds(Priority::kFirstHasPriority, false, 0, true, any_seed(), any_sight_m())); }));
 }
 
-// GUARD-010 Of random scenes of these four at most one in five hundred touches.
+// GUARD-010 GUARD-012 Of random scenes of these four at most one in five hundred touches.
 TEST(GuardPropertyLong, RareTouches) {
   constexpr unsigned kRandom = 5000;
   EXPECT_LE(touched_of_random(kRandom, nobody_with_priority_is_cut_off), 10);

@@ -133,9 +133,8 @@ TEST(SceneBuilder, WhoTurnsLaterThanItsLaneStillIsOnItsWay) {
   const Parameters parameters;
   scene::Scene scene;
   const auto turned_by = [&](scene::SceneBuilder& builder, std::uint32_t now_ms, float degrees) {
-    EgoState ego = test::ego_at(50.0F, 0.0F, 0.0F, 3.0F);
-    ego.rear_axle.heading_rad = degrees * kPi / 180.0F;
-    return builder.build(now_ms, ego, TrackList{}, now_ms, &map, parameters, scene);
+    return builder.build(now_ms, test::ego_at(50.0F, 0.0F, degrees * kPi / 180.0F, 3.0F), TrackList{}, now_ms,
+                         &map, parameters, scene);
   };
   for (const float side : {-1.0F, 1.0F}) {
     scene::SceneBuilder builder;
