@@ -21,7 +21,8 @@ constexpr double kStep_s = 0.1;
 constexpr int kTicksPerStep = 10;
 constexpr double kBesideCentre_m = 0.2;  // further out a car is changing lanes
 constexpr double kStands_mps = 0.1;
-constexpr int kRouteOrNone = 3;  // moveToXY's keepRoute: a lane of its route, or else off the road
+constexpr double kLengthKept_m = 0.05;  // as told, while it is no further off
+constexpr int kRouteOrNone = 3;         // moveToXY's keepRoute: a lane of its route, or else off the road
 constexpr int kAnyOrNone = 2;
 constexpr int kStrategicChanges = 1;  // lane change mode: those its route needs, and no others
 constexpr int kVaporized = 3;         // SUMO's reason for a removal that is no arrival
@@ -70,6 +71,7 @@ Traffic::Traffic(const scenario::Scenario& scenario, const traffic::EngineOption
     : scenario_(scenario),
       options_(options),
       coupling_(coupling),
+      ego_reach_(scenario.network),
       sumo_(start_sumo(scenario, options, coupling.driver)) {
   for (std::size_t i = 0; i < scenario.network.lanes.size(); ++i) {
     lane_of_[scenario.network.lanes[i].name] = static_cast<map::LaneId>(i);
@@ -154,6 +156,11 @@ void Traffic::enter_ego() {
 void Traffic::put_ego(const CarState& place) {
   const auto known = cars_.find(kEgoName);
   const bool lost = known != cars_.end() && known->second.lanes.empty();
+  const double length_m = coupling_.along_lanes ? ego_reach_.length_m(place) : ego_length_m_;
+  if (std::abs(length_m - ego_length_m_) > kLengthKept_m) {
+    ego_length_m_ = length_m;
+    sumo_.client->set(Domain::kVehicle, traci::kLength, kEgoName, Writer().typed_real(length_m));
+  }
   const map::Vec2 bumper = ahead_of(place, 0.5 * place.length_m);
   Writer value;
   value.compound(6).typed_text("").typed_integer(-1).typed_real(bumper.x).typed_real(bumper.y);
@@ -211,7 +218,8 @@ void Traffic::sumo_step(const traffic::EgoSeen* ego) {
 void Traffic::observe(Car& car, const traci::Variables& variables) {
   const auto real = [&](int variable) { return std::get<double>(variables.at(variable)); };
   CarState& state = car.after;
-  state.length_m = real(traci::kLength);
+  state.length_m =
+      state.id == 0 && options_.ego == DrivenBy::kUs ? CarState{}.length_m : real(traci::kLength);
   state.width_m = real(traci::kWidth);
   state.speed_mps = real(traci::kSpeed);
   state.acceleration_mps2 = real(traci::kAcceleration);
@@ -221,6 +229,7 @@ void Traffic::observe(Car& car, const traci::Variables& variables) {
   state.yaw_rate_radps =
       car.known_before ? map::wrap_angle(state.heading_rad - car.before.heading_rad) / kStep_s : 0.0;
   follow_lanes(car, std::get<std::string>(variables.at(traci::kLaneId)));
+  if (state.id == 0) ego_reach_.follow(car.lanes.empty() ? map::kNoLane : car.lanes.back());
   car.changing_lane = std::abs(real(traci::kLateralPosition)) > kBesideCentre_m;
 }
 

@@ -15,6 +15,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "sim_host/sumo/ego_reach.hpp"
 #include "sim_host/sumo/sumo_session.hpp"
 #include "sim_host/world/scenario/scenario.hpp"
 #include "sim_host/world/traffic/traffic_engine.hpp"
@@ -28,6 +29,7 @@ struct EgoCoupling {
   bool ahead = true;   ///< placed where it will be at the step's end, not where it was at its start
   bool wishes = true;  ///< SUMO's driver in it wishes the lane changes of the mission, so others make room
   bool on_route = true;     ///< on a lane of its route as long as it is on one, however near another runs
+  bool along_lanes = true;  ///< as long as its box is along its lanes (EgoReach)
   int speed_mode = 0;       ///< 0: SUMO takes it for one who goes through junctions whoever comes
   std::string driver = {};  ///< further attributes of its vehicle type, as XML
 };
@@ -72,8 +74,10 @@ class Traffic final : public traffic::TrafficEngine {
   traffic::EngineOptions options_;
   EgoCoupling coupling_;
   std::unordered_map<std::string, map::LaneId> lane_of_;
+  EgoReach ego_reach_;
   Session sumo_;
-  std::map<std::string, Car> cars_;  ///< by SUMO's id
+  std::map<std::string, Car> cars_;                     ///< by SUMO's id
+  double ego_length_m_ = traffic::CarState{}.length_m;  ///< as SUMO was told
   bool ego_there_ = false;
   int next_id_ = 1;
   int finished_ = 0;

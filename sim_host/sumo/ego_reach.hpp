@@ -1,0 +1,32 @@
+#pragma once
+/// How much of its lanes the ego's box takes.
+
+#include <vector>
+
+#include "sim_host/world/map/network.hpp"
+#include "sim_host/world/traffic/recording.hpp"
+
+namespace s4tp::sumo {
+
+/// SUMO takes a vehicle for as much of its lanes, behind its front, as it is long. A box that lies across a tight turn reaches further
+/// back than that, and whoever comes behind would drive into the rest.
+class EgoReach {
+ public:
+  explicit EgoReach(const map::Network& network) : network_(network) {}
+
+  /// \param lane where SUMO has its front; kNoLane: on none
+  void follow(map::LaneId lane);
+  /// From its rear to its front along the lanes that the front came by.
+  /// \return at least its length, and at most 5 m more
+  [[nodiscard]] double length_m(const traffic::CarState& ego) const;
+
+ private:
+  [[nodiscard]] const map::Lane& lane(map::LaneId id) const {
+    return network_.lanes[static_cast<std::size_t>(id)];
+  }
+
+  const map::Network& network_;
+  std::vector<map::LaneId> lanes_;  ///< each leads to the next
+};
+
+}  // namespace s4tp::sumo
