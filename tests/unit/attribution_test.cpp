@@ -25,6 +25,45 @@ std::vector<CarState> both_cross(double t) {
   return {eastbound(0, 104.0 + 8.0 * t, 0.0, 8.0), northbound(7, -6.0 + 8.0 * t, 8.0)};
 }
 
+// LAW-018 We have stood for 5 s without reason; one that comes at 20 m/s has been in the world for 0.9 s, 18 m, or for 1.1 s. Only the
+// second could have been answered.
+TEST(Attribution, WhoComesIntoTheWorldIsAnsweredNoSooner) {
+  const auto touched_after = [](double known_s) {
+    return judged(test::judged_road(Rule::kFirstYields), -5.0, 0.0, [&](double t) {
+      std::vector<CarState> cars{eastbound(0, 60.0, 0.0, 0.0)};
+      if (t > -known_s + 1e-6) cars.push_back(eastbound(7, 55.0 + 20.0 * t, 0.0, 20.0));
+      return cars;
+    });
+  };
+  EXPECT_EQ(pair(touched_after(0.9)), std::pair(Fault::kOther, Cause::kAppeared));
+  EXPECT_EQ(pair(touched_after(1.1)), std::pair(Fault::kEgo, Cause::kStopped));
+}
+
+/// We stand at x, y from t = `stood_from_s` on, before a zone that we yield at; a lorry of 12 m comes from the south as if to turn
+/// left, headed 126 degrees from us, and touches us at t = 0.
+Verdict swept_by_a_lorry(double x, double y, double stood_from_s) {
+  return judged(test::judged_road(Rule::kFirstYields), -6.0, 0.0, [&](double t) {
+    const bool stands = t >= stood_from_s;
+    CarState lorry = northbound(7, -8.0 + 4.0 * t, 4.0);
+    lorry.centre.x = x + 4.0;
+    lorry.heading_rad = 2.2;
+    lorry.length_m = 12.0;
+    lorry.width_m = 2.5;
+    lorry.centre.y = y + 3.0 * t;
+    return std::vector<CarState>{
+        eastbound(0, stands ? x : x + 8.0 * (t - stood_from_s), y, stands ? 0.0 : 8.0), lorry};
+  });
+}
+
+// LAW-019 At x = 102, 4 m before the zone, we have stood for 2 s when it sweeps into us: its fault. After half a second it is not said to
+// be, nor where we stand 1 m over our line (half a lane of 1.6 m, half a car of 0.9 m), nor on the zone, at 108 m.
+TEST(Attribution, NobodySweepsWhoStandsByRight) {
+  EXPECT_EQ(pair(swept_by_a_lorry(102.0, 0.0, -2.0)), std::pair(Fault::kOther, Cause::kIntoRightful));
+  EXPECT_EQ(swept_by_a_lorry(102.0, 0.0, -0.5).fault, Fault::kEgo);
+  EXPECT_EQ(swept_by_a_lorry(102.0, 1.7, -2.0).fault, Fault::kEgo);
+  EXPECT_EQ(swept_by_a_lorry(108.0, 0.0, -2.0).fault, Fault::kEgo);
+}
+
 // LAW-020 Who had to yield entered at x = 106, 0.25 s after t = 0, when the other was 0 m before the zone.
 TEST(Attribution, EnteringWithoutLicence) {
   EXPECT_EQ(pair(judged(test::judged_road(Rule::kFirstYields), -5.0, 0.5, both_cross)),

@@ -138,6 +138,15 @@ bool over_the_line(const map::Network& network, const traffic::CarState& car) {
   });
 }
 
+/// Whether we have stood for a while, within our line, with a reason, where one may (LAW-004).
+bool stands_by_right(const Law& law, const map::Network& network, const Evidence& evidence,
+                     const map::RouteGuide& guide, const Party& ego, double time_s) {
+  return evidence.stood_s(law, *ego.journey, time_s) > kStoodFor_s - 1e-6 &&
+         !over_the_line(network, *ego.car) &&
+         may_stand(evidence.groups_of(*ego.journey), ego.journey->at(time_s).odometer_m) &&
+         reason_to_stand(law, evidence, guide, time_s);
+}
+
 /// When the centre came into the lane it is in, in settle_s: since then the car is one of that lane's, new to the others.
 std::optional<double> came_over_s(const Law& law, const map::Network& network, const Journey& journey) {
   std::optional<double> came_s;
@@ -203,15 +212,23 @@ Verdict attribute(const map::Network& network, const map::RouteGuide& guide,
     return {traffic::Fault::kEgo, Cause::kUnclear};
   }
   const Party car{them.journey, &evidence.state_of(other, time_s), false};
+  const double came_s = them.journey->points.front().time_s;
+  if (came_s > history.front().time_s && came_s > time_s - law.reaction_s) {
+    return blame(car, Cause::kAppeared);
+  }
+  const double turned_rad = std::abs(map::wrap_angle(car.car->heading_rad - us.car->heading_rad));
+  const bool across = turned_rad > kSameWay_rad;
+  if (across && stands_by_right(law, network, evidence, guide, us, time_s)) {
+    return blame(car, Cause::kIntoRightful);
+  }
   if (const std::optional<Verdict> verdict = on_a_zone(law, evidence, us, car, time_s)) {
     return *verdict;
   }
-  const double turned_rad = std::abs(map::wrap_angle(car.car->heading_rad - us.car->heading_rad));
   if (turned_rad > std::numbers::pi - kSameWay_rad) {
     return by_line(us, car, Cause::kOncoming,
                    [&](const Party& party) { return still_to_come_s(network, *party.car); });
   }
-  if (turned_rad > kSameWay_rad) {
+  if (across) {
     return {traffic::Fault::kEgo, Cause::kUnclear};
   }
   const double dx = car.car->centre.x - us.car->centre.x;

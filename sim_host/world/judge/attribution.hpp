@@ -4,6 +4,9 @@
 /// The first row that fits. "Ours" wherever a row names nobody.
 /// | id      | situation                                                                        | at fault       | cause         |
 /// |---------|----------------------------------------------------------------------------------|----------------|---------------|
+/// | LAW-018 | the other came into the world less than reaction_s ago: nobody answers sooner    | the other      | kAppeared     |
+/// | LAW-019 | across or head-on; we have stood for 1 s within our line, with a reason          | the other      | kIntoRightful |
+/// |         | (reasons.hpp), on no zone of our way                                             |                |               |
 /// | LAW-020 | on a zone; who had to yield entered without licence, or when the other was there | who had to     | kEntered      |
 /// | LAW-021 | the same, licensed, but stands there for want of room beyond the group           | who had to     | kNoRoom       |
 /// | LAW-022 | the same, licensed; if the other has stood for 1 s, it is who had to             | the other      | kIntoRightful |

@@ -23,6 +23,8 @@ const char* cause_words(Fault fault, Cause cause) {
       return ours ? "drove on the wrong side" : "met on its own side";
     case Cause::kChangedLane:
       return ours ? "changed lane into" : "changed lane into us";
+    case Cause::kAppeared:
+      return "came into the world there";
     case Cause::kUnclear:
       return "unclear";
     case Cause::kNone:

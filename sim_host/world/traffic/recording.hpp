@@ -48,6 +48,7 @@ enum class Cause {
   kRanInto,
   kOncoming,
   kChangedLane,
+  kAppeared,
   kUnclear
 };
 /// The same in words, as seen from the ego: "ran into", "was run into".
