@@ -81,7 +81,10 @@ bool Guard::passes_threat(const scene::EgoPath& path, const PathContext& context
       const float stand_s_m = context.leader_stop_s_m - context.front_m - parameters_->guard.margin_m;
       const float going_m = gap_m(respond_s);
       const float standing_m = going_m + stand_s_m - own.place_at_m(respond_s, cap_mps);
-      if (going_m >= apart_m + occupancy::stopping_way_m(slower_mps, duty_mps2) &&
+      // Before that way on is begun nobody is asked to brake hard for it.
+      const bool begun = goes_through_ && context.stop_s_m > zone.entry_s_m;
+      const float asked_mps2 = begun ? duty_mps2 : parameters_->comfort.braking_mps2;
+      if (going_m >= apart_m + occupancy::stopping_way_m(slower_mps, asked_mps2) &&
           standing_m >= apart_m + occupancy::stopping_way_m(its_mps, duty_mps2) &&
           gap_m(both_in_s) >= apart_m)
         return true;

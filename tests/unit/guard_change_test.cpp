@@ -25,6 +25,22 @@ TEST(Guard, MergingBeforeAnotherLeavesItRoomToBrake) {
   }
 }
 
+// GUARD-008 From 90 at 8 m/s we come in after 0.75 s and 1 s later are at the exit. The other, from 8 m/s, has covered 17.06 m by then and
+// drives 11.5 m/s: with the 2.5 m/s^2 of ordinary driving it takes 12.25 / 5 = 2.45 m to be no faster, beside the 5.5 m between the
+// centres: it is to be 25.0 - 8 = 17.0 m before the zone. Once that way on has been begun the 4 m/s^2 that it owes do: 1.53 m, 16.1 m.
+TEST(Guard, MergingAsksNobodyToBrakeHardBeforeItIsBegun) {
+  for (const bool begun : {false, true}) {
+    for (const float entry_m : {17.5F, 16.5F, 15.6F}) {
+      SharedGround road(Priority::kFirstYields, true);
+      scene::Agent& other = road.other(96.0F - 17.5F, 8.0F);
+      if (begun) road.guard.commit(0, road.judge(90.0F, 8.0F, 0.0F));
+      other.track.centre.x_m += 17.5F - entry_m;
+      other.frenet[0].s_m += 17.5F - entry_m;
+      EXPECT_EQ(road.safe(90.0F, 8.0F, 0.0F), entry_m > (begun ? 16.1F : 17.0F)) << begun << ' ' << entry_m;
+    }
+  }
+}
+
 // GUARD-008 The same where somebody stands further on, at 120: our centre stands at 120 - 5 - 0.5 = 114.5 at the furthest, and the other,
 // 6 m behind our 108 with 12 m/s, 144 / 8 = 18 m further on: 6 + 6.5 - 18 is no room for 5.5. Behind one at 160 there is.
 TEST(Guard, MergingBeforeAnotherLeavesItRoomBehindWhoeverLeads) {
