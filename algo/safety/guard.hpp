@@ -14,7 +14,8 @@
 /// before the group any more, before the zone where the first comes. Whoever comes in sight after that and can stop finds the
 /// ground taken. GUARD-007 Who cannot stay out of a zone any more leaves it no later than it was to. Who has come to a stand in
 /// a group may stand on, and where lanes merge sets off beside nobody: only before, or behind, all of whoever is there.
-/// GUARD-008 Merging leaves room, in both orders, and should whoever leads brake hard.
+/// GUARD-008 Merging leaves room, in both orders, and should whoever leads brake hard. Before it is begun nobody is asked to
+/// brake harder for it than in ordinary driving.
 /// GUARD-009 A lane change leaves who is behind, who may gain speed until we are over the line, room to brake,
 /// and begins only when who is ahead is ahead of all of us by then, braking as hard as can be.
 /// Whoever stands there needs no such room: our box keeps off its. Once our box is in there, one behind it that lacks
@@ -168,10 +169,12 @@ class Guard {
     float leader_stop_s_m = 0.0F;  ///< foremost place for our front bumper if who is ahead brakes hard
     std::uint8_t leader = 255;
     float leader_mps = 0.0F;
-    Passing beside;            ///< our front stays behind it until a change is over the line
-    bool changes = false;      ///< our box is, or comes, from another lane
-    bool half_over = false;    ///< most of us is in the lane already
-    bool settles = false;      ///< our lane, and a change is in force or made or given up just now
+    Passing beside;              ///< our front stays behind it until a change is over the line
+    bool changes = false;        ///< our box is, or comes, from another lane
+    bool half_over = false;      ///< most of us is in the lane already
+    bool settles = false;        ///< our lane, and a change is in force or made or given up just now
+    float swing_right_m = 0.0F;  ///< beside the path's lane, left positive
+    float swing_left_m = 0.0F;
     float fastest_mps = 0.0F;  ///< that anybody may drive in our lane
     InLaneList behind;         ///< only where `changes` or `settles`: those for whom we are new
     InLaneList on_way_over;    ///< ahead, where our box may be before it has come over to the path's strip
@@ -200,7 +203,10 @@ class Guard {
   void look_at_path(int path_index);
   /// Whether a vehicle not in the path's strip is where our box is, or may be before it has come over to that. \param seen
   /// receives where
-  [[nodiscard]] bool is_on_way_over(const scene::EgoPath& path, int agent, trajectory::OnPath& seen);
+  [[nodiscard]] bool is_on_way_over(const scene::EgoPath& path, const PathContext& context, int agent,
+                                    trajectory::OnPath& seen);
+  /// From the line that the path is driven on to where our front or rear is: in a tight bend the front swings out of it.
+  void find_swing(const scene::EgoPath& path, PathContext& context);
   /// Of many in a lane the nearest ones matter.
   static void keep_nearest(InLaneList& list, const InLane& other, float own_s_m);
   void find_groups(const scene::EgoPath& path, PathContext& context) const;

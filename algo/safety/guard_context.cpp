@@ -78,19 +78,23 @@ float Guard::Passing::least_s_m(float time_s) const {
   return stop_s_m - occupancy::stopping_way_m(max(0.0F, speed_mps - braking_mps2 * time_s), braking_mps2);
 }
 
-bool Guard::is_on_way_over(const scene::EgoPath& path, int agent, trajectory::OnPath& seen) {
-  // From the line that the path is driven on to where our front or rear is.
-  const float sine = sin(wrap_angle(scene_->ego.rear_axle.heading_rad - path.frenet.heading_rad));
-  const float front_d_m = path.frenet.d_m + front_m_ * sine;
-  const float right_m = min(path.lateral_offset_m, min(path.frenet.d_m, front_d_m));
-  const float left_m = max(path.lateral_offset_m, max(path.frenet.d_m, front_d_m));
-  if (left_m - right_m < kInStripM) return false;
+void Guard::find_swing(const scene::EgoPath& path, PathContext& context) {
+  const Point front = position(shift_ahead(scene_->ego.rear_axle, front_m_));
+  const float front_d_m =
+      scene::project(*scene_->map, path.path, front, path.frenet.s_m + front_m_, kSeekM, work_).d_m;
+  context.swing_right_m = min(path.lateral_offset_m, min(path.frenet.d_m, front_d_m));
+  context.swing_left_m = max(path.lateral_offset_m, max(path.frenet.d_m, front_d_m));
+}
+
+bool Guard::is_on_way_over(const scene::EgoPath& path, const PathContext& context, int agent,
+                           trajectory::OnPath& seen) {
+  if (context.swing_left_m - context.swing_right_m < kInStripM) return false;
   bool known = false;
   seen = trajectory::see_on_path(*scene_, path, scene_->agents[agent], *parameters_, true, known);
   work_ += seen.work;
   const float room_m = 0.5F * parameters_->vehicle.width_m + seen.half_width_m + kSwingM;
-  return known && !seen.overlaps && !seen.crossing && seen.centre_d_m > right_m - room_m &&
-         seen.centre_d_m < left_m + room_m;
+  return known && !seen.overlaps && !seen.crossing && seen.centre_d_m > context.swing_right_m - room_m &&
+         seen.centre_d_m < context.swing_left_m + room_m;
 }
 
 float Guard::changing_s() const {
@@ -135,6 +139,7 @@ void Guard::look_at_path(int path_index) {
   const bool sets_out = context.changes && abs(path.frenet.d_m) > 2.0F * half_lane_m - kInStripM;
   if (sets_out && scene_->known.age_ms > scene::kFreshMs) expect_beside(context);
   const float centre_s_m = path.frenet.s_m + centre_m_;
+  find_swing(path, context);
   for (int i = 0; i < scene_->agents.size(); ++i) {
     const scene::Agent& agent = scene_->agents[i];
     bool known = false;
@@ -143,7 +148,7 @@ void Guard::look_at_path(int path_index) {
         trajectory::see_on_path(*scene_, path, agent, *parameters_, joining, known);
     work_ += seen.work;
     trajectory::OnPath beside;
-    if (is_on_way_over(path, i, beside)) {
+    if (is_on_way_over(path, context, i, beside)) {
       const float along_mps = max(0.0F, beside.along_mps);
       InLane other{static_cast<std::uint8_t>(i)};
       other.speed_mps = along_mps;

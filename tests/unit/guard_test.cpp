@@ -231,6 +231,37 @@ TEST(Guard, NobodyCreepsIntoOneThatStandsAskew) {
   EXPECT_EQ(cause(2.0F, 0.3F), Cause::kNone);
 }
 
+// GUARD-004 In a right turn of 6 m, at its beginning, our front, 3.9 m before the rear axle, is 1.2 m left of the path: one stands across
+// there whose near corner is 0.3 m before it and 0.4 m within its width. 4 m further left it stands beside our way.
+TEST(Guard, OurFrontKeepsOffWhoStandsWhereItSwingsOut) {
+  const auto cause = [](float left_m) {
+    LaneMap map;
+    scene::Scene scene;
+    const Parameters parameters;
+    const LaneIndex before = add_lane(map, {{-60.0F, 0.0F}, {0.0F, 0.0F}});
+    const LaneIndex turn = add_lane(map, arc({0.0F, 0.0F, 0.0F}, 6.0F, -2.0944F, 9));
+    link(map, before, turn);
+    const scene::LanePath path = path_of(map, {before, turn});
+    (void)add_ego_path(scene, map, path);
+    const TrajectoryPoint start = state_on(map, path, 60.0F, 2.0F);
+    put_ego(scene, start);
+    scene::Agent& across = add_vehicle(scene, map, path_of(map, {before}), 55.0F, 0.0F);
+    across.lane = kNoLaneIndex;
+    across.paths.clear();
+    const float front_m = trajectory::rear_axle_to_front_m(parameters);
+    across.track.centre = {front_m + 0.3F + 0.5F * across.track.width_m,
+                           0.5F + 0.5F * across.track.length_m + left_m, 0.5F * kPi};
+    Trajectory plan;
+    for (int i = 0; i < kTrajectoryPoints; ++i)
+      plan.points[i] = state_on(map, path, 60.0F + 2.0F * kStepS * static_cast<float>(i), 2.0F);
+    Guard guard;
+    guard.look(scene, start, 0.0F, parameters);
+    return guard.judge(0, plan).cause;
+  };
+  EXPECT_EQ(cause(0.0F), Cause::kLeader);
+  EXPECT_NE(cause(4.0F), Cause::kLeader);
+}
+
 // GUARD-004 Towards one that stands, 12 m/s are kept up to 17.6 m before it and no longer.
 TEST(Guard, NobodyGoesOnTowardsOneWhoStands) {
   SharedGround road(Priority::kFirstHasPriority);
