@@ -8,8 +8,9 @@
 
 namespace s4tp::sumo {
 
-/// SUMO takes a vehicle for as much of its lanes, behind its front, as it is long. A box that lies across a tight turn reaches further
-/// back than that, and whoever comes behind would drive into the rest.
+/// SUMO-006 How long the ego's box is along its lanes: SUMO takes a vehicle for as much of them, behind its front,
+/// as it is long, but one that lies across a tight turn reaches further back, and whoever comes behind would
+/// drive into the rest.
 class EgoReach {
  public:
   explicit EgoReach(const map::Network& network) : network_(network) {}

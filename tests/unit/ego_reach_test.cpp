@@ -30,7 +30,7 @@ traffic::CarState placed(double x, double y, double heading_rad) {
   return car;
 }
 
-// On a straight lane a box takes its 5 m.
+// SUMO-006 On a straight lane a box takes its 5 m.
 TEST(EgoReach, AsLongAsItIsOnAStraightLane) {
   const map::Network network = sharp_corner();
   EgoReach reach(network);
@@ -38,7 +38,7 @@ TEST(EgoReach, AsLongAsItIsOnAStraightLane) {
   EXPECT_DOUBLE_EQ(reach.length_m(placed(20.0, 0.3, 0.0)), 5.0);
 }
 
-// Across the corner, turned by 45 degrees: the front 0.47 m along lane 2, 0.27 m beside it, the rear 48.73 m along lane 0: 0.47 + 4 +
+// SUMO-006 Across the corner, turned by 45 degrees: the front 0.47 m along lane 2, 0.27 m beside it, the rear 48.73 m along lane 0: 0.47 + 4 +
 // 1.27 = 5.74 m. Within 0.3 m of that the front may be taken for 0.5 m further on.
 TEST(EgoReach, LongerAcrossASharpTurn) {
   const map::Network network = sharp_corner();
@@ -49,7 +49,7 @@ TEST(EgoReach, LongerAcrossASharpTurn) {
   EXPECT_LE(length_m, 5.73 + 0.52);
 }
 
-// Lanes that do not lead to each other are no way: after a lane change only the new one counts, and none where it is off the road.
+// SUMO-006 Lanes that do not lead to each other are no way: after a lane change only the new one counts, and none where it is off the road.
 TEST(EgoReach, CountsTheWayItCameBy) {
   const map::Network network = sharp_corner();
   EgoReach reach(network);
