@@ -94,7 +94,7 @@ MUTANTS = {
     "no_follower": Mutant("a lane change leaves nobody behind room to brake", {"guard_followers.cpp": [
         ("for (const InLane& behind : context.behind) {", "for (const InLane& behind : InLaneList{}) {")]}),
     "only_strip": Mutant("a leader beside the path's strip is not looked at while our box comes over", {
-        "guard_context.cpp": [("if (left_m - right_m < kInStripM) return false;", "return false;")]}),
+        "guard_context.cpp": [("context.swing_left_m - context.swing_right_m < kInStripM", "true")]}),
     "no_unseen": Mutant("nobody is beyond the known ground", {"guard_context.cpp": [
         ("if (scene.known.left_out > 0) look_beyond(reach);", "")]}),
 }
