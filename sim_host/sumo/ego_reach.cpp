@@ -11,11 +11,6 @@ constexpr std::size_t kMostLanes = 4;
 constexpr double kStep_m = 0.25;
 constexpr double kAsNear_m = 0.3;  // of two places on a bent line SUMO may take either
 
-map::Vec2 ahead_of(const traffic::CarState& car, double distance_m) {
-  return {car.centre.x + distance_m * std::cos(car.heading_rad),
-          car.centre.y + distance_m * std::sin(car.heading_rad)};
-}
-
 double furthest_m(const map::Polyline& line, map::Vec2 point) {
   const map::PolylineProjection nearest = line.project(point);
   double furthest = nearest.s_m;
@@ -27,6 +22,11 @@ double furthest_m(const map::Polyline& line, map::Vec2 point) {
 }
 
 }  // namespace
+
+map::Vec2 ahead_of(const traffic::CarState& car, double distance_m) {
+  return {car.centre.x + distance_m * std::cos(car.heading_rad),
+          car.centre.y + distance_m * std::sin(car.heading_rad)};
+}
 
 void EgoReach::follow(map::LaneId id) {
   if (id == map::kNoLane) {
@@ -45,7 +45,6 @@ void EgoReach::follow(map::LaneId id) {
 double EgoReach::length_m(const traffic::CarState& ego) const {
   if (lanes_.size() < 2) return ego.length_m;
   const map::Vec2 rear = ahead_of(ego, -0.5 * ego.length_m);
-  double front_m = furthest_m(lane(lanes_.back()).drawn, ahead_of(ego, 0.5 * ego.length_m));
   double rear_m = 0.0;
   double nearest_m = INFINITY;
   double before_m = 0.0;  // all lanes' length before this one
@@ -55,9 +54,10 @@ double EgoReach::length_m(const traffic::CarState& ego) const {
       nearest_m = std::abs(at.d_m);
       rear_m = before_m + at.s_m;
     }
-    if (id == lanes_.back()) front_m += before_m;
     before_m += lane(id).drawn.length_m();
   }
+  const map::Polyline& last = lane(lanes_.back()).drawn;
+  const double front_m = before_m - last.length_m() + furthest_m(last, ahead_of(ego, 0.5 * ego.length_m));
   return std::clamp(front_m - rear_m, ego.length_m, ego.length_m + kMostLonger_m);
 }
 

@@ -8,6 +8,9 @@
 
 namespace s4tp::sumo {
 
+/// Where a car's point is that is `distance_m` ahead of its box centre.
+[[nodiscard]] map::Vec2 ahead_of(const traffic::CarState& car, double distance_m);
+
 /// SUMO-006 How long the ego's box is along its lanes: SUMO takes a vehicle for as much of them, behind its front,
 /// as it is long, but one that lies across a tight turn reaches further back, and whoever comes behind would
 /// drive into the rest.

@@ -35,11 +35,6 @@ double compass_deg(double heading_rad) {
   return 90.0 - heading_rad * 180.0 / std::numbers::pi;
 }
 
-map::Vec2 ahead_of(const CarState& car, double distance_m) {
-  return {car.centre.x + distance_m * std::cos(car.heading_rad),
-          car.centre.y + distance_m * std::sin(car.heading_rad)};
-}
-
 /// Where a car will be when it keeps acceleration and yaw rate.
 CarState after(const CarState& car, double time_s) {
   const double until_stop_s =
