@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/support/judged_touch.hpp"
 
 namespace s4tp::judge {
@@ -207,19 +209,20 @@ TEST(Attribution, CuttingIn) {
   EXPECT_EQ(pair(cut_in(7, 3.0)), std::pair(Fault::kOther, Cause::kCutIn));
 }
 
-/// The way from the south joins ours at x = 120, where we are at t = 0 with 5 m/s; 7 m behind us comes one with 10 m/s, and touches
-/// us at t = 1.4, at x = 127.
-Verdict run_into_beyond_the_merge(Rule our_rule) {
+/// The way from the south joins ours at x = 120, where we are at t = 0 with 5 m/s; 7 m behind us comes one with 10 m/s, which has
+/// stood until `sets_off_s`, and touches us at t = 1.4, at x = 127.
+Verdict run_into_beyond_the_merge(Rule our_rule, double sets_off_s = -5.0) {
   Network network = test::judged_road(our_rule);
   network.lanes[3].centre = map::Polyline(std::vector<map::Vec2>{{110.0, -10.0}, {120.0, 0.0}});
   network.lanes[3].successors = {5};
   const double way_m = network.lanes[3].centre.length_m();
   network.conflicts = {{2, 3, our_rule, 12.0, 20.0, way_m - 8.0, way_m}};
   return judged(network, -5.0, 1.5, [&](double t) {
-    CarState joins = eastbound(7, 120.0 - 12.0 + 10.0 * t, 0.0, 10.0);
+    const double speed_mps = t < sets_off_s ? 0.0 : 10.0;
+    CarState joins = eastbound(7, 120.0 - 12.0 + 10.0 * std::max(t, sets_off_s), 0.0, speed_mps);
     const double to_merge_m = 120.0 - joins.centre.x;
     if (to_merge_m > way_m) {
-      joins = northbound(7, -10.0 - (to_merge_m - way_m), 10.0);
+      joins = northbound(7, -10.0 - (to_merge_m - way_m), speed_mps);
     } else if (to_merge_m > 0.0) {
       const map::PolylinePose pose = network.lanes[3].centre.at(way_m - to_merge_m);
       joins.centre = pose.point;
@@ -236,6 +239,14 @@ TEST(Attribution, MergingWithPriorityIsNoCuttingIn) {
   EXPECT_EQ(pair(run_into_beyond_the_merge(Rule::kFirstHasPriority)),
             std::pair(Fault::kOther, Cause::kRanInto));
   EXPECT_EQ(pair(run_into_beyond_the_merge(Rule::kFirstYields)), std::pair(Fault::kEgo, Cause::kCutIn));
+}
+
+// LAW-024 Ahead of one with priority that stands and has let us go, which sets off when we cannot stop any more (from x = 104 on, t = -3.2:
+// 5 + 5^2 / 8 = 8.1 m), it is none, either: it is bound by that licence. One that sets off before has let nobody go.
+TEST(Attribution, MergingByLicenceIsNoCuttingIn) {
+  EXPECT_EQ(pair(run_into_beyond_the_merge(Rule::kFirstYields, -1.0)),
+            std::pair(Fault::kOther, Cause::kRanInto));
+  EXPECT_EQ(pair(run_into_beyond_the_merge(Rule::kFirstYields, -3.5)), std::pair(Fault::kEgo, Cause::kCutIn));
 }
 
 // LAW-026 After 19.5 m it takes 4.9 s until they touch: the one behind had time; and so it had with 12 m,

@@ -86,23 +86,33 @@ bool no_room(const Evidence& evidence, const Journey& entering, const ZoneGroup&
   });
 }
 
+/// When the car came into the group, if it has.
+double entered_s(const Journey& journey, const ZoneGroup& group, double time_s) {
+  return std::min(journey.time_at(group.entry_m), time_s);
+}
+
+/// Whether one that has to give way went into the zone by licence of the other, and before it.
+bool entered_by_right(const Law& law, const Evidence& evidence, const Journey& yields,
+                      const Journey& creditor, const SharedZone& shared, double time_s) {
+  const double to_zone_m = evidence.other_entry_m(shared.zone, creditor).value_or(0.0);
+  return evidence.entered_by_licence(law, yields, shared.group, shared.zone, creditor,
+                                     entered_s(yields, shared.group, time_s)) &&
+         creditor.time_at(to_zone_m) >= yields.time_at(shared.zone.entry_m);
+}
+
 /// `yields` had to give way.
 Verdict by_priority(const Law& law, const Evidence& evidence, const Party& yields, const Party& priority,
                     const SharedZone& shared, double time_s) {
-  const double entered_s = std::min(yields.journey->time_at(shared.group.entry_m), time_s);
-  const Journey& creditor = *priority.journey;
-  const double to_zone_m = evidence.other_entry_m(shared.zone, creditor).value_or(0.0);
-  const bool licensed =
-      evidence.entered_by_licence(law, *yields.journey, shared.group, shared.zone, creditor, entered_s);
-  if (!licensed || creditor.time_at(to_zone_m) < yields.journey->time_at(shared.zone.entry_m)) {
+  if (!entered_by_right(law, evidence, *yields.journey, *priority.journey, shared, time_s)) {
     return blame(yields, Cause::kEntered);
   }
   // Nobody drives into anything while it stands.
-  if (evidence.stood_s(law, creditor, time_s) > kStoodFor_s) {
+  if (evidence.stood_s(law, *priority.journey, time_s) > kStoodFor_s) {
     return blame(yields, Cause::kIntoRightful);
   }
   const bool stuck = yields.car->speed_mps < kSlow_mps;
-  return stuck && no_room(evidence, *yields.journey, shared.group, entered_s)
+  return stuck && no_room(evidence, *yields.journey, shared.group,
+                          entered_s(*yields.journey, shared.group, time_s))
              ? blame(yields, Cause::kNoRoom)
              : blame(priority, Cause::kIntoRightful);
 }
@@ -172,14 +182,18 @@ Verdict by_line(const Party& ego, const Party& other, Cause cause, const Strayed
   return blame(strayed_s(other) > strayed_s(ego) ? other : ego, cause);
 }
 
-/// Whether the one in front came ahead where both ways merge and the one behind has to give way.
-bool merged_by_right(const Evidence& evidence, const Journey& front, const Journey& rear, double since_s) {
+/// Whether the one in front came ahead where both ways merge, and the one behind has to give way or has let it go: it is
+/// bound by that licence, and sets off behind it with the distance it owes.
+bool merged_by_right(const Law& law, const Evidence& evidence, const Journey& front, const Journey& rear,
+                     double since_s) {
   const map::LaneId from = front.at(since_s - traffic::kSnapshotPeriod_s).lane;
   const std::vector<ZoneGroup> groups = evidence.groups_of(front);
   return std::any_of(groups.begin(), groups.end(), [&](const ZoneGroup& group) {
     return std::any_of(group.zones.begin(), group.zones.end(), [&](const ZoneOnWay& zone) {
-      return zone.lane == from && zone.meeting.merging && zone.meeting.rule == map::Rule::kFirstHasPriority &&
-             evidence.other_entry_m(zone, rear).has_value();
+      return zone.lane == from && zone.meeting.merging && evidence.other_entry_m(zone, rear).has_value() &&
+             (zone.meeting.rule == map::Rule::kFirstHasPriority ||
+              (zone.meeting.rule == map::Rule::kFirstYields &&
+               entered_by_right(law, evidence, front, rear, {group, zone}, since_s)));
     });
   });
 }
@@ -189,7 +203,7 @@ Verdict nose_to_tail(const Law& law, const Evidence& evidence, const map::RouteG
   const double since_s = ahead_since_s(*front.journey, *rear.journey, time_s);
   if (since_s > time_s - law.settle_s && since_s <= time_s && rear.journey->seen_at(since_s) &&
       !left_gap(law, *front.journey, *rear.journey, since_s) &&
-      !merged_by_right(evidence, *front.journey, *rear.journey, since_s)) {
+      !merged_by_right(law, evidence, *front.journey, *rear.journey, since_s)) {
     return blame(front, Cause::kCutIn);
   }
   if (front.ours && evidence.stood_s(law, *front.journey, time_s) > kStoodFor_s - 1e-6 &&

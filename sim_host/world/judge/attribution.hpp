@@ -12,7 +12,7 @@
 /// | LAW-022 | the same, licensed; if the other has stood for 1 s, it is who had to             | the other      | kIntoRightful |
 /// | LAW-023 | on a zone, first come                                                            | the later one  | kEnteredLater |
 /// | LAW-024 | nose to tail; the one in front came into the lane within settle_s, no RSS gap,   | it             | kCutIn        |
-/// |         | and did not merge with priority over the one behind                              |                |               |
+/// |         | and did not merge with priority over the one behind, or by its licence           |                |               |
 /// | LAW-025 | nose to tail; we are in front and stand for 1 s without reason (reasons.hpp)     | we             | kStopped      |
 /// | LAW-026 | nose to tail                                                                     | the one behind | kRanInto      |
 /// | LAW-027 | head-on; one is over its line, the other not                                     | the first      | kOncoming     |
