@@ -21,7 +21,8 @@ namespace {
 using nlohmann::ordered_json;
 
 constexpr const char* kKind = "s4tp campaign";
-constexpr int kVersion = 2;  // of what an episode's line holds; 1: no post-encroachment times
+constexpr int kVersion =
+    3;  // of what an episode's line holds; 1: no post-encroachment times, 2: no time to be in
 
 [[noreturn]] void fail(const std::filesystem::path& file, const std::string& what) {
   throw std::runtime_error(file.string() + ": " + what);
@@ -47,6 +48,7 @@ void visit_fields(Row& row, const Visit& visit) {
   visit("collisions_competition_box", m.collisions_competition_box);
   visit("collided_standing", m.collided_standing);
   visit("duration_s", m.duration_s);
+  visit("in_time_s", m.in_time_s);
   visit("distance_m", m.distance_m);
   visit("progress_share", m.progress_share);
   visit("mean_abs_jerk_mps3", m.mean_abs_jerk_mps3);

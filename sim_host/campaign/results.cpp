@@ -45,6 +45,8 @@ ordered_json run_json(const CellResult& result) {
       {"success_rate", s.success.share},
       {"wilson_low", s.success.interval.low},
       {"wilson_high", s.success.interval.high},
+      {"in_time_s", s.in_time_s},
+      {"in_time_rate", s.in_time.share},
       {"collision_rate", s.collision.share},
       {"at_fault_collision_rate", s.at_fault.share},
       {"off_road_rate", s.off_road.share},

@@ -21,6 +21,7 @@ PARTS = {
     "networks_sumo": "Further networks, SUMO's traffic",
 }
 SIGNIFICANT = 5  # digits
+LIMIT_S = 80.0  # of an episode; a scenario may ask for less, counted apart
 MOST_COLUMNS = 10  # a wider table is turned on its side
 
 PAGE = """# Results
@@ -90,6 +91,12 @@ def beside(cells, flavours, text):
     return " / ".join(text(by_flavour[flavour]) if flavour in by_flavour else "–" for flavour in flavours)
 
 
+def goals_of(run):
+    """How many, and of them those in time where that is less than the 80 s of all."""
+    goals, in_time_s = count(run, "success_rate"), run.get("in_time_s", LIMIT_S)
+    return f"{goals}" if in_time_s >= LIMIT_S else f"{goals} ({count(run, 'in_time_rate')} in {in_time_s:.0f} s)"
+
+
 def goals(runs):
     """Planners x scenarios, of runs that are alike in all else."""
     scenarios, flavours = distinct(runs, "scenario"), distinct(runs, "flavour")
@@ -97,7 +104,7 @@ def goals(runs):
     for planner in distinct(runs, "planner"):
         own = [run for run in runs if run["planner"] == planner]
         cells = [beside([run for run in own if run["scenario"] == scenario], flavours,
-                        lambda run: str(count(run, "success_rate"))) for scenario in scenarios]
+                        goals_of) for scenario in scenarios]
         total, hits, ours = (sum(count(run, rate) for run in own)
                              for rate in ("success_rate", "collision_rate", "at_fault_collision_rate"))
         rows.append([planner, *cells, f"{total} of {sum(run['episodes'] for run in own)}", f"{hits} ({ours})"])

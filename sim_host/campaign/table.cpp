@@ -80,16 +80,17 @@ void print_paper(std::ostream& out, const Cells& group) {
 }
 
 void print_details(std::ostream& out, const Cells& group) {
-  out << format("%-20s%-24s%9s%17s%14s%5s%5s%10s%9s%9s%9s%8s%8s%9s%7s%7s%9s\n", "planner", "scenario", "goal",
-                "95 % interval", "hits (ours)", "off", "late", "to goal s", "TTC p05", "near m.", "|jerk|",
-                "brake", "RSS %", "PET<1.5%", "imp>2%", "imp>3%", "pressed%");
+  out << format("%-20s%-24s%9s%17s%12s%14s%5s%5s%10s%9s%9s%9s%8s%8s%9s%7s%7s%9s\n", "planner", "scenario",
+                "goal", "95 % interval", "in time", "hits (ours)", "off", "late", "to goal s", "TTC p05",
+                "near m.", "|jerk|", "brake", "RSS %", "PET<1.5%", "imp>2%", "imp>3%", "pressed%");
   for (const CellResult* const cell : group) {
     const metrics::Summary& s = cell->summary;
     out << format(
-        "%-20.19s%-24.23s%9s%17s%14s%5d%5d%10.1f%9.2f%9.2f%9.2f%8.1f%8.1f%9.1f%7.1f%7.1f%9.1f\n",
+        "%-20.19s%-24.23s%9s%17s%12s%14s%5d%5d%10.1f%9.2f%9.2f%9.2f%8.1f%8.1f%9.1f%7.1f%7.1f%9.1f\n",
         cell->cell.planner.c_str(), cell->cell.scenario.c_str(),
         format("%d/%d", s.success.count, s.episodes).c_str(),
         format("%.1f..%.1f %%", 100.0 * s.success.interval.low, 100.0 * s.success.interval.high).c_str(),
+        format("%d in %.0f s", s.in_time.count, s.in_time_s).c_str(),
         format("%d (%d)", s.collision.count, s.at_fault.count).c_str(), s.off_road.count,
         s.time_out.count + s.dead_ecu.count, s.seconds_to_goal, s.min_ttc_s_p05, s.near_misses,
         s.mean_abs_jerk_mps3, s.hardest_braking_mps2, 100.0 * s.rss_violation_share,

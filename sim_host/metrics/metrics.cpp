@@ -100,12 +100,17 @@ void measure_encounters(const traffic::Recording& recording, const scenario::Sce
 
 }  // namespace
 
+bool in_time(const EpisodeMetrics& episode) {
+  return episode.ending == traffic::Ending::kGoal && episode.duration_s <= episode.in_time_s;
+}
+
 EpisodeMetrics evaluate(const traffic::Recording& recording, const scenario::Scenario& scenario) {
   const std::vector<const Snapshot*> driven = driven_part(recording);
   EpisodeMetrics result;
   result.seed = recording.seed;
   result.ending = recording.ending;
   result.redrawn = recording.redrawn;
+  result.in_time_s = scenario.mission.in_time_s;
   measure_collisions(recording, result);
   result.collided_standing = recording.ending == traffic::Ending::kCollision && !driven.empty() &&
                              driven.back()->ego.speed_mps < kStandingMps;

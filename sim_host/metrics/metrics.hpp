@@ -27,6 +27,7 @@ struct EpisodeMetrics {
   std::string cause;                   ///< of the first collision (attribution.hpp); else the ending in words
   // How far and how fast.
   double duration_s = 0.0;      ///< from take-over to the end, or to the first touch
+  double in_time_s = 0.0;       ///< by when a goal counts as in time; the scenario's
   double distance_m = 0.0;      ///< driven
   double progress_share = 0.0;  ///< of the Manhattan distance to the goal covered; 1: all of it
   // Comfort.
@@ -42,6 +43,9 @@ struct EpisodeMetrics {
   Encounters encounters;
   Comp1 comp1;
 };
+
+/// Whether the goal was reached by in_time_s.
+[[nodiscard]] bool in_time(const EpisodeMetrics& episode);
 
 /// Only what happened after take-over (time >= 0) counts, and nothing after the first touch.
 [[nodiscard]] EpisodeMetrics evaluate(const traffic::Recording& recording,

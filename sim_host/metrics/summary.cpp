@@ -43,6 +43,8 @@ Summary summarize(const std::vector<EpisodeMetrics>& episodes) {
     return total / sum.episodes;
   };
   sum.success = ended(Ending::kGoal);
+  sum.in_time = rate(in_time);
+  sum.in_time_s = episodes.front().in_time_s;
   sum.collision = rate([](const auto& e) { return e.collisions_at_fault + e.collisions_other_fault > 0; });
   sum.at_fault = rate([](const auto& e) { return e.collisions_at_fault > 0; });
   sum.competition_box_collision = rate([](const auto& e) { return e.collisions_competition_box > 0; });

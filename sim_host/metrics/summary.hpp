@@ -29,6 +29,7 @@ struct Rate {
 struct Summary {
   int episodes = 0;
   Rate success;    ///< reached the goal: no collision at all, whoever's fault
+  Rate in_time;    ///< the same, by in_time_s
   Rate collision;  ///< own-size boxes touched, whoever's fault
   Rate at_fault;   ///< the same through our fault
   Rate competition_box_collision;
@@ -38,6 +39,7 @@ struct Summary {
   Rate hit_standing;                  ///< touched while we stood
   std::map<std::string, int> causes;  ///< of collisions: how many episodes each
   int redrawn = 0;                    ///< draws thrown away
+  double in_time_s = 0.0;             ///< of the first episode: those of a cell have the same
   double seconds_to_goal = 0.0;       ///< mean over those that reached it; 0 when none did
   double mean_speed_mps = 0.0;        ///< distance over time, all episodes
   double progress_share = 0.0;        ///< mean

@@ -95,6 +95,7 @@ std::string outcome_table(const std::vector<const campaign::ReportedCell*>& cell
     if (s.episodes > 0) {
       line.insert(line.end(), {"<b>" + percent(s.success.share) + "</b>",
                                percent(s.success.interval.low) + " – " + percent(s.success.interval.high),
+                               percent(s.in_time.share) + format(" <small>in %.0f s</small>", s.in_time_s),
                                with_interval(s.collision),
                                with_interval(s.at_fault),
                                with_interval(s.off_road),
@@ -125,6 +126,7 @@ std::string outcome_table(const std::vector<const campaign::ReportedCell*>& cell
                 "episodes done",
                 "goal<br>%",
                 "95 % interval<br>%",
+                "in time<br>%",
                 "collisions<br>%",
                 "through our fault<br>%",
                 "off road<br>%",

@@ -129,7 +129,8 @@ def check_numbers(rows, runs):
         rates = ("collision_rate", "at_fault_collision_rate", "off_road_rate", "timeout_rate")
         wanted = [run["scenario"], run["planner"], "guarded" if run["guarded"] else "bare",
                   f'{run["episodes"]} of 4', f'{100 * run["success_rate"]:.1f}',
-                  f'{100 * run["wilson_low"]:.1f} – {100 * run["wilson_high"]:.1f}']
+                  f'{100 * run["wilson_low"]:.1f} – {100 * run["wilson_high"]:.1f}',
+                  f'{100 * run["in_time_rate"]:.1f} in {run["in_time_s"]:.0f} s']
         for rate in rates:
             low, high = run[rate.replace("_rate", "_wilson")]
             wanted.append(f"{100 * run[rate]:.1f} [{100 * low:.1f}, {100 * high:.1f}]")

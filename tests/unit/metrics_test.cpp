@@ -234,6 +234,21 @@ TEST(Metrics, TimeToCollisionAlongABend) {
   EXPECT_NEAR(evaluate(recording).min_time_to_collision_s, 1.5, 0.1);
 }
 
+// 2 s to the goal are in time where 2 s are asked for, not where 1.9 are; 2 s to a time-out never are.
+TEST(Metrics, InTimeIsAGoalByThen) {
+  Recording recording = cruise(21, 10.0);
+  scenario::Scenario scenario = straight();
+  const auto is_in_time = [&](double in_time_s) {
+    scenario.mission.in_time_s = in_time_s;
+    return in_time(metrics::evaluate(recording, scenario));
+  };
+  recording.ending = Ending::kGoal;
+  EXPECT_TRUE(is_in_time(2.01));
+  EXPECT_FALSE(is_in_time(1.9));
+  recording.ending = Ending::kTimeOut;
+  EXPECT_FALSE(is_in_time(2.01));
+}
+
 // Unsafe, safe, unsafe: violated twice, two thirds of the time.
 TEST(Metrics, RssViolationsAreCountedWhenTheyBegin) {
   Recording recording = cruise(3, 10.0);

@@ -21,7 +21,7 @@ using nlohmann::ordered_json;
 using test::Folder;
 
 ordered_json header() {
-  return ordered_json::parse(R"({"kind":"s4tp campaign","version":2,"planners":["blind"],
+  return ordered_json::parse(R"({"kind":"s4tp campaign","version":3,"planners":["blind"],
     "scenarios":[{"name":"merge","argument":"merge","digest":"0"}],"flavours":["smarts"],"traffic":["builtin"],"guard":["on"],
     "perception":"ideal","episodes":4,"first_seed":10,"parameters":"","parameters_crc":1,"wire_version":1,"build":"b",
     "cells":[["blind","merge","smarts","builtin",true,"ideal"]],"shard":"1/1"})");

@@ -29,7 +29,7 @@ EpisodeRow row(const std::string& planner, std::uint64_t seed, bool fails) {
 
 nlohmann::ordered_json header(int episodes) {
   return {{"kind", "s4tp campaign"},
-          {"version", 2},
+          {"version", 3},
           {"planners", {"a", "b"}},
           {"scenarios", {{{"name", "merge"}, {"argument", "merge"}, {"digest", "0"}}}},
           {"flavours", {"smarts"}},

@@ -60,6 +60,7 @@ TEST(Scenario, FillsInDefaults) {
   EXPECT_DOUBLE_EQ(scenario.mission.start_speed_mps, 10.0);
   EXPECT_DOUBLE_EQ(scenario.mission.goal_s_m, 30.0);
   EXPECT_DOUBLE_EQ(scenario.mission.time_limit_s, 80.0);
+  EXPECT_DOUBLE_EQ(scenario.mission.in_time_s, 80.0);
   const FlowGroup& flow = scenario.flows.at(0);
   EXPECT_EQ(flow.choose_high, 1);
   EXPECT_DOUBLE_EQ(flow.vehicles_per_minute.high, 10.0);
@@ -69,6 +70,13 @@ TEST(Scenario, FillsInDefaults) {
   EXPECT_DOUBLE_EQ(flow.drivers[0].max_speed_mps, 10.0);
   EXPECT_DOUBLE_EQ(flow.drivers[0].acceleration_mps2, 2.6);
   EXPECT_EQ(flow.routes.at(0).start_lane, -1);
+}
+
+// Whoever asks for a goal within 25 s still ends an episode after 80: the time to be in is no limit.
+TEST(Scenario, ATimeToBeInIsNoLimit) {
+  const Scenario scenario = scenario_of(replaced(kScenario, "30.0", "30.0\nin_time_s = 25"));
+  EXPECT_DOUBLE_EQ(scenario.mission.time_limit_s, 80.0);
+  EXPECT_DOUBLE_EQ(scenario.mission.in_time_s, 25.0);
 }
 
 // A goal at -1 is the lane's end (40 m), an entry speed of -1 the lane's limit (10 m/s).
@@ -128,7 +136,7 @@ TEST(Scenario, AMixHasItsKindsOfDrivers) {
 TEST(Scenario, ErrorsSayWhatIsAccepted) {
   const std::vector<std::pair<std::string, std::vector<std::string>>> cases = {
       {replaced(kScenario, "goal_pos_m", "goal_metres"),
-       {"scenario.toml", "mission.goal_metres", "unknown key", "goal_lane, goal_pos_m, start_lane"}},
+       {"scenario.toml", "mission.goal_metres", "unknown key", "goal_lane, goal_pos_m, in_time_s, start_lane"}},
       {replaced(kScenario, "max_speed_mps", "top_speed"),
        {"traffic.driver.top_speed", "accepted here: acceleration_mps2"}},
       {"wheels = 4\n" + kScenario, {"wheels: unknown key", "mission, network, traffic"}},
@@ -142,6 +150,8 @@ TEST(Scenario, ErrorsSayWhatIsAccepted) {
       {replaced(kScenario, "30.0", "41"), {"mission.goal_pos_m", "40"}},
       {replaced(kScenario, "30.0", "-0.5"), {"mission.goal_pos_m", "or -1"}},
       {replaced(kScenario, "30.0", "30.0\nstart_pos_m = 41"), {"mission.start_pos_m", "40"}},
+      {replaced(kScenario, "30.0", "30.0\ntime_limit_s = 30\nin_time_s = 31"),
+       {"mission.in_time_s", "a number from 1 to 30"}},
       {replaced(kScenario, "choose = 1", "choose = 2"), {"traffic.flow[0].choose", "from 0 to 1"}},
       {replaced(kScenario, "[5, 10]", "[10, 5]"), {"traffic.flow[0].vehicles_per_minute", "low <= high"}},
       {replaced(kScenario, "= 10\n", "= \"fast\"\n"), {"traffic.driver.max_speed_mps", "a number from"}},

@@ -66,13 +66,14 @@ TEST(Summary, WilsonInterval) {
   EXPECT_EQ(wilson(0, 0).high, 1.0);
 }
 
-// Two goals after 4 and 6 s and one collision of ours: 5 s on average, one of three lost. Encounters: shares
-// count what lies beyond the limit, 1.5 s is not below 1.5 s.
+// Two goals after 4 and 6 s and one collision of ours: 5 s on average, one of three lost; one goal by 5 s, as the collision, sooner
+// than that, is none. Encounters: shares count what lies beyond the limit, 1.5 s is not below 1.5 s.
 TEST(Summary, CountsAndAverages) {
   std::vector<EpisodeMetrics> episodes(3);
   episodes[0].ending = episodes[1].ending = Ending::kGoal;
   episodes[0].duration_s = 4.0;
   episodes[1].duration_s = 6.0;
+  for (EpisodeMetrics& episode : episodes) episode.in_time_s = 5.0;
   episodes[2].ending = Ending::kCollision;
   episodes[2].collisions_at_fault = 1;
   episodes[2].cause = "ran into";
@@ -83,6 +84,8 @@ TEST(Summary, CountsAndAverages) {
   episodes[1].encounters.min_time_gap_s = 1.5;
   const Summary sum = summarize(episodes);
   EXPECT_EQ(sum.success.count, 2);
+  EXPECT_EQ(sum.in_time.count, 1);
+  EXPECT_EQ(sum.in_time_s, 5.0);
   EXPECT_DOUBLE_EQ(sum.seconds_to_goal, 5.0);
   EXPECT_EQ(sum.collision.count, 1);
   EXPECT_EQ(sum.at_fault.count, 1);

@@ -90,6 +90,7 @@ Mission read_mission(TomlTable table, const map::Network& network) {
   mission.goal_s_m = read_or(table, "goal_pos_m", kAsTheLane, 1e6, kEnd);
   mission.entry_time_s = table.number("entry_time_s", mission.entry_time_s, 0.0, 600.0);
   mission.time_limit_s = table.number("time_limit_s", mission.time_limit_s, 1.0, 3600.0);
+  mission.in_time_s = table.number("in_time_s", mission.time_limit_s, 1.0, mission.time_limit_s);
   mission.start_speed_mps = read_or(table, "entry_speed_mps", kAsTheLane, 60.0, start.speed_limit_mps);
   table.no_other_keys();
   mission.start_s_m = along_shape(table, "start_pos_m", start, mission.start_s_m);

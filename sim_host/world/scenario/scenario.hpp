@@ -20,6 +20,7 @@ struct Mission {
   double goal_s_m = 0.0;
   double entry_time_s = 4.0;   ///< the ECU takes over
   double time_limit_s = 80.0;  ///< after entry
+  double in_time_s = 80.0;     ///< a goal reached by then is counted apart; at most the limit
 };
 
 struct Cut;
