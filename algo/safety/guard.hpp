@@ -8,7 +8,7 @@
 /// due, or leave it to us. GUARD-003 Nobody stops in a group where it gives way, nor enters one without room beyond it, behind
 /// whoever leads or merges ahead.
 /// GUARD-004 It can be stopped behind a leader who brakes as hard as can be, as our box is turned, and while our box comes over to the
-/// path, behind whoever leads where it still is; behind a cut-in, and beside one that stands askew, it only must not get worse. A
+/// path, behind whoever leads where it still is; behind one that stands in another lane where our box comes; behind a cut-in, and beside one that stands askew, it only must not get worse. A
 /// vehicle ahead of its plan is judged from there. GUARD-005 What is safe only by hard braking says so. GUARD-006 A licence used
 /// holds, for the ground it was given for, until we stand, for a plan that leaves that in time; used it is once we cannot stop
 /// before the group any more, before the zone where the first comes. Whoever comes in sight after that and can stop finds the

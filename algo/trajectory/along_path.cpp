@@ -1,6 +1,7 @@
 #include "algo/trajectory/along_path.hpp"
 
 #include "algo/core/inline.hpp"
+#include "algo/core/standing.hpp"
 #include "algo/trajectory/bicycle.hpp"
 #include "algo/trajectory/reference_line.hpp"
 
@@ -9,6 +10,7 @@ namespace {
 
 constexpr float kInOwnLaneM = 0.6F;      // nearer to its own lane's centre it is not in ours
 constexpr float kOverhangingM = 10.0F;   // vehicles as long as that reach out of their lanes in bends
+constexpr float kTouchM = 0.1F;          // our box may be off its line by as much
 constexpr float kCrossingCos = 0.7071F;  // 45 degrees
 constexpr float kMovingMps = 1.5F;
 constexpr float kSweepM = 0.75F;
@@ -20,8 +22,9 @@ constexpr float kAtGoalM = 2.0F;  // a goal at the very end of a road counts as 
 constexpr int kSeeWork = 7;
 constexpr int kSweepWork = 7;
 
-/// A vehicle near the centre of a plain lane that is none of the path's cannot be in its strip.
-bool clear_of(const scene::Scene& scene, const scene::EgoPath& path, const scene::Agent& agent) {
+/// A vehicle near the centre of a plain lane that is none of the path's is not in its strip, unless it stands where our box
+/// comes.
+bool keeps_beside(const scene::Scene& scene, const scene::EgoPath& path, const scene::Agent& agent) {
   if (agent.lane == kNoLaneIndex || agent.paths.empty()) return false;
   if (scene.map->lanes[agent.lane].in_junction) return false;
   float start_s_m = 0.0F;
@@ -40,10 +43,9 @@ bool forks_off(const scene::Scene& scene, const scene::EgoPath& path, const scen
   return false;
 }
 
-/// Whether our box, driven along the path, comes within kStripM of a vehicle that stands across or against
-/// it.
-bool sweeps(const scene::Scene& scene, const scene::EgoPath& path, const scene::Agent& agent, OnPath& seen,
-            const Parameters& parameters) {
+/// Whether our box, driven along the path, comes within `gap_m` of a vehicle that stands.
+bool sweeps(const scene::Scene& scene, const scene::EgoPath& path, const scene::Agent& agent, float gap_m,
+            const Parameters& parameters, OnPath& seen) {
   const Box other{agent.track.centre, agent.track.length_m, agent.track.width_m};
   const float from_s_m = seen.centre_s_m - seen.half_length_m - rear_axle_to_front_m(parameters);
   const float to_s_m = seen.centre_s_m + seen.half_length_m + parameters.vehicle.rear_overhang_m;
@@ -56,7 +58,7 @@ bool sweeps(const scene::Scene& scene, const scene::EgoPath& path, const scene::
     const Pose line = path.driven != nullptr ? reference_at(*path.driven, s_m).pose : cursor.at(s_m).pose;
     const Point there = offset_point(line, 0.0F, path.lateral_offset_m);
     const Box ours = ego_box({there.x_m, there.y_m, line.heading_rad}, parameters);
-    touches = separation(ours, other) < kStripM;
+    touches = separation(ours, other) < gap_m;
   }
   seen.work += scene::kSeekWork * cursor.seeks();
   return touches;
@@ -96,8 +98,10 @@ OnPath see_on_path(const scene::Scene& scene, const scene::EgoPath& path, const 
   known = false;
   if (distance(position(agent.track.centre), position(scene.ego.rear_axle)) > kFarM) return seen;
   float error_rad = 0.0F;
+  bool beside = false;
   if (whole_road || !comes_up_behind(path, agent, seen, error_rad)) {
-    if (!whole_road && clear_of(scene, path, agent)) return seen;
+    beside = !whole_road && keeps_beside(scene, path, agent);
+    if (beside && agent.track.speed_mps >= kStandingMps) return seen;
     const scene::Frenet frenet = scene::project(*scene.map, path.path, position(agent.track.centre),
                                                 path.frenet.s_m, -1.0F, seen.work);
     error_rad = wrap_angle(agent.track.centre.heading_rad - frenet.heading_rad);
@@ -116,8 +120,12 @@ OnPath see_on_path(const scene::Scene& scene, const scene::EgoPath& path, const 
       cosine < kCrossingCos && agent.track.speed_mps > kMovingMps && !forks_off(scene, path, agent);
   seen.overlaps = abs(seen.centre_d_m) < 0.5F * parameters.vehicle.width_m + seen.half_width_m + kStripM;
   // Along the path its strip tells; across or against it boxes do: in a bend they pass where strips overlap.
-  if (seen.overlaps && cosine < kCrossingCos && !seen.crossing)
-    seen.overlaps = sweeps(scene, path, agent, seen, parameters);
+  if (seen.overlaps && beside) {
+    seen.overlaps = sweeps(scene, path, agent, kTouchM, parameters, seen);
+  } else if (seen.overlaps && cosine < kCrossingCos && !seen.crossing) {
+    seen.overlaps = sweeps(scene, path, agent, kStripM, parameters, seen);
+  }
+  known = !beside || seen.overlaps;
   return seen;
 }
 

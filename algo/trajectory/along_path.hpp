@@ -13,7 +13,8 @@ inline constexpr float kStripM = 0.2F;
 /// A vehicle seen along one of our paths.
 struct OnPath {
   bool overlaps = false;    ///< its box reaches into the strip a car of our width needs; standing across
-                            ///< or against us: our box would come within kStripM of it
+                            ///< or against us: our box would come within kStripM of it; standing in a lane
+                            ///< that is none of the path's: our box would touch it
   float centre_s_m = 0.0F;  ///< of its box centre
   float centre_d_m = 0.0F;
   float half_length_m = 0.0F;  ///< of its box along the path, whatever its heading

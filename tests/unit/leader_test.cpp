@@ -54,5 +54,27 @@ TEST(Leader, WhoCrossesIsNot) {
   EXPECT_EQ(fork.leader(), -1);
 }
 
+/// One waits in the middle of its own lane, which ends beside ours and is no part of our way, across it; its front is `short_m` short
+/// of our side, 0.9 m right of our line. \return whether it leads us
+bool leads_from_its_own_lane(float short_m, float speed_mps) {
+  LaneMap map;
+  const LaneIndex ours = test::add_lane(map, {{0.0F, 0.0F}, {80.0F, 0.0F}});
+  const LaneIndex theirs = test::add_lane(map, {{50.0F, -40.0F}, {50.0F, 0.0F}});
+  scene::Scene scene;
+  test::add_ego_path(scene, map, test::path_of(map, {ours}));
+  test::put_ego(scene, test::state_on(map, scene.ego_paths[0].path, 20.0F, 5.0F));
+  (void)test::add_vehicle(scene, map, test::path_of(map, {theirs}), 40.0F - 0.9F - short_m - 2.5F, speed_mps);
+  return find_leader(scene, scene.ego_paths[0], 20.0F, Parameters{}).agent == 0;
+}
+
+// GUARD-004 Who stands in its own lane is in our way where our box, 0.1 m beside its line, would touch it. Nearer than the 0.2 m of our strip it
+// is passed. Who moves there is the business of a zone.
+TEST(Leader, WhoStandsWhereOurBoxComesLeadsWhateverItsLane) {
+  EXPECT_TRUE(leads_from_its_own_lane(-0.3F, 0.0F));
+  EXPECT_TRUE(leads_from_its_own_lane(0.05F, 0.0F));
+  EXPECT_FALSE(leads_from_its_own_lane(0.15F, 0.0F));
+  EXPECT_FALSE(leads_from_its_own_lane(-0.3F, 1.0F));
+}
+
 }  // namespace
 }  // namespace s4tp::trajectory

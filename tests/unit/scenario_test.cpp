@@ -136,7 +136,8 @@ TEST(Scenario, AMixHasItsKindsOfDrivers) {
 TEST(Scenario, ErrorsSayWhatIsAccepted) {
   const std::vector<std::pair<std::string, std::vector<std::string>>> cases = {
       {replaced(kScenario, "goal_pos_m", "goal_metres"),
-       {"scenario.toml", "mission.goal_metres", "unknown key", "goal_lane, goal_pos_m, in_time_s, start_lane"}},
+       {"scenario.toml", "mission.goal_metres", "unknown key",
+        "goal_lane, goal_pos_m, in_time_s, start_lane"}},
       {replaced(kScenario, "max_speed_mps", "top_speed"),
        {"traffic.driver.top_speed", "accepted here: acceleration_mps2"}},
       {"wheels = 4\n" + kScenario, {"wheels: unknown key", "mission, network, traffic"}},
