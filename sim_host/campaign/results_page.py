@@ -36,6 +36,8 @@ A comparison is of the same episodes, driven by both: `3 : 11` are the episodes 
 Better and worse: McNemar's exact test, p < 0.05; no worse: the failure rates differ by less than 1 % (upper end of the 95 % interval); without a word none of
 them is shown.
 
+Where a scenario asks for a goal sooner than within 80 s, those in time stand in brackets.
+
 The other files here are blocks driven for one question each: `fresh.json` (seeds and roads 20,000 on) and `roads*.json` (generated roads, a line a road): [safety_record.md](../safety_record.md),
 `other_networks*.json` and `drawn_networks*.json` (networks of other generators: [safety_record.md](../safety_record.md)), `closed_loop*.json` (beside the kinematic predictor: [training.md](../training.md)), `parameter_screen.json` (all parameters changed by 30 %: [sensitivity.md](../sensitivity.md)).
 """
