@@ -22,7 +22,8 @@ std::string group_of(const Cell& cell) {
 
 const char* const kReadMe =
     R"(<p>Every number comes from the recorded state of the world, none from a planner's opinion.
-An episode succeeds when our car reaches its goal in time, touches nobody, whoever's fault, and stays on the road. Intervals
+An episode succeeds when our car reaches its goal before the time limit, touches nobody, whoever's fault, and stays on the road; in
+time are those goals that it reaches as soon as the scenario asks for. Intervals
 are 95 % Wilson score intervals of a rate. Guarded: with the guard behind the planner, and the last fail-safe where nothing passes;
 bare: without. Collisions, off road and time-out are counted apart; a collision is ours by a fixed table that asks no planner.
 TTC: smallest time to collision when both kept speed and turn, 10 s at most; p05: the 5th percentile of the episodes.
