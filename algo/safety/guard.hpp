@@ -7,15 +7,15 @@
 /// GUARD-002 Else it goes through when all others are gone, come later than it leaves, braking behind whoever leads once that is
 /// due, or leave it to us. GUARD-003 Nobody stops in a group where it gives way, nor enters one without room beyond it, behind
 /// whoever leads or merges ahead.
-/// GUARD-004 It can be stopped behind a leader who brakes as hard as can be, as our box is turned, and while our box comes over to the
-/// path, behind whoever leads where it still is; behind one that stands in another lane where our box comes; behind a cut-in, and beside one that stands askew, it only must not get worse. A
-/// vehicle ahead of its plan is judged from there. GUARD-005 What is safe only by hard braking says so. GUARD-006 A licence used
-/// holds, for the ground it was given for, until we stand, for a plan that leaves that in time; used it is once we cannot stop
-/// before the group any more, before the zone where the first comes. Whoever comes in sight after that and can stop finds the
-/// ground taken. GUARD-007 Who cannot stay out of a zone any more leaves it no later than it was to. Who has come to a stand in
-/// a group may stand on, and where lanes merge sets off beside nobody: only before, or behind, all of whoever is there.
-/// GUARD-008 Merging leaves room, in both orders, and should whoever leads brake hard. Before it is begun nobody is asked to
-/// brake harder for it than in ordinary driving.
+/// GUARD-004 It can be stopped behind a leader who brakes as hard as can be, as our box is turned, and while our box comes over
+/// to the path, behind whoever leads where it still is; behind one that stands in another lane where our box comes; behind a
+/// cut-in, and beside one that stands askew, it only must not get worse. A vehicle ahead of its plan is judged from there.
+/// GUARD-005 What is safe only by hard braking says so. GUARD-006 A licence used holds, for the ground it was given for, until
+/// we stand, for a plan that leaves that in time; used it is once we cannot stop before the group any more, before the zone
+/// where the first comes. Whoever comes in sight after that and can stop finds the ground taken. GUARD-007 Who cannot stay out
+/// of a zone any more leaves it no later than it was to. Who has come to a stand in a group may stand on, and where lanes merge
+/// sets off beside nobody: only before, or behind, all of whoever is there. GUARD-008 Merging leaves room, in both orders, and
+/// should whoever leads brake hard. Before it is begun nobody is asked to brake harder for it than in ordinary driving.
 /// GUARD-009 A lane change leaves who is behind, who may gain speed until we are over the line, room to brake,
 /// and begins only when who is ahead is ahead of all of us by then, braking as hard as can be.
 /// Whoever stands there needs no such room: our box keeps off its. Once our box is in there, one behind it that lacks

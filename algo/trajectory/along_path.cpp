@@ -108,7 +108,6 @@ OnPath see_on_path(const scene::Scene& scene, const scene::EgoPath& path, const 
     seen.centre_s_m = frenet.s_m;
     seen.centre_d_m = frenet.d_m;
   }
-  known = true;
   const float cosine = cos(error_rad);
   const float signed_sine = sin(error_rad);
   const float sine = abs(signed_sine);
@@ -120,11 +119,8 @@ OnPath see_on_path(const scene::Scene& scene, const scene::EgoPath& path, const 
       cosine < kCrossingCos && agent.track.speed_mps > kMovingMps && !forks_off(scene, path, agent);
   seen.overlaps = abs(seen.centre_d_m) < 0.5F * parameters.vehicle.width_m + seen.half_width_m + kStripM;
   // Along the path its strip tells; across or against it boxes do: in a bend they pass where strips overlap.
-  if (seen.overlaps && beside) {
-    seen.overlaps = sweeps(scene, path, agent, kTouchM, parameters, seen);
-  } else if (seen.overlaps && cosine < kCrossingCos && !seen.crossing) {
-    seen.overlaps = sweeps(scene, path, agent, kStripM, parameters, seen);
-  }
+  if (seen.overlaps && (beside || (cosine < kCrossingCos && !seen.crossing)))
+    seen.overlaps = sweeps(scene, path, agent, beside ? kTouchM : kStripM, parameters, seen);
   known = !beside || seen.overlaps;
   return seen;
 }

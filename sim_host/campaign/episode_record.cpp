@@ -21,8 +21,8 @@ namespace {
 using nlohmann::ordered_json;
 
 constexpr const char* kKind = "s4tp campaign";
-constexpr int kVersion =
-    3;  // of what an episode's line holds; 1: no post-encroachment times, 2: no time to be in
+/// Of what an episode's line holds; 1: no post-encroachment times, 2: no time to be in.
+constexpr int kVersion = 3;
 
 [[noreturn]] void fail(const std::filesystem::path& file, const std::string& what) {
   throw std::runtime_error(file.string() + ": " + what);

@@ -67,8 +67,8 @@ bool leads_from_its_own_lane(float short_m, float speed_mps) {
   return find_leader(scene, scene.ego_paths[0], 20.0F, Parameters{}).agent == 0;
 }
 
-// GUARD-004 Who stands in its own lane is in our way where our box, 0.1 m beside its line, would touch it. Nearer than the 0.2 m of our strip it
-// is passed. Who moves there is the business of a zone.
+// GUARD-004 Who stands in its own lane is in our way where our box, 0.1 m beside its line, would touch it; 0.15 m off, nearer than
+// the 0.2 m of our strip, it is passed. Who moves there is the business of a zone.
 TEST(Leader, WhoStandsWhereOurBoxComesLeadsWhateverItsLane) {
   EXPECT_TRUE(leads_from_its_own_lane(-0.3F, 0.0F));
   EXPECT_TRUE(leads_from_its_own_lane(0.05F, 0.0F));
