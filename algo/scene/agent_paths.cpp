@@ -141,14 +141,14 @@ LaneIndex change_target(const LaneTable& table, const LaneTable::Fits& fits, con
   const Pose& here = situation.track.centre;
   const Pose along{here.x_m, here.y_m, here.heading_rad - situation.heading_rad};
   const Point soon = offset_point(along, 0.0F, lateral_mps);
+  LaneTable::Fits near_soon;
+  table.fit({soon.x_m, soon.y_m, here.heading_rad}, {}, near_soon);
   LaneIndex target = kNoLaneIndex;
   float nearest_m = abs(soon_m);
-  for (const LaneFit& fit : fits) {
+  for (const LaneFit& fit : near_soon) {
     if (abs(fit.turn_rad) > kAmbiguousRad || same_path(table, fits[0].lane, fit.lane)) continue;
-    table.spend(kNearWork);
-    const float away_m = nearest_on_lane(table.lane(fit.lane), soon).distance_m;
-    if (away_m >= nearest_m) continue;
-    nearest_m = away_m;
+    if (fit.fix.distance_m >= nearest_m) continue;
+    nearest_m = fit.fix.distance_m;
     target = fit.lane;
   }
   return target;

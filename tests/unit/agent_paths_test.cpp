@@ -74,7 +74,8 @@ TEST(AgentPaths, SeesALaneChangeUnderWay) {
 
 // OCC-003 Two lanes of a junction side by side are no neighbours in the map, yet vehicles change there: at 8.6 sin(0.11) =
 // 0.94 m/s one 0.8 m left of its centre is 1.46 m from the other's in a second and 1.74 m from its own, so that it may go on in
-// there; 0.4 m left (1.86 and 1.34), or along its lane, it may not; nor where both lanes end in one.
+// there, and so 0.3 m left at 1.4 m/s (1.5 and 1.7), though the other lane is 2.9 m away yet; 0.4 m left (1.86 and 1.34), or along its
+// lane, it may not; nor where both lanes end in one.
 TEST(AgentPaths, SeesALaneChangeInsideAJunction) {
   const auto ways = [](float left_m, float heading_rad, bool merging) {
     LaneMap map = test::straight_road(2, 100.0F);
@@ -92,6 +93,7 @@ TEST(AgentPaths, SeesALaneChangeInsideAJunction) {
     return scene.agents[0].paths.size();
   };
   EXPECT_EQ(ways(0.8F, 0.11F, false), 2);
+  EXPECT_EQ(ways(0.3F, 0.163F, false), 2);
   EXPECT_EQ(ways(0.4F, 0.11F, false), 1);
   EXPECT_EQ(ways(0.8F, 0.0F, false), 1);
   EXPECT_EQ(ways(0.8F, 0.11F, true), 1);
