@@ -143,15 +143,20 @@ Status PlanningCycle::plan(const PlannerInput& input, Plan& plan, Explanation& e
 }
 
 void PlanningCycle::give_up(Status status, Plan& plan) {
-  using safety::drive_fail_safe;
-  const float planned_mps2 = running_.fail_safe.braking_mps2;
-  const float braking_mps2 = planned_mps2 > 0.0F ? planned_mps2 : parameters_.guard.braking_mps2;
-  drive_fail_safe(running_, start_, start_ms_, braking_mps2, parameters_, plan);
-  // Where the one ahead has broken the law it takes more.
-  const bool looked = status == Status::kNoSafePlan || status == Status::kStaleTracks;
-  const bool too_near = looked && guard_.judge(0, plan.trajectory).cause == safety::Cause::kLeader;
-  if (too_near)
-    drive_fail_safe(running_, start_, start_ms_, parameters_.vehicle.braking_max_mps2, parameters_, plan);
+  const FailSafe in_force = running_.fail_safe;
+  const auto drive = [&](float branch_s, float braking_mps2) {
+    running_.fail_safe.branch_s = branch_s;
+    safety::drive_fail_safe(running_, start_, start_ms_, braking_mps2, parameters_, plan);
+  };
+  const float planned_mps2 = in_force.braking_mps2;
+  drive(in_force.branch_s, planned_mps2 > 0.0F ? planned_mps2 : parameters_.guard.braking_mps2);
+  if (status == Status::kNoSafePlan || status == Status::kStaleTracks) {
+    // Where the one ahead has broken the law it takes more; before ground that somebody comes to who cannot stop, a stop at once.
+    const safety::Verdict verdict = guard_.judge(0, plan.trajectory);
+    const float hardest_mps2 = parameters_.vehicle.braking_max_mps2;
+    if (verdict.cause == safety::Cause::kLeader) drive(in_force.branch_s, hardest_mps2);
+    if (verdict.only_we_can_stop) drive(0.0F, hardest_mps2);
+  }
   chosen_ = plan.trajectory;
 }
 

@@ -13,10 +13,8 @@ namespace {
 constexpr float kCrawlMps = 0.5F;
 constexpr float kStopTubeM = 0.4F;
 constexpr float kStoppingMps2 = -2.0F;
-constexpr float kEasesOff = 0.25F;  // share of the fail-safe's braking that is not asked for behind a cut-in
 constexpr float kEndShare =
     0.5F;  // of that braking, at least, past the last place to stop before the road's end
-constexpr float kRoundingM = 0.01F;
 constexpr int kWayOverStride = 2;  // points between those looked at
 
 // Work (WorkMeter's units).
@@ -163,7 +161,7 @@ Verdict Guard::judge(int path_index, const Trajectory& trajectory) const {
   const auto reachable_s_m = [&](float free_s_m, float its_mps) {
     if (own.nearest_stop_s_m(guard.braking_mps2) <= free_s_m) return free_s_m;
     const bool slower = its_mps < max(own.speed_mps[0], kStandingMps);
-    return max(free_s_m, (slower ? lerp(at_once_s_m, coasting_s_m, kEasesOff) : coasting_s_m) + kRoundingM);
+    return max(free_s_m, slower ? own.braked_stop_s_m(*parameters_) : coasting_s_m + kRoundingM);
   };
   float free_s_m = reachable_s_m(context.leader_stop_s_m - front_m - guard.margin_m, context.leader_mps);
   std::uint8_t ahead = context.leader;

@@ -10,12 +10,13 @@
 /// GUARD-004 It can be stopped behind a leader who brakes as hard as can be, as our box is turned, and while our box comes over
 /// to the path, behind whoever leads where it still is; behind one that stands in another lane where our box comes; behind a
 /// cut-in, and beside one that stands askew, it only must not get worse. A vehicle ahead of its plan is judged from there.
-/// GUARD-005 What is safe only by hard braking says so. GUARD-006 A licence used holds, for the ground it was given for, until
-/// we stand, for a plan that leaves that in time; used it is once we cannot stop before the group any more, before the zone
-/// where the first comes. Whoever comes in sight after that and can stop finds the ground taken. GUARD-007 Who cannot stay out
-/// of a zone any more leaves it no later than it was to. Who has come to a stand in a group may stand on, and where lanes merge
-/// sets off beside nobody: only before, or behind, all of whoever is there. GUARD-008 Merging leaves room, in both orders, and
-/// should whoever leads brake hard. Before it is begun nobody is asked to brake harder for it than in ordinary driving.
+/// GUARD-005 What is safe only by hard braking says so, and what is refused for one that cannot stop while we can. GUARD-006 A
+/// licence used holds, for the ground it was given for, until we stand, for a plan that leaves that in time; used it is once we
+/// cannot stop before the group any more, before the zone where the first comes. Whoever comes in sight after that and can stop
+/// finds the ground taken. GUARD-007 Who cannot stay out of a zone any more leaves it no later than it was to, but brakes for one
+/// that passes it where lanes merge. Who has come to a stand in a group may stand on, and where lanes merge sets off beside
+/// nobody: only before, or behind, all of whoever is there. GUARD-008 Merging leaves room, in both orders, and should whoever leads
+/// brake hard. Before it is begun nobody is asked to brake harder for it than in ordinary driving.
 /// GUARD-009 A lane change leaves who is behind, who may gain speed until we are over the line, room to brake,
 /// and begins only when who is ahead is ahead of all of us by then, braking as hard as can be.
 /// Whoever stands there needs no such room: our box keeps off its. Once our box is in there, one behind it that lacks
@@ -72,8 +73,10 @@ struct Verdict {
   bool stops_short = false;      ///< the fail-safe stands in a group entered by right, short of who comes
   bool clears = false;           ///< the fail-safe is to go through a group of zones; else it stops
   std::uint8_t cleared_end = 0;  ///< those groups' zones are among [0, this) of the path
-  float clear_s = 0.0F;          ///< when it has left the first of them
-  FailSafe fail_safe = {};       ///< of a safe plan
+  bool only_we_can_stop =
+      false;                ///< kZone: we before it, braking as hard as can be; who comes cannot any more
+  float clear_s = 0.0F;     ///< when it has left the first of them
+  FailSafe fail_safe = {};  ///< of a safe plan
   bool hard = false;  ///< safe only because the fail-safe brakes hard before a group nobody leaves to us yet
   [[nodiscard]] bool safe() const { return cause == Cause::kNone; }
 };

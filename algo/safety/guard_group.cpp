@@ -157,7 +157,14 @@ bool Guard::passes_group(const scene::EgoPath& path, const PathContext& context,
         to_common_end_m(threat);
     const bool behind_it =
         zone.merging && threat.when.to_entry_m <= 0.0F && (own.speed_mps[0] >= kStandingMps || is_before);
-    if (bound && (behind_it || own.blocked || leaves_in_time(group, own, kRoundingS))) continue;
+    const bool goes_on = behind_it || own.blocked || leaves_in_time(group, own, kRoundingS);
+    // One that passes us there, ahead by less than a length and faster, is let go first.
+    const float ahead_m = zone.exit_s_m - own.s_m[0] - to_common_end_m(threat);
+    const bool passes_us = zone.merging && threat.kind == ThreatKind::kTold && ahead_m > 0.0F &&
+                           ahead_m < 0.5F * parameters_->vehicle.length_m + half_length_m(threat) &&
+                           seen_mps(scene_->agents[threat.agent]) > max(own.speed_mps[0], kStandingMps);
+    const bool lets_it = own.stop_s_m(parameters_->guard.braking_mps2) <= own.braked_stop_s_m(*parameters_);
+    if (bound && goes_on && (lets_it || !passes_us)) continue;
     // Who entered by right stops short of one that comes after all: before we were to be gone.
     const float left_s = time_left_s();
     const bool no_reason = goes_through_ && !stops_short_ && !own.blocked && !zone.merging && left_s > 0.0F &&
@@ -165,6 +172,7 @@ bool Guard::passes_group(const scene::EgoPath& path, const PathContext& context,
     // Who has let us go is not stopped before, but for whoever has not.
     const bool before_any = own.blocked || threat.kind != ThreatKind::kLicensed;
     verdict.stops_short = entered && !no_reason && stops_short(path, context, group, own, before_any);
+    refused.only_we_can_stop = !bound && !threat.when.can_stop;
     if (!verdict.stops_short) verdict = refused;
     return verdict.stops_short;
   }

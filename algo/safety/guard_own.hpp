@@ -7,6 +7,8 @@
 
 namespace s4tp::safety {
 
+inline constexpr float kEasesOff = 0.25F;  // share of the fail-safe's braking not asked for behind a cut-in
+inline constexpr float kRoundingM = 0.01F;
 inline constexpr float kGoesOnMps2 = 1.5F;  // how a plan is driven on beyond its horizon
 
 /// A plan seen along its path.
@@ -31,6 +33,12 @@ struct Guard::Own {
   }
   [[nodiscard]] float nearest_stop_s_m(float braking_mps2) const {
     return s_m[0] + occupancy::stopping_way_m(speed_mps[0], braking_mps2);
+  }
+  /// How far the fail-safe of a plan reaches that brakes like it from plan start on, but for a share.
+  [[nodiscard]] float braked_stop_s_m(const Parameters& parameters) const {
+    const auto& guard = parameters.guard;
+    const float at_once_m = at_once_s_m(guard.braking_mps2);
+    return lerp(at_once_m, at_once_m + speed_mps[0] * guard.takeover_s, kEasesOff) + kRoundingM;
   }
   [[nodiscard]] occupancy::Pace beyond(float cap_mps) const {
     const float end_mps = speed_mps[kHorizonSteps];

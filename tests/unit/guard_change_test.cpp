@@ -123,6 +123,43 @@ TEST(Guard, WhoStandsWhereLanesMergeLetsTheOneBesideItPass) {
   }
 }
 
+// GUARD-007 Bound to go on at 97 with 5 m/s where lanes merge: one that is ahead of our centre by less than the two half lengths, 5 m,
+// and faster is let go first, braking as the fail-safe does; one behind our centre, a slower one, or one ahead of all of us is not braked for.
+TEST(Guard, WhoIsPassedWhereLanesMergeBrakes) {
+  struct Case {
+    float other_s_m;
+    float other_mps;
+    bool goes_on;
+  };
+  for (const Case& each : {Case{97.5F, 8.5F, false}, Case{99.0F, 8.5F, false}, Case{97.5F, 4.0F, true},
+                           Case{96.5F, 8.5F, true}, Case{102.5F, 8.5F, true}}) {
+    SharedGround road(Priority::kFirstYields, true);
+    road.guard.commit(0, road.judge(94.0F, 8.0F, 0.0F));
+    road.other(each.other_s_m, each.other_mps);
+    EXPECT_EQ(road.cause(97.0F, 5.0F, 0.0F), each.goes_on ? Cause::kNone : Cause::kZone) << each.other_s_m;
+    EXPECT_TRUE(road.safe(97.0F, 5.0F, -6.0F)) << each.other_s_m;
+  }
+}
+
+// GUARD-005 From 92 at 5 m/s we can still stand at 93.6, before the zone at 96 (8 m/s^2), from 95.8 we cannot. One that comes with 8
+// m/s 6 m before it cannot after its response (8 m), 20 m before it can (8 + 8 m).
+TEST(Guard, SaysWhenOnlyWeCanStop) {
+  struct Case {
+    float s_m;
+    float acceleration_mps2;
+    float its_way_m;
+    bool only_we;
+  };
+  for (const Case& each :
+       {Case{92.0F, 0.0F, 6.0F, true}, Case{92.0F, 0.0F, 20.0F, false}, Case{95.8F, -0.5F, 6.0F, false}}) {
+    SharedGround road(Priority::kFirstYields);
+    road.other(96.0F - each.its_way_m, 8.0F);
+    const Verdict verdict = road.judge(each.s_m, 5.0F, each.acceleration_mps2);
+    EXPECT_EQ(verdict.cause, Cause::kZone) << each.s_m << " " << each.its_way_m;
+    EXPECT_EQ(verdict.only_we_can_stop, each.only_we) << each.s_m << " " << each.its_way_m;
+  }
+}
+
 /// A change from the right lane to the left one, over within 3 s; our box centre is at 100.
 struct Change : LaneChangeRoad {
   scene::Agent& in_left_lane(float s_m, float speed_mps) {

@@ -9,6 +9,7 @@
 #include "algo/trajectory/bicycle.hpp"
 #include "algo/trajectory/plan_limits.hpp"
 #include "tests/support/planner_drive.hpp"
+#include "tests/support/shared_ground.hpp"
 
 namespace s4tp::planner {
 namespace {
@@ -61,6 +62,38 @@ TEST(Planner, StopsForThoseItCannotSeeAnyMore) {
     EXPECT_EQ(plan.kind, PlanKind::kMinimumRisk);
     const float hardest_mps2 = drive.parameters.vehicle.braking_max_mps2;
     EXPECT_EQ(plan.fail_safe.braking_mps2, gap_m < 20.0F ? hardest_mps2 : 3.0F) << gap_m;
+  }
+}
+
+// CORE-007: two lanes become one, we give way, and the plan in force drives through with 5 m/s. Our centre is at 93.6 m: 8 m/s^2 end
+// before the ground at 96, the guard's own stop (0.35 s, then 6 m/s^2) at 97.4 does not. One that comes from nowhere with 8 m/s, 6 m before
+// that ground, cannot stop any more: the answer is the hardest stop, at once. One that is 46 m away can.
+TEST(Planner, StopsAtOnceForOneThatCannot) {
+  for (const float its_s_m : {90.0F, 50.0F}) {
+    test::SharedGround road(Priority::kFirstYields, true);
+    const LaneIndex theirs = road.zone().other_lane;
+    (void)road.map.conflicts.push({0, theirs, Priority::kFirstYields, 96.0F, 104.0F, 96.0F, 104.0F});
+    Drive drive(road.map);
+    const float rear_axle_x_m = -6.4F - trajectory::rear_axle_to_centre_m(drive.parameters);
+    drive.input.ego.rear_axle = {rear_axle_x_m, 0.0F, 0.0F};
+    drive.input.ego.speed_mps = 5.0F;
+    ASSERT_TRUE(drive.input.tracks.push(test::car(1, its_s_m - 99.144F, -3.6F, 0.0F, 8.0F)));
+    drive.running.kind = PlanKind::kDrive;
+    drive.running.fail_safe = {2.5F, 6.0F};
+    for (int i = 0; i < kTrajectoryPoints; ++i) {
+      TrajectoryPoint& point = drive.running.trajectory.points[i];
+      point.rear_axle.x_m = rear_axle_x_m + 0.5F * static_cast<float>(i);
+      point.speed_mps = 5.0F;
+    }
+    drive.input.start_ms = 0;
+    drive.input.running = &drive.running;
+    drive.input.map = &road.map;
+    Plan plan;
+    const Status status = drive.planner->plan(drive.input, plan, drive.explanation);
+    const float hardest_mps2 = drive.parameters.vehicle.braking_max_mps2;
+    EXPECT_EQ(plan.fail_safe.branch_s == 0.0F && plan.fail_safe.braking_mps2 == hardest_mps2,
+              its_s_m > 80.0F);
+    EXPECT_EQ(status, its_s_m > 80.0F ? Status::kNoSafePlan : Status::kOk);
   }
 }
 
