@@ -36,7 +36,6 @@ constexpr int kSteps = 3 * kMaxPathLanes;  // each step closes a chain or makes 
 
 // Work (WorkMeter's units).
 constexpr int kPathsWork = 40;
-constexpr int kNearWork = 5;    // how near it will be to a lane
 constexpr int kStepWork = 3;    // of a step, and ...
 constexpr int kBranchWork = 8;  // ... of each branch there
 
