@@ -151,17 +151,17 @@ bool Guard::passes_group(const scene::EgoPath& path, const PathContext& context,
     if (passes_threat(path, context, threat, own, refused)) continue;
     // Who cannot stay out any more leaves it as soon as it was to.
     const bool bound = bound_s_m > zone.entry_s_m;
+    // Along the common way, from our centre to its.
+    const float ahead_m = zone.exit_s_m - own.s_m[0] - to_common_end_m(threat);
+    const float apart_m = 0.5F * parameters_->vehicle.length_m + half_length_m(threat);
     // Who stands beside one that merges lets it pass.
-    const bool is_before =
-        zone.exit_s_m - own.s_m[0] + 0.5F * parameters_->vehicle.length_m + half_length_m(threat) <=
-        to_common_end_m(threat);
+    const bool is_before = ahead_m <= -apart_m;
     const bool behind_it =
         zone.merging && threat.when.to_entry_m <= 0.0F && (own.speed_mps[0] >= kStandingMps || is_before);
     const bool goes_on = behind_it || own.blocked || leaves_in_time(group, own, kRoundingS);
     // One that passes us there, ahead by less than a length and faster, is let go first.
-    const float ahead_m = zone.exit_s_m - own.s_m[0] - to_common_end_m(threat);
     const bool passes_us = zone.merging && threat.kind == ThreatKind::kTold && ahead_m > 0.0F &&
-                           ahead_m < 0.5F * parameters_->vehicle.length_m + half_length_m(threat) &&
+                           ahead_m < apart_m &&
                            seen_mps(scene_->agents[threat.agent]) > max(own.speed_mps[0], kStandingMps);
     const bool lets_it = own.stop_s_m(parameters_->guard.braking_mps2) <= own.braked_stop_s_m(*parameters_);
     if (bound && goes_on && (lets_it || !passes_us)) continue;

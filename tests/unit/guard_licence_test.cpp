@@ -263,5 +263,24 @@ TEST(Guard, WhoIsInTheZoneLeavesIt) {
   EXPECT_FALSE(road.safe(96.5F, 5.0F, -4.0F));
 }
 
+// GUARD-005 From 92 at 5 m/s we can still stand at 93.6, before the zone at 96 (8 m/s^2), from 95.8 we cannot. One that comes with 8
+// m/s 6 m before it cannot after its response (8 m), 20 m before it can (8 + 8 m).
+TEST(Guard, SaysWhenOnlyWeCanStop) {
+  struct Case {
+    float s_m;
+    float acceleration_mps2;
+    float its_way_m;
+    bool only_we;
+  };
+  for (const Case& each :
+       {Case{92.0F, 0.0F, 6.0F, true}, Case{92.0F, 0.0F, 20.0F, false}, Case{95.8F, -0.5F, 6.0F, false}}) {
+    SharedGround road(Priority::kFirstYields);
+    road.other(96.0F - each.its_way_m, 8.0F);
+    const Verdict verdict = road.judge(each.s_m, 5.0F, each.acceleration_mps2);
+    EXPECT_EQ(verdict.cause, Cause::kZone) << each.s_m << " " << each.its_way_m;
+    EXPECT_EQ(verdict.only_we_can_stop, each.only_we) << each.s_m << " " << each.its_way_m;
+  }
+}
+
 }  // namespace
 }  // namespace s4tp::safety
