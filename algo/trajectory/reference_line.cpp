@@ -66,10 +66,10 @@ void differentiate(ReferenceLine& line) {
   line.samples[kReferenceSamples - 1].curvature_1pm = 0.0F;
 }
 
-/// Speed at which the wheels can be turned as fast as the bend sets in.
-float steerable_mps(const ReferenceLine& line, int i, const Parameters& parameters) {
-  const float slope_1pm2 =
-      abs(line.samples[i + 1].curvature_1pm - line.samples[i].curvature_1pm) / line.spacing_m;
+/// Speed at which the wheels can be turned as fast as the bend sets in between two samples. \param way_m  from one to the other
+float steerable_mps(const ReferenceLine::Sample& here, const ReferenceLine::Sample& next, float way_m,
+                    const Parameters& parameters) {
+  const float slope_1pm2 = abs(next.curvature_1pm - here.curvature_1pm) / way_m;
   const float rate_radps = kRateShare * parameters.vehicle.steering_rate_max_radps;
   return rate_radps / max(slope_1pm2 * parameters.vehicle.wheelbase_m, kFlat);  // d atan(x) <= dx
 }
@@ -115,15 +115,25 @@ float speed_at_end_mps(const LaneMap& map, const scene::LanePath& path, const Re
   return end_mps;
 }
 
+/// Way from one sample to the next: less than their spacing along the lane where the line cuts a corner.
+float way_to_next_m(const ReferenceLine& line, int i) {
+  return max(distance(position(line.samples[i].pose), position(line.samples[i + 1].pose)), kTinyM);
+}
+
 /// Caps by curves, then backwards: v^2 = v_next^2 + 2 b ds, so that each slower part is reached in time.
 void cap_speeds(const Parameters& parameters, float next_mps, ReferenceLine& line) {
-  const float gain_m2ps2 = 2.0F * kGentle * parameters.comfort.braking_mps2 * line.spacing_m;
+  const float gain_mps2 = 2.0F * kGentle * parameters.comfort.braking_mps2;
+  float way_m = line.spacing_m;
   for (int i = kReferenceSamples - 1; i >= 0; --i) {
-    float& cap_mps = line.samples[i].speed_cap_mps;
-    cap_mps = min(cap_mps, bend_speed_mps(line.samples[i].curvature_1pm, parameters));
-    if (i + 1 < kReferenceSamples) cap_mps = min(cap_mps, steerable_mps(line, i, parameters));
+    ReferenceLine::Sample& sample = line.samples[i];
+    float cap_mps = min(sample.speed_cap_mps, bend_speed_mps(sample.curvature_1pm, parameters));
+    if (i + 1 < kReferenceSamples) {
+      way_m = way_to_next_m(line, i);
+      cap_mps = min(cap_mps, steerable_mps(sample, line.samples[i + 1], way_m, parameters));
+    }
     cap_mps = max(cap_mps, kSlowestMps);
-    if (cap_mps > next_mps) cap_mps = min(cap_mps, sqrt(square(next_mps) + gain_m2ps2));
+    if (cap_mps > next_mps) cap_mps = min(cap_mps, sqrt(square(next_mps) + gain_mps2 * way_m));
+    sample.speed_cap_mps = cap_mps;
     next_mps = cap_mps;
   }
 }
@@ -211,6 +221,10 @@ float curvature_at(const ReferenceLine& line, float s_m) {
 
 float speed_cap_at(const ReferenceLine& line, float s_m) {
   return interpolate(line, s_m).speed_cap_mps;
+}
+
+float reference_way_per_s(const ReferenceLine& line, float s_m) {
+  return way_to_next_m(line, place_on(line, s_m).index) / line.spacing_m;
 }
 
 ReferenceCoordinates locate_on(const ReferenceLine& line, Point point, float guess_s_m) {

@@ -44,6 +44,10 @@ int build_reference(const LaneMap& map, const scene::LanePath& path, float from_
 [[nodiscard]] float curvature_at(const ReferenceLine& line, float s_m);
 [[nodiscard]] float speed_cap_at(const ReferenceLine& line, float s_m);
 
+/// Metres of the line in one metre of s, which counts along the lane: below 1 where the line cuts a corner, above 1 where it is
+/// driven wide.
+[[nodiscard]] float reference_way_per_s(const ReferenceLine& line, float s_m);
+
 /// Foot of `point` on the line, near `guess_s_m`.
 [[nodiscard]] ReferenceCoordinates locate_on(const ReferenceLine& line, Point point, float guess_s_m);
 

@@ -28,41 +28,48 @@ constexpr float kAcrossRad = 1.1F;   // ... unless it heads across the line: no 
 constexpr int kSteeredAnew = 10;     // steps at the end of a plan that has not
 constexpr float kSlopeShare = 2.0F;  // way / d at which a quintic goes on from a slope without a jerk
 
-/// d and its derivatives by s.
+/// d and its derivatives by the line's own way.
 struct Lateral {
   float d_m;
   float slope;
   float bend_1pm;
 };
 
-Lateral lateral_at(const Candidate& candidate, float s_m) {
+/// d after a `part` of the lateral motion, 0 .. 1.
+float offset_m(const Candidate& candidate, float part) {
+  const float* c = candidate.lateral;
+  return ((((c[5] * part + c[4]) * part + c[3]) * part + c[2]) * part + c[1]) * part + c[0];
+}
+
+/// \param way_per_s  metres of the line in one of s (reference_way_per_s)
+Lateral lateral_at(const Candidate& candidate, float s_m, float way_per_s) {
   const float* c = candidate.lateral;
   const float u = (s_m - candidate.start_s_m) / candidate.lateral_length_m;
-  if (u >= 1.0F) return {((((c[5] + c[4]) + c[3]) + c[2]) + c[1]) + c[0], 0.0F, 0.0F};
+  if (u >= 1.0F) return {offset_m(candidate, 1.0F), 0.0F, 0.0F};
   const float v = max(u, 0.0F);
-  const float per_m = 1.0F / candidate.lateral_length_m;
-  const float d = ((((c[5] * v + c[4]) * v + c[3]) * v + c[2]) * v + c[1]) * v + c[0];
+  const float per_m = 1.0F / (candidate.lateral_length_m * way_per_s);
   const float d1 = (((5.0F * c[5] * v + 4.0F * c[4]) * v + 3.0F * c[3]) * v + 2.0F * c[2]) * v + c[1];
   const float d2 = ((20.0F * c[5] * v + 12.0F * c[4]) * v + 6.0F * c[3]) * v + 2.0F * c[2];
-  return {d, d1 * per_m, d2 * per_m * per_m};
+  return {offset_m(candidate, v), d1 * per_m, d2 * per_m * per_m};
 }
 
 /// Slope of the line's curvature [1/m^2].
-float curvature_slope(const ReferenceLine& line, float s_m) {
+float curvature_slope(const ReferenceLine& line, float s_m, float way_per_s) {
   const float h_m = line.spacing_m;
-  return (curvature_at(line, s_m + h_m) - curvature_at(line, s_m - h_m)) / (2.0F * h_m);
+  return (curvature_at(line, s_m + h_m) - curvature_at(line, s_m - h_m)) / (2.0F * h_m * way_per_s);
 }
 
 /// Writes pose and curvature at `s_m`. \return ds per metre of our own way
 float place(const ReferenceLine& line, const Candidate& candidate, float s_m, TrajectoryPoint& point) {
   const ReferenceLine::Sample centre = reference_at(line, s_m);
-  const Lateral lateral = lateral_at(candidate, s_m);
+  const float way_per_s = reference_way_per_s(line, s_m);
+  const Lateral lateral = lateral_at(candidate, s_m, way_per_s);
   const float k = centre.curvature_1pm;
   const float stretch = max(kMinStretch, 1.0F - k * lateral.d_m);
   const float tangent = clamp(lateral.slope / stretch, -kMaxSlope, kMaxSlope);
   const float cosine = 1.0F / sqrt(1.0F + square(tangent));
   // kappa' d is left out while we are within a metre of a line: it is below 0.02 / m even in a tight turn.
-  const float k_slope = abs(lateral.d_m) > 1.0F ? curvature_slope(line, s_m) : 0.0F;
+  const float k_slope = abs(lateral.d_m) > 1.0F ? curvature_slope(line, s_m, way_per_s) : 0.0F;
   const float own_bend = lateral.bend_1pm + (k_slope * lateral.d_m + k * lateral.slope) * tangent;
 
   const Point side = direction(centre.pose.heading_rad);
@@ -70,7 +77,7 @@ float place(const ReferenceLine& line, const Candidate& candidate, float s_m, Tr
   point.rear_axle.y_m = centre.pose.y_m + lateral.d_m * side.x_m;
   point.rear_axle.heading_rad = wrap_angle(centre.pose.heading_rad + atan(tangent));
   point.curvature_1pm = (own_bend * square(cosine) / stretch + k) * cosine / stretch;
-  return cosine / stretch;
+  return cosine / (stretch * way_per_s);
 }
 
 /// Marches from points[first], which is set, to the end.
@@ -174,14 +181,16 @@ void shape_lateral(const ReferenceLine& line, const TrajectoryPoint& start, Refe
   const float tangent = clamp(tan(clamp(error_rad, -kSteepestRad, kSteepestRad)), -kMaxSlope, kMaxSlope);
   const float cosine = 1.0F / sqrt(1.0F + square(tangent));
   const float slope = tangent * stretch;
-  const float k_slope = abs(where.d_m) > 1.0F ? curvature_slope(line, where.s_m) : 0.0F;
+  const float way_per_s = reference_way_per_s(line, where.s_m);
+  const float k_slope = abs(where.d_m) > 1.0F ? curvature_slope(line, where.s_m, way_per_s) : 0.0F;
   // place() solved for d'': the path leaves with the curvature that is steered now.
   const float bend = (start.curvature_1pm * stretch / cosine - k) * stretch / square(cosine) -
                      (k_slope * where.d_m + k * slope) * tangent;
 
   const float c0 = where.d_m;
-  const float c1 = slope * length_m;
-  const float c2 = 0.5F * bend * length_m * length_m;
+  const float way_m = length_m * way_per_s;
+  const float c1 = slope * way_m;
+  const float c2 = 0.5F * bend * way_m * way_m;
   const float h = line.lateral_offset_m - ((c0 + c1) + c2);
   const float g = -(c1 + 2.0F * c2);
   const float f = -2.0F * c2;
@@ -197,12 +206,11 @@ void shape_lateral(const ReferenceLine& line, const TrajectoryPoint& start, Refe
 
 bool overshoots(const Candidate& candidate) {
   const float start_m = candidate.lateral[0];
-  const float end_m = lateral_at(candidate, candidate.start_s_m + candidate.lateral_length_m).d_m;
+  const float end_m = offset_m(candidate, 1.0F);
   const float right_m = min(start_m, end_m) - kSwingM;
   const float left_m = max(start_m, end_m) + kSwingM;
   for (int i = 1; i < kSwingSamples; ++i) {
-    const float part = static_cast<float>(i) / static_cast<float>(kSwingSamples);
-    const float d_m = lateral_at(candidate, candidate.start_s_m + part * candidate.lateral_length_m).d_m;
+    const float d_m = offset_m(candidate, static_cast<float>(i) / static_cast<float>(kSwingSamples));
     if (d_m < right_m || d_m > left_m) return true;
   }
   return false;

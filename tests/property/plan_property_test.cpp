@@ -137,6 +137,14 @@ TEST(PlanProperty, AVehicleCanDriveThePlansOfKnownScenes) {
   ASSERT_EQ(broken_in(1188, true, seen), "");
 }
 
+// With things going wrong, too. Of these scenes: where a tight bend's corner is cut, or driven wide, a line is longer or
+// shorter than the lane that its s counts along, and plans beside it slid by 0.1 rad.
+TEST(PlanProperty, AVehicleCanDrivePlansBesideALineThatCutsACorner) {
+  Seen seen;
+  for (const unsigned seed : {17019U, 39852U, 1042378U})
+    EXPECT_EQ(broken_in(seed, false, seen), "") << "scene " << seed;
+}
+
 /// 10 m/s on a circle of 25 m.
 s4tp_plan round_plan() {
   s4tp_plan plan = {};

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -61,25 +62,64 @@ sadrf::RiskProfile exact(const World& world) {
   return profile;
 }
 
-void expect_same(const sadrf::RiskProfile& a, const sadrf::RiskProfile& b) {
-  for (int i = 0; i < kHorizonSteps; ++i) {
-    const auto same = [](float x, float y) { return std::fabs(x - y) <= 0.02F * std::max(x, y) + 5.0F; };
-    RC_ASSERT(same(a.obstacle[i], b.obstacle[i]));
-    RC_ASSERT(same(a.social[i], b.social[i]));
-    RC_ASSERT(same(a.road[i], b.road[i]));
+constexpr float (sadrf::RiskProfile::*kParts[])[kHorizonSteps] = {
+    &sadrf::RiskProfile::obstacle, &sadrf::RiskProfile::social, &sadrf::RiskProfile::road};
+
+/// Whether every part of every step lies between those, but for 2 % and what is nothing beside a threshold of thousands.
+bool lies_between(const sadrf::RiskProfile& least, const sadrf::RiskProfile& risk,
+                  const sadrf::RiskProfile& most) {
+  for (const auto part : kParts) {
+    for (int i = 0; i < kHorizonSteps; ++i) {
+      const float value = (risk.*part)[i];
+      if (value < 0.98F * (least.*part)[i] - 5.0F || 0.98F * value > (most.*part)[i] + 5.0F) return false;
+    }
   }
+  return true;
+}
+
+/// Whether that is the risk of `world`. From some angle or risk on a box is integrated in another way, and rounding falls on
+/// either side of that: what our car comes to a tenth of a millimetre or 0.00003 rad off is as good.
+bool is_risk_of(const World& world, const sadrf::RiskProfile& risk) {
+  sadrf::RiskProfile least = exact(world);
+  sadrf::RiskProfile most = least;
+  for (int nudge = 0; nudge < 16 && !lies_between(least, risk, most); ++nudge) {
+    const Point aside = 1e-4F * direction(kTwoPi / 16.0F * static_cast<float>(nudge));
+    auto nudged = std::make_unique<World>(world);
+    for (TrajectoryPoint& point : nudged->trajectory.points) {
+      point.rear_axle.x_m += aside.x_m;
+      point.rear_axle.y_m += aside.y_m;
+      point.rear_axle.heading_rad += 2e-5F * (static_cast<float>(nudge % 4) - 1.5F);
+    }
+    const sadrf::RiskProfile there = exact(*nudged);
+    for (const auto part : kParts) {
+      for (int i = 0; i < kHorizonSteps; ++i) {
+        (least.*part)[i] = std::min((least.*part)[i], (there.*part)[i]);
+        (most.*part)[i] = std::max((most.*part)[i], (there.*part)[i]);
+      }
+    }
+  }
+  return lies_between(least, risk, most);
+}
+
+/// Turned and shifted, by amounts that follow from the seed.
+bool moves_change_nothing(unsigned seed) {
+  const auto world = random_world(seed);
+  const Move move = {static_cast<float>(seed % 628U) * 0.01F - 3.14F,
+                     {static_cast<float>(seed % 401U) - 200.0F, static_cast<float>(seed % 307U) - 150.0F}};
+  return is_risk_of(*world, exact(*moved(*world, move)));
 }
 
 }  // namespace
 
 // CORE-062: turning and shifting the whole world changes nothing.
 TEST(RiskProperties, InvariantUnderMoves) {
-  EXPECT_TRUE(rc::check([](unsigned seed) {
-    const auto world = random_world(seed);
-    const Move move = {static_cast<float>(seed % 628U) * 0.01F - 3.14F,
-                       {static_cast<float>(seed % 401U) - 200.0F, static_cast<float>(seed % 307U) - 150.0F}};
-    expect_same(exact(*world), exact(*moved(*world, move)));
-  }));
+  EXPECT_TRUE(rc::check([](unsigned seed) { RC_ASSERT(moves_change_nothing(seed)); }));
+}
+
+// The same of worlds in which rounding falls on the other side of a change of method: one in 50,000.
+TEST(RiskProperties, InvariantUnderMovesWhereTheMethodChanges) {
+  for (const unsigned seed : {14799U, 34087U, 50873U, 73613U, 97799U, 142286U})
+    EXPECT_TRUE(moves_change_nothing(seed)) << "world " << seed;
 }
 
 // CORE-062: in the mirror left is right and the risk is the same.
@@ -88,7 +128,7 @@ TEST(RiskProperties, MirroredWorldMirroredRisk) {
     const auto world = random_world(seed);
     Move mirror;
     mirror.mirrored = true;
-    expect_same(exact(*world), exact(*moved(*world, mirror)));
+    RC_ASSERT(is_risk_of(*world, exact(*moved(*world, mirror))));
   }));
 }
 
