@@ -109,7 +109,7 @@ bool Guard::leaves_in_time(const ZoneGroup& group, const Own& own, float late_s)
 bool Guard::passes_group(const scene::EgoPath& path, const PathContext& context, const ZoneGroup& group,
                          const Own& own, Verdict& verdict) const {
   const bool inside = own.s_m[0] > group.entry_s_m;
-  const bool entered = inside || (goes_through_ && context.stop_s_m > group.stop_s_m);
+  const bool entered = inside || (goes_through_ && context.stop_s_m > group.entry_s_m);
   const bool stands = own.end_s_m() < group.exit_s_m && own.speed_mps[kHorizonSteps] < kStandingMps;
   if (!entered && group.yields) {
     if (stands) {

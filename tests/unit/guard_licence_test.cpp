@@ -202,6 +202,27 @@ TEST(Guard, ALicenceHoldsForItsZone) {
   EXPECT_FALSE(road.safe(98.0F, 8.0F, 0.0F));
 }
 
+// GUARD-006 GUARD-011 We set off before one that stands 8 m before the second zone (L2), and it does, too. At 95.4 and 1 m/s we
+// can still stand at 95.8, before the first zone at 96 (0.35 s, then the way of a stop with 6 m/s^2): our licence is not used, and nobody
+// stops in that zone, at 96.3, with 3 m/s^2 until then. At 1.6 m/s we are bound, and go on.
+TEST(Guard, NobodyStopsShortInAGroupItCanStayOutOf) {
+  for (const float speed_mps : {1.0F, 1.6F}) {
+    SharedGround road(Priority::kFirstYields);
+    const scene::LanePath beside = add_second_zone(road, 104.5F, 110.0F);
+    add_vehicle(road.scene, road.map, beside, 96.0F - 8.0F, 0.0F).stood_ms = 1000;
+    road.scene.waited_s = 1.0F;
+    const Verdict begun = road.judge(95.3F, 0.0F, 2.0F);
+    ASSERT_TRUE(begun.safe() && begun.clears);
+    road.guard.commit(0, begun);
+    road.scene.agents.clear();
+    add_vehicle(road.scene, road.map, beside, 96.0F - 8.0F, 3.0F);
+    const Verdict now = road.judge(95.4F, speed_mps, 3.0F);
+    EXPECT_EQ(now.safe(), speed_mps > 1.0F) << speed_mps;
+    EXPECT_FALSE(now.stops_short) << speed_mps;
+    EXPECT_TRUE(road.safe(95.4F, 1.0F, 0.0F));
+  }
+}
+
 // GUARD-011 Gone in by right at 6 m/s, from 97 m we stand at 102.1, short of the second zone at 104.5, whose
 // vehicle is nearly there. Another one with priority at the ground we would stand on: 30 m off at 8 m/s it stops
 // for us there (8 m with 4 m/s^2; it has known us for long); 5 m off it cannot.
