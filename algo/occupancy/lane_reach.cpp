@@ -1,6 +1,7 @@
 #include "algo/occupancy/lane_reach.hpp"
 
 #include "algo/core/inline.hpp"
+#include "algo/occupancy/pace.hpp"
 
 namespace s4tp::occupancy {
 namespace {
@@ -15,7 +16,18 @@ constexpr int kMostRounds = 12;      // lanes of a way, changes included
 // Work (WorkMeter's units).
 constexpr int kReachWork = 12;
 constexpr int kTwoLooksWork = 5;  // of two lanes followed
-constexpr int kLedIntoWork = 290;
+constexpr int kLedIntoWork = 320;
+
+/// Way from a vehicle that comes from no lane we know to a place: straight, but for what it drives until grip has turned it there.
+float way_to_m(const Track& track, Point place) {
+  const Point offset = place - position(track.centre);
+  const float straight_m = norm(offset);
+  const float towards_mps =
+      track.speed_mps * dot(offset, direction(track.centre.heading_rad)) / max(straight_m, kMPerCm);
+  const float turned_s =
+      (sqrt(square(towards_mps) + 2.0F * kGripMps2 * straight_m) - towards_mps) / kGripMps2;
+  return max(straight_m, track.speed_mps * turned_s);
+}
 
 bool has_lane(const LaneMap& map, LaneIndex lane) {
   return lane >= 0 && lane < kMaxLanes && map.lanes[lane].present;
@@ -59,7 +71,7 @@ int LaneReach::measure(const LaneMap& map, const scene::Agent& agent, bool chang
     bool led_into[kMaxLanes];
     scene::find_led_into(map, led_into);
     for (LaneIndex lane = 0; lane < kMaxLanes; ++lane) {
-      if (!led_into[lane]) offer(lane, distance(position(agent.track.centre), map.lanes[lane].points[0]));
+      if (!led_into[lane]) offer(lane, way_to_m(agent.track, map.lanes[lane].points[0]));
     }
   }
   // A shorter way found later is followed again: rounds bound how often.

@@ -2,7 +2,8 @@
 /// How far a vehicle is from every lane, by the shortest legal way (method.md 4.9): successors, lane changes,
 /// whatever way is likely. OCC-003 Each lane that successors and lane changes lead to is reached, by the
 /// shortest way there is. OCC-004 Where the map left lanes out, whoever is on none of the others may be on one
-/// of those: it may come, straight from where it is, into each lane that no other leads into.
+/// of those: it may come, straight from where it is, into each lane that no other leads into, but no sooner than grip turns it
+/// there.
 ///
 /// \code
 ///   ====[car]======> lane 3 ------> lane 7 (junction) ---->     to lane 7: what is left of lane 3

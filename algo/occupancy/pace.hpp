@@ -12,6 +12,9 @@ inline constexpr float kNeverS = 1e3F;
 /// T_settle of the law (D4): until others are used to whoever changed into their lane.
 inline constexpr float kSettleS = 2.0F;
 
+/// Physics: nobody turns faster [m/s^2].
+inline constexpr float kGripMps2 = 7.0F;
+
 /// A vehicle that gains speed up to a top speed and then keeps it.
 struct Pace {
   float speed_mps = 0.0F;  ///< now, >= 0

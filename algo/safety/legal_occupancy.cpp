@@ -13,7 +13,6 @@ constexpr float kSetsOffMps2 = 0.5F;
 constexpr float kStandOffS = 2.0F;     // when all have stood so long any one may go
 constexpr float kShortOfZoneM = 0.5F;  // who gives way stops so far before
 constexpr float kBendRad = 0.5F;       // lanes that turn by less are driven like straight ones
-constexpr float kGripMps2 = 7.0F;      // physics: nobody turns faster
 
 /// Speed that grip allows in the lane's bend; large when it has none.
 float grip_speed_mps(const Lane& lane) {
@@ -21,7 +20,7 @@ float grip_speed_mps(const Lane& lane) {
   const Point first = lane.points[1] - lane.points[0];
   const Point last = lane.points[lane.point_count - 1] - lane.points[lane.point_count - 2];
   const float turned_rad = abs(atan2(cross(first, last), dot(first, last)));
-  return turned_rad < kBendRad ? kNeverS : sqrt(kGripMps2 * lane.length_m / turned_rad);
+  return turned_rad < kBendRad ? kNeverS : sqrt(occupancy::kGripMps2 * lane.length_m / turned_rad);
 }
 
 float seconds(std::uint16_t time_ms) {

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 #include "tests/support/driving_scenes.hpp"
@@ -59,6 +60,24 @@ TEST(LaneReach, WhoIsOnNoLaneMayBeOnOneThatWasLeftOut) {
   EXPECT_GT(
       reach_of(cross.map, vehicle).to_start_m(cross.out[CrossJunction::kWest]),
       distance(position(vehicle.track.centre), cross.map.lanes[cross.out[CrossJunction::kWest]].points[0]));
+}
+
+// OCC-004 The same 50 m, driven at 14 m/s: straight away from there it takes 2 s to stand at 7 m/s^2, 14 m further on, and at least
+// sqrt(2 * 64 / 7) = 4.28 s back, 88 m at that speed; straight towards it 50 m; standing 50 m, wherever it looks.
+TEST(LaneReach, WhoDrivesAwayHasToTurnFirst) {
+  CrossJunction cross = cross_junction();
+  cross.map.lanes_left_out = 1;
+  const LaneIndex in = cross.in[CrossJunction::kEast];
+  scene::Agent vehicle;
+  const Point start = cross.map.lanes[in].points[0];
+  const auto way_m = [&](float heading_rad, float speed_mps) {
+    vehicle.track.centre = {start.x_m, start.y_m - 50.0F, heading_rad};
+    vehicle.track.speed_mps = speed_mps;
+    return reach_of(cross.map, vehicle).to_start_m(in);
+  };
+  EXPECT_NEAR(way_m(-0.5F * kPi, 14.0F), 14.0F * (2.0F + std::sqrt(128.0F / 7.0F)), 0.05F);
+  EXPECT_NEAR(way_m(0.5F * kPi, 14.0F), 50.0F, 0.02F);
+  EXPECT_NEAR(way_m(-0.5F * kPi, 0.0F), 50.0F, 0.02F);
 }
 
 // OCC-003 100 m of two lanes, and a third behind the left one: from the right lane at 40 m it is 60 m, by a
