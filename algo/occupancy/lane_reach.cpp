@@ -9,6 +9,7 @@ namespace {
 constexpr float kChangeWayM = 8.0F;  // a lane change takes at least this much of the lane that is left
 constexpr float kCmPerM = 100.0F;
 constexpr float kMPerCm = 0.01F;
+constexpr float kTinyM = 0.01F;  // no division by less
 constexpr std::int16_t kNoWayCm = 30000;
 constexpr float kHorizonM = 160.0F;  // the map's own, and a little
 constexpr int kMostRounds = 12;      // lanes of a way, changes included
@@ -23,7 +24,7 @@ float way_to_m(const Track& track, Point place) {
   const Point offset = place - position(track.centre);
   const float straight_m = norm(offset);
   const float towards_mps =
-      track.speed_mps * dot(offset, direction(track.centre.heading_rad)) / max(straight_m, kMPerCm);
+      track.speed_mps * dot(offset, direction(track.centre.heading_rad)) / max(straight_m, kTinyM);
   const float turned_s =
       (sqrt(square(towards_mps) + 2.0F * kGripMps2 * straight_m) - towards_mps) / kGripMps2;
   return max(straight_m, track.speed_mps * turned_s);
